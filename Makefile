@@ -1,0 +1,39 @@
+# Everything lives in .venv; pip only, no root. `make setup` builds the core once and again when its sources change.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+CORE := $(shell find core -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
+
+.PHONY: setup demo test lint format clean
+
+setup: $(STAMP)
+
+$(BIN)/pip:
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install --quiet --upgrade "pip>=23.1"
+
+$(STAMP): $(BIN)/pip $(CORE)
+	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.18"
+	$(BIN)/pip install --quiet --no-build-isolation --editable ".[test,lint]"
+	touch $@
+
+demo: setup
+	$(BIN)/snapspace demo --output demo
+
+test: setup
+	$(BIN)/python -m pytest
+
+lint: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run --Werror $$(find core -name '*.h' -o -name '*.cpp')
+
+format: setup
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $$(find core -name '*.h' -o -name '*.cpp')
+
+clean:
+	rm -rf $(VENV) build demo

@@ -1,0 +1,18 @@
+#include "bindings/arrays.h"
+#include "simd/lanes.h"
+
+namespace snapspace {
+void bind_energy(nb::module_& m);
+void bind_snapshots(nb::module_& m);
+void bind_reduction(nb::module_& m);
+void bind_online(nb::module_& m);
+}  // namespace snapspace
+
+NB_MODULE(SNAPSPACE_MODULE, m) {
+  m.doc() = "The loops of snapspace that must be fast.";
+  m.attr("lane_count") = snapspace::kLaneCount;
+  snapspace::bind_energy(m);
+  snapspace::bind_snapshots(m);
+  snapspace::bind_reduction(m);
+  snapspace::bind_online(m);
+}

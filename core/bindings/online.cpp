@@ -1,0 +1,136 @@
+#include "bindings/arrays.h"
+#include "online/posing_solver.h"
+
+namespace snapspace {
+
+namespace {
+
+using online::PosingSolver;
+using online::Quartic;
+
+const double* checked(int dimension, const VectorIn& q) {
+  require(q.size() == static_cast<std::size_t>(dimension), "q must have one entry per dimension");
+  return q.data();
+}
+
+/// A live solver with its current coordinates; the arrays it reads are kept alive by the Python
+/// object.
+struct PosingLoop {
+  int dimension;
+  int handles;
+  PosingSolver solver;
+  std::vector<double> q;
+};
+
+}  // namespace
+
+void bind_online(nb::module_& m) {
+  nb::enum_<online::Status>(m, "Status", "How a reduced solve ended.")
+      .value("converged", online::Status::converged)
+      .value("max_iterations", online::Status::max_iterations)
+      .value("line_search_failed", online::Status::line_search_failed)
+      .value("not_finite", online::Status::not_finite);
+
+  nb::class_<online::Report>(m, "Report", "How a reduced solve ended.")
+      .def_ro("status", &online::Report::status)
+      .def_ro("iterations", &online::Report::iterations)
+      .def_ro("evaluations", &online::Report::evaluations)
+      .def_ro("value", &online::Report::value)
+      .def_ro("gradient_norm", &online::Report::gradient_norm);
+
+  nb::class_<Quartic>(m, "Quartic",
+                      "Polynomial of degree four with fully symmetric packed coefficients.")
+      .def(
+          "__init__",
+          [](Quartic* self, int dimension, VectorIn coefficients) {
+            require(dimension >= 1 && coefficients.size() == online::quartic_count(dimension + 1),
+                    "coefficients must have C(dimension + 4, 4) entries");
+            new (self) Quartic(dimension, coefficients.data());
+          },
+          nb::arg("dimension"), nb::arg("coefficients"), nb::keep_alive<1, 3>())
+      .def_prop_ro("dimension", &Quartic::dimension)
+      .def(
+          "value_and_gradient",
+          [](Quartic& self, VectorIn q) {
+            DoublesOut gradient = new_array<double>({static_cast<std::size_t>(self.dimension())});
+            const double value =
+                self.value_and_gradient(checked(self.dimension(), q), gradient.data());
+            return std::make_pair(value, gradient);
+          },
+          nb::arg("q"))
+      .def(
+          "hessian",
+          [](Quartic& self, VectorIn q) {
+            const auto d = static_cast<std::size_t>(self.dimension());
+            DoublesOut hessian = new_array<double>({d, d});
+            self.hessian(checked(self.dimension(), q), hessian.data());
+            return hessian;
+          },
+          nb::arg("q"));
+
+  nb::class_<PosingLoop>(m, "PosingLoop", "The live loop: set offsets, solve from the last frame.")
+      .def(
+          "__init__",
+          [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S) {
+            const auto d = K.shape(0);
+            require(d >= 1 && K.shape(1) == d &&
+                        coefficients.size() == online::quartic_count(d + 1) && L.shape(1) == d &&
+                        L.shape(2) == 12 && S.shape(0) == L.shape(0) && S.shape(1) == 4 &&
+                        S.shape(2) == 4,
+                    "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
+            new (self) PosingLoop{static_cast<int>(d), static_cast<int>(L.shape(0)),
+                                  PosingSolver(static_cast<int>(d), static_cast<int>(L.shape(0)),
+                                               coefficients.data(), K.data(), L.data(), S.data()),
+                                  std::vector<double>(d, 0.0)};
+            if (!self->solver.valid())
+              throw std::invalid_argument(
+                  "the reduced Hessian at rest is not positive definite; the model is damaged or "
+                  "its handles do not hold the shape");
+          },
+          nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::keep_alive<1, 2>(),
+          nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>())
+      .def_prop_rw(
+          "q", [](const PosingLoop& self) { return copy_to_array(self.q.data(), {self.q.size()}); },
+          [](PosingLoop& self, VectorIn q) {
+            const double* from = checked(self.dimension, q);
+            self.q.assign(from, from + self.dimension);
+          },
+          nb::for_getter(nb::rv_policy::automatic))
+      .def(
+          "set_offsets",
+          [](PosingLoop& self, TensorIn offsets) {
+            require(offsets.shape(0) == static_cast<std::size_t>(self.handles) &&
+                        offsets.shape(1) == 3 && offsets.shape(2) == 4,
+                    "offsets must be (handles, 3, 4)");
+            self.solver.set_offsets(offsets.data());
+          },
+          nb::arg("offsets"))
+      .def(
+          "value_and_gradient",
+          [](PosingLoop& self, VectorIn q) {
+            DoublesOut gradient = new_array<double>({q.size()});
+            const double value =
+                self.solver.value_and_gradient(checked(self.dimension, q), gradient.data());
+            return std::make_pair(value, gradient);
+          },
+          nb::arg("q"))
+      .def(
+          "hessian",
+          [](PosingLoop& self, VectorIn q) {
+            DoublesOut hessian = new_array<double>({q.size(), q.size()});
+            self.solver.hessian(checked(self.dimension, q), hessian.data());
+            return hessian;
+          },
+          nb::arg("q"))
+      .def(
+          "solve",
+          [](PosingLoop& self, double tolerance, int max_iterations, double value_scale,
+             double coordinate_scale) {
+            return self.solver.solve(self.q.data(),
+                                     {tolerance, value_scale, coordinate_scale, max_iterations});
+          },
+          nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("value_scale"),
+          nb::arg("coordinate_scale"));
+}
+
+}  // namespace snapspace

@@ -1,0 +1,49 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "energy/elastic_energy.h"
+
+namespace snapspace {
+
+/// Symmetric matrix of 3 x 3 blocks, one per pair of vertices that share a tet; block rows
+/// compressed.
+///
+/// The pattern and the place of every element's 16 blocks are found once; assembling again only
+/// writes values.
+class BlockHessian {
+ public:
+  explicit BlockHessian(const RestShape& rest);
+
+  /// Hessian of the elastic energy at displacements u.
+  void assemble(const ElasticEnergy& energy, const double* u);
+
+  /// The same with every element evaluated at its clamped state: of F = U diag(s) V^T, with U and V
+  /// proper rotations and the sign of an inversion in the smallest s, each singular value is raised
+  /// to at least `threshold` [Irving, Teran, Fedkiw 2004; paper, sec. 4.2]. Not always positive
+  /// definite; at threshold 1 it is.
+  void assemble_clamped(const ElasticEnergy& energy, const double* u, double threshold);
+
+  /// Adds `value` to the three diagonal entries of a vertex.
+  void add_to_diagonal(int vertex, double value);
+
+  /// product = H v, both 3n.
+  void multiply(const double* v, double* product) const;
+
+  [[nodiscard]] const std::vector<std::int32_t>& row_start() const { return row_start_; }
+  [[nodiscard]] const std::vector<std::int32_t>& columns() const { return columns_; }
+  [[nodiscard]] const std::vector<std::array<double, 9>>& blocks() const { return blocks_; }
+
+ private:
+  void add_element(const StVK& material, const RestTet& tet,
+                   const std::array<std::int32_t, 16>& slots, const double G[3][3]);
+
+  std::vector<std::int32_t> row_start_;        // n + 1
+  std::vector<std::int32_t> columns_;          // one per block, ascending within a row
+  std::vector<std::array<double, 9>> blocks_;  // row-major 3 x 3
+  std::vector<std::array<std::int32_t, 16>>
+      slots_;  // of every tet: block of vertex pair (a, b) at 4 a + b
+};
+
+}  // namespace snapspace

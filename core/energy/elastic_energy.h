@@ -1,0 +1,48 @@
+#pragma once
+#include <algorithm>
+#include <utility>
+
+#include "energy/stvk.h"
+#include "mesh/rest_shape.h"
+
+namespace snapspace {
+
+/// Elastic energy of a mesh: the sum of its elements' energies, as a function of displacements
+/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Real is double, or Lanes for one sample per lane.
+struct ElasticEnergy {
+  RestShape rest;
+  StVK material;
+
+  /// Energy at u; `gradient` (3n) is overwritten.
+  template <class Real>
+  Real value_and_gradient(const Real* u, Real* gradient) const {
+    std::fill_n(gradient, 3 * rest.vertex_count, Real(0.0));
+    Real energy(0.0);
+    for (const RestTet& tet : rest.tets)
+      energy += stvk_energy_and_gradient(material, tet, u, gradient);
+    return energy;
+  }
+
+  /// Hessian at u times v; `product` (3n) is overwritten.
+  template <class Real>
+  void hessian_product(const Real* u, const Real* v, Real* product) const {
+    std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
+    for (const RestTet& tet : rest.tets) stvk_hessian_product(material, tet, u, v, product);
+  }
+
+  /// Number of elements with det F <= 0.
+  [[nodiscard]] int inverted_tets(const double* u) const {
+    return static_cast<int>(
+        std::count_if(rest.tets.begin(), rest.tets.end(), [&](const RestTet& tet) {
+          double F[3][3];
+          displacement_gradient(tet, u, F);
+          for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
+          const double det = F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) -
+                             F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
+                             F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
+          return det <= 0.0;
+        }));
+  }
+};
+
+}  // namespace snapspace

@@ -1,0 +1,186 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "online/minimizer.h"
+
+namespace snapspace::online {
+
+inline double dot(const double* a, const double* b, int n) {
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
+/// Wolfe conditions, which keep the inverse positive definite. All memory is taken in the
+/// constructor.
+class Bfgs {
+ public:
+  explicit Bfgs(int dimension)
+      : d_(dimension),
+        inverse_(static_cast<std::size_t>(dimension) * dimension),
+        gradient_(dimension),
+        direction_(dimension),
+        trial_(dimension),
+        trial_gradient_(dimension),
+        change_(dimension),
+        product_(dimension) {}
+
+  /// Minimises objective.value_and_gradient(q, g) from q, in place; q never gets a worse or
+  /// non-finite value.
+  /// @param initial_inverse  d x d, symmetric positive definite
+  template <class Objective>
+  Report minimize(Objective& objective, double* q, const double* initial_inverse,
+                  const Termination& stop);
+
+ private:
+  static constexpr int kMaxTrials = 40;
+
+  template <class Objective>
+  bool line_search(Objective& objective, const double* q, Report& report, double slope);
+  template <class Objective>
+  double evaluate(Objective& objective, const double* q, double step, Report& report);
+  void set_direction();
+  void update();
+
+  int d_;
+  std::vector<double> inverse_, gradient_, direction_, trial_, trial_gradient_, change_, product_;
+  double step_ = 1.0;
+  double trial_value_ = 0.0;
+};
+
+/// Whether all three tests hold after a step of the given length and decrease.
+inline bool terminates(const Termination& stop, const Report& report, double decrease, double step,
+                       double length) {
+  const double value = 1.0 + std::abs(report.value) / stop.value_scale;
+  const double slope_scale = stop.coordinate_scale / stop.value_scale;
+  return decrease / stop.value_scale < stop.tolerance * value &&
+         step / stop.coordinate_scale <
+             std::sqrt(stop.tolerance) * (1.0 + length / stop.coordinate_scale) &&
+         report.gradient_norm * slope_scale < std::cbrt(stop.tolerance) * value;
+}
+
+template <class Objective>
+Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inverse,
+                      const Termination& stop) {
+  Report report{Status::max_iterations, 0, 1, 0.0, 0.0};
+  report.value = objective.value_and_gradient(q, gradient_.data());
+  report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
+  if (!std::isfinite(report.value) || !std::isfinite(report.gradient_norm)) {
+    report.status = Status::not_finite;
+    return report;
+  }
+  const auto reset = [&] {
+    std::copy(initial_inverse, initial_inverse + inverse_.size(), inverse_.begin());
+  };
+  reset();
+  bool pristine = true;
+  while (report.iterations < stop.max_iterations) {
+    set_direction();
+    const double slope = dot(gradient_.data(), direction_.data(), d_);
+    if (slope == 0.0) {
+      report.status = Status::converged;
+      break;
+    }
+    if (!(slope < 0.0) || !line_search(objective, q, report, slope)) {
+      // Either the approximation went bad, which a fresh start cures once, or values no longer
+      // resolve a decrease.
+      if (pristine) {
+        report.status = terminates(stop, report, 0.0, 0.0, std::sqrt(dot(q, q, d_)))
+                            ? Status::converged
+                            : Status::line_search_failed;
+        break;
+      }
+      reset();
+      pristine = true;
+      continue;
+    }
+    ++report.iterations;
+    const double decrease = report.value - trial_value_;
+    report.value = trial_value_;
+    update();
+    pristine = false;
+    std::copy(trial_.begin(), trial_.end(), q);
+    gradient_.swap(trial_gradient_);
+    report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
+    const double step = step_ * std::sqrt(dot(direction_.data(), direction_.data(), d_));
+    if (terminates(stop, report, decrease, step, std::sqrt(dot(q, q, d_)))) {
+      report.status = Status::converged;
+      break;
+    }
+  }
+  return report;
+}
+
+template <class Objective>
+double Bfgs::evaluate(Objective& objective, const double* q, double step, Report& report) {
+  for (int i = 0; i < d_; ++i) trial_[i] = q[i] + step * direction_[i];
+  trial_value_ = objective.value_and_gradient(trial_.data(), trial_gradient_.data());
+  ++report.evaluations;
+  return dot(trial_gradient_.data(), direction_.data(), d_);
+}
+
+/// Bisection with expansion between a point that is too near (still steep) and one that is too far
+/// (too high). On success trial_ holds the accepted point.
+template <class Objective>
+bool Bfgs::line_search(Objective& objective, const double* q, Report& report, double slope) {
+  constexpr double kDecrease = 1e-4;
+  constexpr double kCurvature = 0.9;
+  double near = 0.0;
+  double far = std::numeric_limits<double>::infinity();
+  step_ = 1.0;
+  for (int trial = 0; trial < kMaxTrials; ++trial) {
+    const double trial_slope = evaluate(objective, q, step_, report);
+    const bool finite = std::isfinite(trial_value_) && std::isfinite(trial_slope);
+    if (!finite || trial_value_ > report.value + kDecrease * step_ * slope) {
+      far = step_;
+      // Minimiser of the parabola through the value and slope at 0 and the value here, while
+      // nothing nearer is known.
+      const double parabola =
+          -0.5 * slope * step_ * step_ / (trial_value_ - report.value - slope * step_);
+      const bool usable = finite && near == 0.0 && parabola > 0.1 * step_ && parabola < 0.5 * step_;
+      step_ = usable ? parabola : 0.5 * (near + far);
+    } else if (trial_slope < kCurvature * slope) {
+      near = step_;
+      step_ = std::isinf(far) ? 2.0 * step_ : 0.5 * (near + far);
+    } else {
+      return true;
+    }
+  }
+  if (near == 0.0) return false;
+  step_ = near;  // enough decrease, though still steep
+  evaluate(objective, q, step_, report);
+  return true;
+}
+
+inline void Bfgs::set_direction() {
+  for (int i = 0; i < d_; ++i)
+    direction_[i] = -dot(inverse_.data() + static_cast<std::size_t>(i) * d_, gradient_.data(), d_);
+}
+
+/// H += (1 + y.Hy / s.y) s s^T / s.y - (Hy s^T + s (Hy)^T) / s.y, with s the step and y the change
+/// of the gradient.
+inline void Bfgs::update() {
+  for (int i = 0; i < d_; ++i) change_[i] = trial_gradient_[i] - gradient_[i];
+  const double sy = step_ * dot(direction_.data(), change_.data(), d_);
+  const double yy = dot(change_.data(), change_.data(), d_);
+  const double ss = step_ * step_ * dot(direction_.data(), direction_.data(), d_);
+  // Without enough curvature (possible only where the search ended early) the old inverse is kept.
+  if (!(sy > 1e-14 * std::sqrt(ss * yy))) return;
+  for (int i = 0; i < d_; ++i)
+    product_[i] = dot(inverse_.data() + static_cast<std::size_t>(i) * d_, change_.data(), d_);
+  const double rho = 1.0 / sy;
+  const double ss_weight = rho * (1.0 + rho * dot(change_.data(), product_.data(), d_));
+  for (int i = 0; i < d_; ++i) {
+    double* row = inverse_.data() + static_cast<std::size_t>(i) * d_;
+    const double s_i = step_ * direction_[i];
+    const double a = ss_weight * s_i - rho * product_[i];
+    for (int j = 0; j < d_; ++j) row[j] += a * step_ * direction_[j] - rho * s_i * product_[j];
+  }
+}
+
+}  // namespace snapspace::online

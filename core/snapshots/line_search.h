@@ -1,0 +1,33 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+namespace snapspace {
+
+/// Armijo's condition, or where the values no longer resolve the decrease the approximate one of
+/// Hager & Zhang (2005), which looks at slopes: near the minimum a difference of values is rounding
+/// noise while slopes still tell.
+inline bool sufficient_decrease(double value0, double slope0, double step, double value,
+                                double slope) {
+  if (!std::isfinite(value) || !std::isfinite(slope)) return false;
+  if (value <= value0 + 1e-4 * step * slope0) return true;
+  const double noise = 1e-12 * std::abs(value0);
+  return value <= value0 + noise && std::abs(slope) <= 0.8 * std::abs(slope0);
+}
+
+/// Minimiser of the cubic through both ends' values and slopes, kept within [0.1, 0.5] of the
+/// refused step.
+inline double shorter_step(double value0, double slope0, double step, double value, double slope) {
+  if (!std::isfinite(value) || !std::isfinite(slope)) return 0.1 * step;
+  const double d1 = slope0 + slope - 3.0 * (value0 - value) / (-step);
+  const double root = d1 * d1 - slope0 * slope;
+  double next = 0.5 * step;
+  if (root >= 0.0) {
+    const double d2 = std::sqrt(root);
+    const double minimiser = step - step * (slope + d2 - d1) / (slope - slope0 + 2.0 * d2);
+    if (std::isfinite(minimiser)) next = minimiser;
+  }
+  return std::clamp(next, 0.1 * step, 0.5 * step);
+}
+
+}  // namespace snapspace

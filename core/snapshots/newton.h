@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+#include "energy/block_hessian.h"
+#include "snapshots/posing_system.h"
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+/// The paper's snapshot solver (sec. 4.2): Newton's method with the Hessian assembled from elements
+/// at their clamped signed SVD, and a line search. The linear systems are solved by conjugate
+/// gradients on the system's scalar factor.
+class Newton {
+ public:
+  /// @param clamp  singular values are raised to at least this; the paper uses 0.5 to 0.8
+  Newton(const PosingSystem& system, const PosingSamples& samples, const SolveOptions& options,
+         double clamp);
+
+  /// Solves one sample; its shape is left in shape().
+  SolveReport solve(int sample, const double* start, const SolveControl& control);
+
+  [[nodiscard]] const std::vector<double>& shape() const { return u_; }
+  [[nodiscard]] long linear_iterations() const { return linear_iterations_; }
+
+ private:
+  void assemble();
+  double find_direction(double relative_residual, const SolveControl& control);
+  bool line_search(SolveReport& report, double slope);
+
+  const PosingSystem& system_;
+  PosingObjective<double> objective_;
+  SolveOptions options_;
+  double clamp_;
+  BlockHessian hessian_;
+  long linear_iterations_ = 0;
+  std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
+  std::vector<double> residual_, preconditioned_, search_, product_;
+};
+
+}  // namespace snapspace

@@ -1,0 +1,103 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "energy/elastic_energy.h"
+#include "snapshots/scalar_factor.h"
+
+namespace snapspace {
+
+/// What all samples of a posing problem share: F(u) = E(u) + sum_k weight_k |u_k - target_k|^2 over
+/// pinned vertices k. Only the targets differ from sample to sample, so one factor serves them all.
+struct PosingSystem {
+  ElasticEnergy energy;
+  std::vector<std::int32_t> pinned;  ///< vertices of the handles
+  std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
+  ScalarFactor factor;               ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
+
+  PosingSystem(RestShape rest, StVK material, std::vector<std::int32_t> pinned_vertices,
+               std::vector<double> pin_weights)
+      : energy{std::move(rest), material},
+        pinned(std::move(pinned_vertices)),
+        weights(std::move(pin_weights)),
+        factor(scalar_matrix()) {}
+
+  [[nodiscard]] int size() const { return 3 * energy.rest.vertex_count; }
+
+ private:
+  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const {
+    Eigen::SparseMatrix<double> A =
+        (2.0 * energy.material.mu + energy.material.lam) * energy.rest.laplacian();
+    for (std::size_t k = 0; k < pinned.size(); ++k)
+      A.coeffRef(pinned[k], pinned[k]) += 2.0 * weights[k];
+    return A;
+  }
+};
+
+/// The samples of one call: where each starts, what its handles ask for, where its shape goes.
+struct PosingSamples {
+  int count = 0;
+  const double* targets = nullptr;  ///< count x pinned x 3, displacements
+  const double* starts = nullptr;   ///< count x 3n, displacements
+  double* shapes = nullptr;         ///< count x 3n, displacements; written as samples finish
+};
+
+/// The objective of the samples that are in the lanes now. Real is double (one lane) or Lanes.
+///
+/// This is all that a solver knows of a problem: size, load, value_and_gradient, precondition.
+template <class Real>
+class PosingObjective {
+ public:
+  PosingObjective(const PosingSystem& system, const PosingSamples& samples)
+      : system_(system),
+        samples_(samples),
+        targets_(3 * system.pinned.size(), Real(0.0)),
+        scratch_(system.size()) {}
+
+  [[nodiscard]] int size() const { return system_.size(); }
+
+  [[nodiscard]] const double* target_of(int sample) const {
+    return samples_.targets + static_cast<std::size_t>(sample) * targets_.size();
+  }
+
+  /// The lane's targets become those of `sample`.
+  void load(int lane, int sample) {
+    const double* target = target_of(sample);
+    for (std::size_t k = 0; k < targets_.size(); ++k) set_lane(targets_[k], lane, target[k]);
+  }
+
+  /// F at u (3n); its gradient overwrites `gradient`.
+  Real value_and_gradient(const Real* u, Real* gradient) const {
+    Real value = system_.energy.value_and_gradient(u, gradient);
+    for (std::size_t k = 0; k < system_.pinned.size(); ++k) {
+      const std::size_t at = 3 * static_cast<std::size_t>(system_.pinned[k]);
+      const Real weight(system_.weights[k]);
+      for (int c = 0; c < 3; ++c) {
+        const Real offset = u[at + c] - targets_[3 * k + c];
+        const Real force = weight * offset;
+        value += force * offset;
+        gradient[at + c] += force + force;
+      }
+    }
+    return value;
+  }
+
+  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n, may be the same.
+  void precondition(const Real* vector, Real* result) {
+    system_.factor.solve(vector, result, scratch_.data());
+  }
+
+ private:
+  static void set_lane(double& x, int, double value) { x = value; }
+  template <class L>
+  static void set_lane(L& x, int lane, double value) {
+    x.set(lane, value);
+  }
+
+  const PosingSystem& system_;
+  const PosingSamples& samples_;
+  std::vector<Real> targets_;
+  std::vector<Real> scratch_;
+};
+
+}  // namespace snapspace

@@ -1,0 +1,76 @@
+#include "snapshots/solve.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "snapshots/lbfgs.h"
+#include "snapshots/newton.h"
+#include "threads/parallel.h"
+
+namespace snapspace {
+
+namespace {
+
+std::size_t offset(const PosingSystem& system, int sample) {
+  return static_cast<std::size_t>(sample) * system.size();
+}
+
+int thread_count(int wanted) {
+  return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamples& samples,
+                                    const SolveOptions& options, SolveControl& control) {
+  std::vector<SolveReport> reports(samples.count);
+  std::atomic<int> next{0};
+  // No more groups of lanes than it takes to hold the samples: empty lanes cost as much as full
+  // ones.
+  const int groups =
+      std::min((samples.count + kLaneCount - 1) / kLaneCount, thread_count(options.threads));
+  parallel_for(groups, groups, [&](int) {
+    LaneLbfgs solver(PosingObjective<Lanes>(system, samples), options);
+    const auto take = [&] {
+      const int sample = next++;
+      return sample < samples.count ? sample : -1;
+    };
+    const auto start = [&](int sample) { return samples.starts + offset(system, sample); };
+    const auto finish = [&](int sample, SolveReport report, const auto& write) {
+      double* shape = samples.shapes + offset(system, sample);
+      write(shape);
+      report.inverted_tets = system.energy.inverted_tets(shape);
+      reports[sample] = report;
+      ++control.finished;
+    };
+    solver.run(take, start, finish, control);
+  });
+  return reports;
+}
+
+std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSamples& samples,
+                                      const SolveOptions& options, double clamp,
+                                      SolveControl& control, long* linear_iterations) {
+  std::vector<SolveReport> reports(samples.count);
+  std::atomic<int> next{0};
+  std::atomic<long> total{0};
+  const int workers = std::min(samples.count, thread_count(options.threads));
+  parallel_for(workers, workers, [&](int) {
+    Newton solver(system, samples, options, clamp);
+    for (int sample = next++; sample < samples.count && !control.cancelled; sample = next++) {
+      const SolveReport report =
+          solver.solve(sample, samples.starts + offset(system, sample), control);
+      if (report.status == SolveStatus::cancelled) break;
+      std::copy(solver.shape().begin(), solver.shape().end(),
+                samples.shapes + offset(system, sample));
+      reports[sample] = report;
+      ++control.finished;
+    }
+    total += solver.linear_iterations();
+  });
+  if (linear_iterations) *linear_iterations = total;
+  return reports;
+}
+
+}  // namespace snapspace

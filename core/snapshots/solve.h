@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "snapshots/posing_system.h"
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+/// Full-space solutions of all samples by L-BFGS on the scalar factor, one sample per lane, threads
+/// over groups of lanes. One report per sample. The results do not depend on the number of threads.
+[[nodiscard]] std::vector<SolveReport> solve_fast(const PosingSystem& system,
+                                                  const PosingSamples& samples,
+                                                  const SolveOptions& options,
+                                                  SolveControl& control);
+
+/// The same by the paper's Newton method, one sample per thread at a time.
+/// `linear_iterations` receives the number of conjugate gradient iterations of all samples
+/// together.
+[[nodiscard]] std::vector<SolveReport> solve_newton(const PosingSystem& system,
+                                                    const PosingSamples& samples,
+                                                    const SolveOptions& options, double clamp,
+                                                    SolveControl& control,
+                                                    long* linear_iterations = nullptr);
+
+}  // namespace snapspace

@@ -1,0 +1,40 @@
+#pragma once
+#include <atomic>
+
+namespace snapspace {
+
+enum class SolveStatus : int {
+  converged = 0,
+  max_iterations = 1,
+  line_search_failed = 2,
+  not_finite = 3,
+  cancelled = 4,
+};
+
+/// How the solve of one sample ended.
+struct SolveReport {
+  SolveStatus status = SolveStatus::cancelled;
+  int iterations = 0;
+  int evaluations = 0;
+  double value = 0.0;          ///< objective at the returned shape
+  double gradient_norm = 0.0;  ///< Euclidean norm of its gradient
+  double decrement =
+      0.0;  ///< -g.d of the last direction d: twice the decrease that the model predicts
+  double seconds = 0.0;  ///< wall time from taking the sample to finishing it
+  int inverted_tets = 0;
+};
+
+struct SolveOptions {
+  double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value
+  int max_iterations = 500;
+  int threads = 0;  ///< 0: as many as the machine has
+};
+
+/// Shared with a running solve by another thread.
+struct SolveControl {
+  std::atomic<bool> cancelled{
+      false};  ///< set: the solve ends soon; samples not finished report `cancelled`
+  std::atomic<int> finished{0};  ///< samples done so far
+};
+
+}  // namespace snapspace

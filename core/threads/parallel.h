@@ -1,0 +1,40 @@
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace snapspace {
+
+/// Calls work(item) for every item in [0, count) on up to `threads` threads (0: as many as the
+/// machine has).
+///
+/// Items are handed out in order, to whichever thread is free; an item must not depend on which
+/// thread runs it. The first exception of a work item is rethrown here after all threads have
+/// ended.
+template <class Work>
+void parallel_for(int count, int threads, Work&& work) {
+  if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  threads = std::min(threads, count);
+  std::atomic<int> next{0};
+  std::exception_ptr error;
+  std::mutex error_mutex;
+  const auto run = [&] {
+    try {
+      for (int item = next++; item < count; item = next++) work(item);
+    } catch (...) {
+      const std::lock_guard lock(error_mutex);
+      if (!error) error = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> pool;
+  for (int t = 1; t < threads; ++t) pool.emplace_back(run);
+  run();
+  for (std::thread& thread : pool) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace snapspace

@@ -1,0 +1,91 @@
+"""Elastic energy of a mesh and its derivatives."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import bsr_array, csr_array
+
+from .._core import core
+from ..mesh import TetMesh
+from .material import StVK
+
+FloatArray = NDArray[np.float64]
+
+
+class ElasticEnergy:
+    """St.Venant-Kirchhoff energy of a mesh: the sum over tets of volume * density.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+        The rest shape.
+    material : StVK
+
+    Notes
+    -----
+    Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises ValueError for
+    another size. Energies are invariant under rigid motions of x and vanish at rest.
+    """
+
+    def __init__(self, mesh: TetMesh, material: StVK) -> None:
+        self.mesh = mesh
+        self.material = material
+
+    @cached_property
+    def core(self) -> core.ElasticEnergy:  # type: ignore[name-defined]
+        """The compiled energy; it takes displacements."""
+        mesh, material = self.mesh, self.material
+        return core.ElasticEnergy(mesh.vertices, mesh.tets, material.lam, material.mu)
+
+    def value(self, x: ArrayLike) -> float:
+        """Energy at x."""
+        return self.value_and_gradient(x)[0]
+
+    def value_and_gradient(self, x: ArrayLike) -> tuple[float, FloatArray]:
+        """Energy at x and its gradient (3n,)."""
+        value, gradient = self.core.value_and_gradient(self._displacement(x))
+        return value, gradient
+
+    def hessian_product(self, x: ArrayLike, v: ArrayLike) -> FloatArray:
+        """Hessian at x times v (3n,), matrix-free."""
+        direction = np.ascontiguousarray(v, dtype=np.float64).reshape(-1)
+        product: FloatArray = self.core.hessian_product(self._displacement(x), direction)
+        return product
+
+    def hessian(self, x: ArrayLike) -> csr_array:
+        """Hessian at x, (3n, 3n) sparse symmetric; indefinite under strong compression."""
+        return self._matrix(*self.core.hessian_blocks(self._displacement(x)))
+
+    def clamped_hessian(self, x: ArrayLike, *, threshold: float) -> csr_array:
+        """Hessian with every tet at its signed singular values clamped to at least `threshold`.
+
+        The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian` where
+        no singular value is below the threshold; positive semi-definite at threshold 1.
+        """
+        if not 0 < threshold <= 1:
+            raise ValueError(f"clamped_hessian: threshold is {threshold}, but must be in (0, 1]")
+        blocks = self.core.clamped_hessian_blocks(self._displacement(x), threshold)
+        return self._matrix(*blocks)
+
+    def inverted_tets(self, x: ArrayLike) -> int:
+        """Number of tets with det F <= 0 at x."""
+        return int(self.core.inverted_tets(self._displacement(x)))
+
+    def _displacement(self, x: ArrayLike) -> FloatArray:
+        positions = np.asarray(x, dtype=np.float64).reshape(-1)
+        rest = self.mesh.vertices.reshape(-1)
+        if positions.shape != rest.shape:
+            raise ValueError(
+                f"ElasticEnergy: the shape has {positions.size} coordinates, but the mesh has "
+                f"{len(self.mesh.vertices)} vertices, which need {rest.size}"
+            )
+        return positions - rest
+
+    def _matrix(
+        self, row_start: NDArray[np.int32], columns: NDArray[np.int32], blocks: FloatArray
+    ) -> csr_array:
+        size = 3 * len(self.mesh.vertices)
+        return csr_array(bsr_array((blocks, columns, row_start), shape=(size, size)))

@@ -1,0 +1,36 @@
+"""Checks shared by the generators: one clear line for every argument that cannot work."""
+
+from __future__ import annotations
+
+import math
+import operator
+
+
+def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
+    """Return `value` as an int, or raise ValueError naming `who` and `name`."""
+    try:
+        count = operator.index(value)
+    except TypeError:
+        raise ValueError(f"{who}: {name} is {value!r}, but must be a whole number") from None
+    if count < at_least:
+        raise ValueError(f"{who}: {name} is {count}, but must be at least {at_least}")
+    return count
+
+
+def require_finite(who: str, name: str, value: float) -> float:
+    """Return `value` as a float, or raise ValueError naming `who` and `name`."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{who}: {name} is {value!r}, but must be a number") from None
+    if not math.isfinite(number):
+        raise ValueError(f"{who}: {name} is {number}, but must be finite")
+    return number
+
+
+def require_positive(who: str, name: str, value: float) -> float:
+    """Return `value` as a float, or raise ValueError naming `who` and `name`."""
+    number = require_finite(who, name, value)
+    if number <= 0.0:
+        raise ValueError(f"{who}: {name} is {number}, but must be positive")
+    return number

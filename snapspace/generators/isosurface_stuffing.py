@@ -1,0 +1,153 @@
+"""Tetrahedral meshes of implicit shapes with good dihedral angles."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from snapspace.generators.arguments import require_positive
+from snapspace.generators.bcc_lattice import BccLattice, lattice_around
+from snapspace.generators.cut_points import TET_EDGES, CutPoints, find_cut_points
+from snapspace.generators.largest_component import largest_component
+from snapspace.generators.lattice_warp import warp_nodes
+from snapspace.generators.manifold import is_closed_manifold
+from snapspace.generators.morton_order import morton_order
+from snapspace.generators.root_finding import FloatArray, ImplicitFunction, evaluate
+from snapspace.generators.stuffing_stencils import case_numbers, stencil_table
+from snapspace.mesh.tet_mesh import TetMesh
+
+_MOST_CELLS = 50_000_000
+
+
+def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: float) -> TetMesh:
+    """Fill the inside of an implicit surface with well-shaped tetrahedra of uniform size.
+
+    Isosurface stuffing (Labelle & Shewchuk 2007, "Isosurface Stuffing: Fast Tetrahedral Meshes
+    with Good Dihedral Angles", uniform version): a body-centred cubic lattice, whose nodes are
+    warped to the surface where it passes too closely, is clipped by the surface. The time is
+    mostly that of evaluating `implicit`, about once for each node in the box.
+
+    Parameters
+    ----------
+    implicit : callable, (k, 3) -> (k,)
+        Continuous, negative inside; a signed distance is best but not needed.
+    lower, upper : array_like, (3,)
+        Corners of a box that contains the shape.
+    cell : float
+        Edge length of the lattice cells: tets have edges of about 0.9 to 1 of it and a volume of
+        cell^3 / 12 in the interior. Parts thinner than about two cells may get lost.
+
+    Returns
+    -------
+    TetMesh
+        Its largest component, if there are several. Surface vertices lie on the zero set of
+        `implicit`. Dihedral angles are over 8 degrees (on smooth shapes 10.6 is the least seen; a
+        stress test with random signs and cut points at their worst places ends at 8.4). Mirror
+        planes of the shape through the origin and normal to an axis are mirror planes of the
+        vertices. Vertices and tets are ordered along a Morton curve.
+
+    Raises
+    ------
+    ValueError
+        If an argument is unusable, if the shape leaves the box, if nothing is found inside, or if
+        features as small as the cells make a surface that is not a manifold.
+    """
+    mesh = stuff_unchecked(implicit, lower, upper, cell)
+    if not is_closed_manifold(mesh.surface):
+        raise ValueError(
+            f"stuff: cell is {cell}, but parts of the shape, or gaps between them, are as small:"
+            " the surface is not a manifold; use a smaller cell"
+        )
+    return mesh
+
+
+def stuff_unchecked(
+    implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: float
+) -> TetMesh:
+    """Like `stuff`, but the surface may touch itself where features are as small as the cells."""
+    cell = require_positive("stuff", "cell", cell)
+    lattice = lattice_around(*_box(lower, upper), cell)
+    if np.prod(np.array(lattice.corners, dtype=float)) > _MOST_CELLS:
+        raise ValueError(
+            f"stuff: cell is {cell}, which makes {lattice.corners} cells in the box, but at most"
+            f" {_MOST_CELLS} in all are allowed; use a larger cell"
+        )
+    points = lattice.points()
+    values = evaluate(implicit, points)
+    inside = values < 0.0
+    _check_inside(inside, values <= 0.0, lattice)
+
+    tets = lattice.tets_touching(inside)
+    cuts = find_cut_points(implicit, points, values, tets)
+    points, signs, cuts = warp_nodes(
+        implicit, points, values, cuts, corner_count=lattice.corner_count, cell=cell
+    )
+    tets = clip_tets(tets, signs, lattice.odd_nodes(), cuts)
+    largest = largest_component(np.concatenate([points, cuts.points]), tets)
+    return TetMesh(*morton_order(*largest))
+
+
+def clip_tets(
+    tets: NDArray[np.int64],
+    signs: NDArray[np.int8],
+    odd: NDArray[np.bool_],
+    cuts: CutPoints,
+) -> NDArray[np.int64]:
+    """Clip lattice tets by the stencils; cut point c becomes vertex ``len(signs) + c``.
+
+    Parameters
+    ----------
+    tets : ndarray of int64, (m, 4)
+    signs : ndarray of int8, (nodes,)
+        -1 inside, 0 on the surface, 1 outside.
+    odd : ndarray of bool, (nodes,)
+        Parity of the nodes; decides diagonals.
+    cuts : CutPoints
+        On all edges from -1 to 1.
+
+    Returns
+    -------
+    ndarray of int64, (k, 4)
+        Positive volumes.
+    """
+    numbers = case_numbers(signs[tets], odd[tets])
+    cut_keys = cuts.inside * len(signs) + cuts.outside
+    table = stencil_table()
+    pieces = []
+    for number in np.unique(numbers):
+        stencil = table[number]
+        chosen = tets[numbers == number]
+        local = np.zeros((len(chosen), 10), dtype=np.int64)
+        local[:, :4] = chosen
+        for point in np.unique(stencil[stencil >= 4]):
+            i, j = TET_EDGES[point - 4]
+            if signs[chosen[0, i]] > 0:
+                i, j = j, i
+            keys = chosen[:, i] * len(signs) + chosen[:, j]
+            local[:, point] = len(signs) + np.searchsorted(cut_keys, keys)
+        pieces.append(local[:, stencil].reshape(-1, 4))
+    return np.concatenate(pieces)
+
+
+def _box(lower: ArrayLike, upper: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    corners = []
+    for name, value in (("lower", lower), ("upper", upper)):
+        corner = np.asarray(value, dtype=np.float64)
+        if corner.shape != (3,) or not np.isfinite(corner).all():
+            raise ValueError(f"stuff: {name} is {value!r}, but must be three finite numbers")
+        corners.append(corner)
+    if not (corners[0] < corners[1]).all():
+        raise ValueError(f"stuff: lower {lower!r} is not below upper {upper!r} on every axis")
+    return corners[0], corners[1]
+
+
+def _check_inside(
+    inside: NDArray[np.bool_], touched: NDArray[np.bool_], lattice: BccLattice
+) -> None:
+    if not inside.any():
+        raise ValueError(
+            "stuff: implicit is negative nowhere on the lattice; it must be negative inside the"
+            " shape, and cell must be smaller than the shape"
+        )
+    if touched[lattice.on_border()].any():
+        raise ValueError("stuff: the shape leaves the box; move lower and upper outwards")

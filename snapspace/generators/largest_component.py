@@ -1,0 +1,32 @@
+"""The largest connected part of a tet soup, without the vertices that it does not use."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from snapspace.mesh.components import tet_components
+
+
+def largest_component(
+    vertices: NDArray[np.float64], tets: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
+    """Keep the component with the most tets and renumber its vertices, order kept.
+
+    Parameters
+    ----------
+    vertices : ndarray, (n, 3)
+    tets : ndarray of int, (m, 4)
+        At least one.
+
+    Returns
+    -------
+    vertices : ndarray, (k, 3)
+        Those that belong to a tet of the component.
+    tets : ndarray of int32, (j, 4)
+    """
+    used, renumbered = np.unique(tets, return_inverse=True)
+    local = renumbered.reshape(tets.shape).astype(np.int32)
+    kept = local[tet_components(local, len(used)) == 0]
+    used_here, renumbered = np.unique(kept, return_inverse=True)
+    return vertices[used[used_here]], renumbered.reshape(kept.shape).astype(np.int32)

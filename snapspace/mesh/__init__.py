@@ -1,0 +1,31 @@
+"""Tetrahedral meshes: the mesh itself, its mass, repair, reading and writing."""
+
+from .mass import apply_mass, mass_gram, mass_inner, mass_matrix, mass_norm, mass_norms
+from .quality import dihedral_angles, tet_volumes
+from .read import MeshNotice, read_tets
+from .read_surface import read_surface
+from .repair import repair_tets
+from .surface import boundary_faces, compact_surface, vertex_normals
+from .tet_mesh import TetMesh
+from .write import write_surface, write_tets
+
+__all__ = [
+    "MeshNotice",
+    "TetMesh",
+    "apply_mass",
+    "boundary_faces",
+    "compact_surface",
+    "dihedral_angles",
+    "mass_gram",
+    "mass_inner",
+    "mass_matrix",
+    "mass_norm",
+    "mass_norms",
+    "read_surface",
+    "read_tets",
+    "repair_tets",
+    "tet_volumes",
+    "vertex_normals",
+    "write_surface",
+    "write_tets",
+]

@@ -1,0 +1,31 @@
+"""What a reader found in a mesh file, before anything is checked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+CellArray = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class FileContent:
+    """Points and cells of a mesh file.
+
+    Attributes
+    ----------
+    vertices : ndarray, (n, 3)
+    cells : dict
+        Cell type ("tetra", "triangle", "tetra10", ...; meshio's names) -> 0-based vertex indices,
+        one cell per row, in the order of the file.
+    """
+
+    vertices: NDArray[np.float64]
+    cells: dict[str, CellArray]
+
+    def summary(self) -> str:
+        """Say what is there: `812 vertices, 1620 triangle cells`."""
+        counts = [f"{len(rows)} {kind} cells" for kind, rows in self.cells.items() if len(rows)]
+        return ", ".join([f"{len(self.vertices)} vertices", *(counts or ["no cells"])])

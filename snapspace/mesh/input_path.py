@@ -1,0 +1,37 @@
+"""Paths that a user gives, checked before anything is opened."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+
+def existing_file(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
+    """The path as given; ValueError unless it is a file with one of the known extensions."""
+    file = Path(path)
+    _check_extension(file, known)
+    if file.is_dir():
+        raise ValueError(f"{file}: this is a folder; a file is needed")
+    if not file.exists():
+        raise ValueError(f"{file}: there is no such file")
+    return file
+
+
+def writable_path(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
+    """The path as given; ValueError unless it can become a file with a known extension."""
+    file = Path(path)
+    _check_extension(file, known)
+    if file.is_dir():
+        raise ValueError(f"{file}: this is a folder; give a file name")
+    if not file.parent.is_dir():
+        raise ValueError(f"{file}: there is no folder {file.parent}; create it first")
+    return file
+
+
+def _check_extension(file: Path, known: Iterable[str]) -> None:
+    suffix = file.suffix.lower()
+    known = list(known)
+    if suffix not in known:
+        what = f"unknown extension {suffix!r}" if suffix else "no extension"
+        raise ValueError(f"{file}: {what}; known are {', '.join(known)}")

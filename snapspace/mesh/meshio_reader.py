@@ -1,0 +1,54 @@
+"""Reading through meshio, with its prints, exits and many exceptions turned into ValueError."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+
+from .file_content import CellArray, FileContent
+
+# The readers of the formats, not meshio.read: that one prints and calls sys.exit on bad files.
+_READERS: dict[str, Callable[[str], Any]] = {
+    "MEDIT": meshio.medit.read,
+    "Gmsh": meshio.gmsh.read,
+    "VTK": meshio.vtk.read,
+    "VTU": meshio.vtu.read,
+    "STL": meshio.stl.read,
+}
+
+
+def read_with_meshio(path: Path, file_format: str) -> FileContent:
+    """Read a file of a named format; ValueError with one line if it cannot be read."""
+    noise = io.StringIO()
+    try:
+        with (
+            contextlib.redirect_stdout(noise),
+            contextlib.redirect_stderr(noise),
+            warnings.catch_warnings(),
+            np.errstate(all="ignore"),
+        ):
+            # NumPy before 2.3 only warns when text is not numbers
+            warnings.simplefilter("ignore")
+            warnings.filterwarnings("error", message=".*read to its end.*")
+            mesh = _READERS[file_format](str(path))
+            return FileContent(
+                np.asarray(mesh.points, dtype=np.float64), _cells_by_type(mesh.cells)
+            )
+    except (Exception, SystemExit) as error:
+        # meshio has no family of exceptions: bad files give KeyError, IndexError, struct.error, ...
+        reason = f" ({' '.join(str(error).split())[:160]})" if str(error) else ""
+        raise ValueError(f"it is not a {file_format} file, or it is incomplete{reason}") from None
+
+
+def _cells_by_type(blocks: list[Any]) -> dict[str, CellArray]:
+    by_type: dict[str, list[CellArray]] = {}
+    for block in blocks:
+        by_type.setdefault(block.type, []).append(np.asarray(block.data, dtype=np.int64))
+    return {kind: np.concatenate(parts) for kind, parts in by_type.items()}

@@ -1,0 +1,59 @@
+"""Wavefront OBJ surfaces (.obj): `v` and `f` lines; everything else is skipped."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from .arrays import FloatArray, IndexArray
+from .file_content import FileContent
+from .polygons import fan_triangles
+
+
+def read_obj(path: Path) -> FileContent:
+    """Read vertices and faces; polygons become fans, the order of the vertices is kept.
+
+    Faces may have the forms `i`, `i/t`, `i/t/n`, `i//n`, with negative (relative) indices.
+    """
+    coordinates: list[list[str]] = []
+    corners: list[int] = []
+    sizes: list[int] = []
+    text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
+    for number, line in enumerate(text.splitlines(), start=1):
+        words = line.partition("#")[0].split()
+        if not words:
+            continue
+        if words[0] == "v":
+            if len(words) < 4:
+                raise ValueError(f"line {number}: a vertex needs three coordinates")
+            coordinates.append(words[1:4])
+        elif words[0] == "f":
+            polygon = [_corner(word, len(coordinates), number) for word in words[1:]]
+            corners += polygon
+            sizes.append(len(polygon))
+    try:
+        vertices = np.array(coordinates, dtype=np.float64).reshape(-1, 3)
+    except ValueError:
+        raise ValueError("a vertex has a coordinate that is not a number") from None
+    return FileContent(
+        vertices, {"triangle": fan_triangles(np.array(corners, dtype=np.int64), sizes)}
+    )
+
+
+def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
+    """Write vertices with all their digits (reading gives the same numbers) and triangles."""
+    lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
+    lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
+
+
+def _corner(word: str, vertices_so_far: int, line: int) -> int:
+    try:
+        index = int(word.split("/", 1)[0])
+    except ValueError:
+        raise ValueError(f"line {line}: {word[:40]!r} is not a corner of a face") from None
+    if index == 0:
+        raise ValueError(f"line {line}: a face has vertex index 0, but OBJ counts from 1")
+    # a relative index that reaches before the first vertex stays negative and is refused later
+    return index - 1 if index > 0 else vertices_so_far + index

@@ -1,0 +1,94 @@
+"""Stanford polygon files (.ply): ASCII and binary of both byte orders read, binary written.
+
+Own reader, because meshio's knows neither `vertex_index` (a common name of the faces' property) nor
+16-bit types nor elements besides vertices and faces.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import FloatArray, IndexArray
+from .file_content import FileContent
+from .ply_body import ENCODINGS, PlyBody, PlyElement, PlyProperty
+from .polygons import fan_triangles
+
+_TYPES = {
+    "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
+    "short": "i2", "int16": "i2", "ushort": "u2", "uint16": "u2",
+    "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4",
+    "float": "f4", "float32": "f4", "double": "f8", "float64": "f8",
+}  # fmt: skip
+
+
+def read_ply(path: Path) -> FileContent:
+    """Read vertices and faces; polygons become fans, the order of the vertices is kept."""
+    data = path.read_bytes()
+    encoding, elements, start = _header(data)
+    body = PlyBody(data[start:], encoding)
+    vertices: NDArray[np.float64] | None = None
+    triangles = np.empty((0, 3), dtype=np.int64)
+    for element in elements:
+        columns = body.read(element)
+        if element.name == "vertex":
+            if not {"x", "y", "z"} <= columns.keys():
+                raise ValueError("its vertices have no x, y, z")
+            vertices = np.stack([columns[axis].values for axis in "xyz"], axis=1)
+        elif element.name == "face":
+            corners = columns.get("vertex_indices", columns.get("vertex_index"))
+            if corners is None:
+                raise ValueError("its faces have no vertex_indices")
+            triangles = fan_triangles(corners.values.astype(np.int64), corners.sizes)
+    if vertices is None:
+        raise ValueError("it has no vertices")
+    return FileContent(vertices.astype(np.float64), {"triangle": triangles})
+
+
+def write_ply(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
+    """Write a binary little-endian file: double coordinates, int32 triangles."""
+    header = (
+        "ply\nformat binary_little_endian 1.0\n"
+        f"element vertex {len(vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
+        f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    rows = np.empty(len(faces), dtype=[("size", "u1"), ("corners", "<i4", (3,))])
+    rows["size"], rows["corners"] = 3, faces
+    path.write_bytes(header.encode() + vertices.astype("<f8").tobytes() + rows.tobytes())
+
+
+def _header(data: bytes) -> tuple[str, list[PlyElement], int]:
+    """Encoding, elements, and where the rows start."""
+    marker = data.find(b"\nend_header")
+    start = data.find(b"\n", marker + 1) + 1
+    if data[:3] != b"ply" or marker < 0 or start == 0:
+        raise ValueError("it does not begin with a header from ply to end_header")
+    encoding = ""
+    elements: list[PlyElement] = []
+    for line in data[:marker].decode("latin-1").splitlines():
+        match line.split():
+            case ["format", name, *_]:
+                encoding = name
+            case ["element", name, count]:
+                elements.append(PlyElement(name, _count(count)))
+            case ["property", "list", size, kind, name] if elements:
+                elements[-1].properties.append(PlyProperty(name, _type(size), _type(kind)))
+            case ["property", kind, name] if elements:
+                elements[-1].properties.append(PlyProperty(name, "", _type(kind)))
+    if encoding not in ENCODINGS:
+        raise ValueError(f"its format is {encoding[:40]!r}; known are {', '.join(ENCODINGS)}")
+    return encoding, elements, start
+
+
+def _count(word: str) -> int:
+    if not word.isdecimal():
+        raise ValueError(f"the count of an element is {word[:40]!r}")
+    return int(word)
+
+
+def _type(name: str) -> str:
+    if name not in _TYPES:
+        raise ValueError(f"the type {name[:40]!r} is not known")
+    return _TYPES[name]

@@ -1,0 +1,37 @@
+"""Polygons of surface files, triangulated."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+def fan_triangles(corners: NDArray[np.int64], sizes: ArrayLike) -> NDArray[np.int64]:
+    """Triangulate polygons as fans around their first corner.
+
+    Parameters
+    ----------
+    corners : ndarray of int, (sum of sizes,)
+        Vertex indices of the polygons, one after the other.
+    sizes : array_like of int, (polygons,)
+        Number of corners of each polygon, at least 3.
+
+    Returns
+    -------
+    ndarray of int64, (t, 3)
+        sizes - 2 triangles per polygon, in the order and orientation of the polygons.
+
+    Raises
+    ------
+    ValueError
+        If a polygon has fewer than three corners.
+    """
+    size = np.asarray(sizes, dtype=np.int64)
+    if size.size and size.min() < 3:
+        bad = int(np.argmax(size < 3))
+        raise ValueError(f"face {bad} has {size[bad]} corners; at least 3 are needed")
+    triangles = size - 2
+    first = np.repeat(np.cumsum(size) - size, triangles)
+    within = np.arange(triangles.sum()) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    fans = np.stack([first, first + within + 1, first + within + 2], axis=1)
+    return np.asarray(corners[fans], dtype=np.int64)

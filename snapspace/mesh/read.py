@@ -1,0 +1,116 @@
+"""Reading tet meshes from files."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from .arrays import FloatArray
+from .file_content import CellArray, FileContent
+from .input_path import existing_file
+from .medit import read_medit
+from .meshio_reader import read_with_meshio
+from .quality import tet_volumes
+from .repair import repair_tets
+from .tet_mesh import TetMesh
+from .tetgen import read_tetgen
+from .veg import read_veg
+
+_SOLID_CELLS = ("hexahedron", "wedge", "pyramid", "polyhedron", "voxel")
+
+
+class MeshNotice(UserWarning):
+    """Something about a mesh file that the user should know, but that was dealt with."""
+
+
+def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
+    """Read a tet mesh.
+
+    Parameters
+    ----------
+    path : path
+        MEDIT .mesh or .meshb; Gmsh .msh (versions 2 and 4, ASCII or binary); .vtk; .vtu; TetGen
+        .node or .ele (the other one is found beside it); VegaFEM .veg.
+    repair : bool, default False
+        Mend what can be mended (see `repair_tets`) and warn with a `MeshNotice` for each mending.
+
+    Returns
+    -------
+    TetMesh
+        Vertices and tets in the order of the file. Cells of lower dimension (triangles, lines) are
+        left out. Tets that are all inverted are flipped, with a `MeshNotice`.
+
+    Raises
+    ------
+    ValueError
+        If the file is missing, has an unknown extension, cannot be read, holds no tets, holds
+        other solid cells or quadratic tets, or its mesh is not valid (see `TetMesh`). One line
+        that begins with the path.
+    """
+    file = existing_file(path, known=_READERS)
+    try:
+        content = _READERS[file.suffix.lower()](file)
+        tets = _linear_tets(content)
+        if repair:
+            mesh, notes = repair_tets(content.vertices, tets)
+        else:
+            tets, notes = _flip_if_all_inverted(content.vertices, tets)
+            mesh = TetMesh(content.vertices, tets)
+    except (ValueError, OSError) as error:
+        reason = str(error).removeprefix("TetMesh: ").removeprefix("repair_tets: ")
+        raise ValueError(f"{file}: {reason}") from None
+    for note in notes:
+        warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
+    return mesh
+
+
+def _linear_tets(content: FileContent) -> CellArray:
+    """The tets of a file, (m, 4); ValueError if there are none or something else counts too."""
+    quadratic = [kind for kind in content.cells if kind.startswith("tetra") and kind != "tetra"]
+    if quadratic:
+        raise ValueError(
+            f"it holds higher-order tets ({content.summary()}); save it with linear tets (Gmsh: "
+            "element order 1)"
+        )
+    if any(kind.startswith(_SOLID_CELLS) for kind in content.cells):
+        raise ValueError(
+            f"it holds solid cells other than tets ({content.summary()}); split them into tets"
+        )
+    tets = content.cells.get("tetra")
+    if tets is None or not len(tets):
+        surface = any(kind.startswith(("triangle", "quad", "polygon")) for kind in content.cells)
+        cure = (
+            "it seems to be a surface: fill it with tets first (for instance with fTetWild)"
+            if surface
+            else "a tet mesh is needed"
+        )
+        raise ValueError(f"it holds no tets ({content.summary()}); {cure}")
+    return tets
+
+
+def _flip_if_all_inverted(points: FloatArray, tets: CellArray) -> tuple[CellArray, list[str]]:
+    if tets.min() < 0 or tets.max() >= len(points) or points.shape[1] != 3:
+        return tets, []
+    with np.errstate(all="ignore"):
+        inverted = bool((tet_volumes(points, tets.astype(np.int32)) < 0).all())
+    if not inverted:
+        return tets, []
+    note = f"all {len(tets)} tets were inverted (ordered the other way) and have been flipped"
+    return tets[:, [0, 2, 1, 3]], [note]
+
+
+_READERS: dict[str, Callable[[Path], FileContent]] = {
+    ".mesh": read_medit,
+    ".meshb": partial(read_with_meshio, file_format="MEDIT"),
+    ".msh": partial(read_with_meshio, file_format="Gmsh"),
+    ".vtk": partial(read_with_meshio, file_format="VTK"),
+    ".vtu": partial(read_with_meshio, file_format="VTU"),
+    ".node": read_tetgen,
+    ".ele": read_tetgen,
+    ".veg": read_veg,
+}

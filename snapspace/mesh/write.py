@@ -1,0 +1,169 @@
+"""Writing tet meshes and triangle surfaces to files."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import meshio
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import FloatArray, IndexArray, as_indices, as_points
+from .atomic_file import atomic_file
+from .input_path import writable_path
+from .obj import write_obj
+from .off import write_off
+from .ply import write_ply
+from .surface import compact_surface
+from .tet_mesh import TetMesh
+from .validation import check_indices, check_points
+
+_Options = Mapping[str, object]
+# meshio's names of the formats of tet meshes, and its options: binary wherever there is a choice
+_TET_FORMATS: dict[str, tuple[str, _Options]] = {
+    ".msh": ("gmsh", {"binary": True}),
+    ".vtu": ("vtu", {"binary": True}),
+    ".vtk": ("vtk", {"binary": True}),
+    ".mesh": ("medit", {}),
+}
+# Gmsh's data sections hold scalars, vectors and 3 x 3 tensors only; MEDIT files hold none.
+_GMSH_COMPONENTS = (1, 3, 9)
+
+
+def write_tets(
+    path: str | os.PathLike[str],
+    mesh: TetMesh,
+    *,
+    vertices: ArrayLike | None = None,
+    point_data: Mapping[str, ArrayLike] | None = None,
+) -> None:
+    """Write a tet mesh; reading it again gives the same numbers.
+
+    Parameters
+    ----------
+    path : path
+        .msh (Gmsh 4.1, binary), .vtu or .vtk (binary, for ParaView), .mesh (MEDIT, ASCII).
+    mesh : TetMesh
+    vertices : array_like, (n, 3), optional
+        A deformed shape to write in place of `mesh.vertices`.
+    point_data : mapping of names to (n,) or (n, k) arrays, optional
+        Values at the vertices; 1, 3 or 9 per vertex for .msh, none for .mesh.
+
+    Raises
+    ------
+    ValueError
+        For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
+        or values that are not finite. A file that existed at `path` is then untouched.
+    """
+    file = writable_path(path, known=_TET_FORMATS)
+    points = _shape_to_write(mesh, vertices)
+    data = {
+        name: _checked_data(name, values, len(points), file.suffix.lower())
+        for name, values in (point_data or {}).items()
+    }
+    cells = [("tetra", mesh.tets)]
+    cell_data: dict[str, list[IndexArray]] = {}
+    if file.suffix.lower() == ".msh":
+        # One volume with number 1: Gmsh needs an entity to show and to select what it reads.
+        ones = np.ones(len(mesh.tets), dtype=np.int32)
+        cell_data = {"gmsh:physical": [ones], "gmsh:geometrical": [ones]}
+        data["gmsh:dim_tags"] = np.tile([3.0, 1.0], (len(points), 1)).astype(np.int32)
+    content = meshio.Mesh(points, cells, point_data=data, cell_data=cell_data)
+    file_format, options = _TET_FORMATS[file.suffix.lower()]
+    with atomic_file(file) as temporary:
+        _write_with_meshio(temporary, content, file_format, options)
+
+
+def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: ArrayLike) -> None:
+    """Write a triangle surface.
+
+    Parameters
+    ----------
+    path : path
+        Wavefront .obj or .off (text, all digits), .ply (binary, double) or .stl (binary, single
+        precision, no shared vertices).
+    vertices : array_like, (n, 3)
+        May be all vertices of a tet mesh: only those that faces use are written, in their order
+        (see `compact_surface`).
+    faces : array_like of int, (f, 3)
+        0-based, outward; at least one.
+
+    Raises
+    ------
+    ValueError
+        For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
+        coordinates that are not finite, an index out of range, no faces. A file that existed at
+        `path` is then untouched.
+    """
+    file = writable_path(path, known=_SURFACE_WRITERS)
+    points = as_points(vertices, who="write_surface")
+    triangles = as_indices(faces, corners=3, who="write_surface", what="faces")
+    if not len(triangles):
+        raise ValueError("write_surface: there are no faces; at least one is needed")
+    check_points(points, who="write_surface")
+    check_indices(triangles, len(points), who="write_surface", what="face")
+    points, triangles = compact_surface(points, triangles)
+    with atomic_file(file) as temporary:
+        _SURFACE_WRITERS[file.suffix.lower()](temporary, points, triangles)
+
+
+def _shape_to_write(mesh: TetMesh, vertices: ArrayLike | None) -> FloatArray:
+    if vertices is None:
+        return mesh.vertices
+    points = as_points(vertices, who="write_tets")
+    if points.shape != mesh.vertices.shape:
+        raise ValueError(
+            f"write_tets: vertices must have shape {mesh.vertices.shape} as the mesh's own, "
+            f"got {points.shape}"
+        )
+    check_points(points, who="write_tets")
+    return points
+
+
+def _checked_data(name: str, values: ArrayLike, count: int, suffix: str) -> FloatArray | IndexArray:
+    array = np.asarray(values)
+    who = f"write_tets: point_data[{name!r}]"
+    if not name or not name.isprintable() or '"' in name or name.startswith("gmsh:"):
+        raise ValueError(f"{who}: such a name cannot be written; use letters, digits, _")
+    if array.dtype.kind not in "fiub" or array.ndim not in (1, 2) or len(array) != count:
+        raise ValueError(
+            f"{who} must be numbers of shape ({count},) or ({count}, k), got {array.dtype} of "
+            f"shape {array.shape}"
+        )
+    components = 1 if array.ndim == 1 else array.shape[1]
+    if suffix == ".mesh":
+        raise ValueError(f"{who}: MEDIT files hold no such data; write .vtu, .vtk or .msh")
+    if suffix == ".msh" and components not in _GMSH_COMPONENTS:
+        raise ValueError(f"{who} has {components} values per vertex; .msh takes 1, 3 or 9")
+    array = np.asarray(array, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise ValueError(f"{who} has values that are not finite")
+    return array
+
+
+def _write_with_meshio(
+    path: Path, content: meshio.Mesh, file_format: str, options: _Options
+) -> None:
+    # meshio prints advice to the console
+    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+        try:
+            meshio.write(path, content, file_format=file_format, **options)
+        except meshio.WriteError as error:
+            raise ValueError(f"the file cannot be written as {file_format}: {error}") from None
+
+
+def _write_stl(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
+    content = meshio.Mesh(vertices, [("triangle", faces)])
+    _write_with_meshio(path, content, "stl", {"binary": True})
+
+
+_SURFACE_WRITERS: dict[str, Callable[[Path, FloatArray, IndexArray], None]] = {
+    ".obj": write_obj,
+    ".ply": write_ply,
+    ".off": write_off,
+    ".stl": _write_stl,
+}

@@ -1,0 +1,10 @@
+"""Still pictures of surfaces, made in NumPy: no display, no GPU."""
+
+from __future__ import annotations
+
+from .colormap import colormap, tint
+from .render import render
+from .row import render_row
+from .save import save_png
+
+__all__ = ["colormap", "render", "render_row", "save_png", "tint"]

@@ -1,0 +1,63 @@
+"""Pictures as files."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+
+
+def save_png(path: str | os.PathLike[str], image: Any) -> Path:
+    """Write an image as PNG: completely, or not at all.
+
+    The bytes go to a temporary file in the same folder that is renamed at the end, so whatever
+    stood at `path` stays until the new picture is complete.
+
+    Parameters
+    ----------
+    path : path
+        Ends in ``.png``; its folder exists.
+    image : ndarray, (h, w, 3) uint8
+        sRGB, as `render` returns it.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    ValueError
+        If the extension is not ``.png``, the folder does not exist, or `image` is not an image.
+    """
+    target = Path(path)
+    if target.suffix.lower() != ".png":
+        raise ValueError(f"save_png: {target} does not end in .png; name it {target.stem}.png")
+    if not target.parent.is_dir():
+        raise ValueError(f"save_png: folder {target.parent} does not exist; create it first")
+    if target.is_dir():
+        raise ValueError(f"save_png: {target} is a folder; give the name of a file")
+    pixels = np.asarray(image)
+    if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
+        raise ValueError(
+            f"save_png: image has shape {pixels.shape} and type {pixels.dtype}; "
+            "give (h, w, 3) uint8"
+        )
+
+    handle, temporary = tempfile.mkstemp(suffix=".png", prefix=".", dir=target.parent)
+    try:
+        with os.fdopen(handle, "wb") as file:
+            Image.fromarray(pixels).save(file, format="PNG", optimize=True)
+        # mkstemp keeps the file to its owner; a picture is as readable as any new file.
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(temporary, 0o666 & ~mask)
+        os.replace(temporary, target)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+    return target

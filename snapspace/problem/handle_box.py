@@ -1,0 +1,82 @@
+"""HandleBox: the parameter domain of posing."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandleBox:
+    """Motions of the moving handles: translations and Euler angles up to given bounds (paper, sec. 4.1).
+
+    Parameters
+    ----------
+    translation : float or three floats
+        Largest offset per axis, in the mesh's length unit.
+    angle : float or three floats
+        Largest extrinsic Euler angle about x, y, z, in radians.
+    moving : int, default 1
+        Number of moving handles. `PosingProblem` sets it.
+
+    Raises
+    ------
+    ValueError
+        For a bound that is negative or not finite, for bounds that are all zero, or an angle beyond pi.
+
+    Notes
+    -----
+    A parameter vector has 6 entries per moving handle: translation x, y, z, then angles alpha, beta, gamma.
+    """
+
+    translation: float | tuple[float, float, float]
+    angle: float | tuple[float, float, float]
+    moving: int = 1
+
+    def __post_init__(self) -> None:
+        for name in ("translation", "angle"):
+            bounds = np.asarray(getattr(self, name), np.float64)
+            if bounds.shape not in ((), (3,)):
+                raise ValueError(f"HandleBox: {name} must be one number or three, got {bounds}")
+            if not np.isfinite(bounds).all() or (bounds < 0).any():
+                raise ValueError(
+                    f"HandleBox: {name} is {getattr(self, name)}, but a bound must be zero or positive"
+                )
+        if np.max(self.angle) > np.pi:
+            raise ValueError(
+                f"HandleBox: angle is {self.angle}, but it is in radians and at most pi; "
+                "use numpy.deg2rad for degrees"
+            )
+        if self.moving < 1:
+            raise ValueError(
+                f"HandleBox: moving is {self.moving}, but one handle at least must move"
+            )
+        if not self.half_widths.any():
+            raise ValueError("HandleBox: all bounds are zero, so there is nothing to sample")
+
+    @property
+    def dimension(self) -> int:
+        """Number of parameters, 6 per moving handle."""
+        return 6 * self.moving
+
+    @property
+    def half_widths(self) -> FloatArray:
+        """Bounds of all parameters, (dimension,): the box is [-half_widths, half_widths]."""
+        one = np.concatenate([np.broadcast_to(self.translation, 3), np.broadcast_to(self.angle, 3)])
+        return np.tile(one.astype(np.float64), self.moving)
+
+    def from_unit(self, points: FloatArray) -> FloatArray:
+        """Maps points of the unit cube, (k, dimension) in [0, 1], onto the box."""
+        return (2.0 * points - 1.0) * self.half_widths
+
+    def to_unit(self, parameters: FloatArray) -> FloatArray:
+        """Inverse of `from_unit`; a parameter without width becomes 0.5."""
+        widths = self.half_widths
+        scaled = np.divide(
+            parameters, widths, out=np.zeros_like(parameters, dtype=np.float64), where=widths > 0
+        )
+        return (scaled + 1.0) / 2.0

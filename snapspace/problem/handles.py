@@ -1,0 +1,126 @@
+"""Handles: the parts of a mesh that the user moves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+IndexArray = NDArray[np.int32]
+
+
+@dataclass(frozen=True)
+class Handle:
+    """A named set of vertices that follows one motion. `vertices` is sorted and unique, (k,) int32."""
+
+    name: str
+    vertices: IndexArray
+
+
+class Handles:
+    """Two or more disjoint handles; the first one is fixed while sampling.
+
+    Parameters
+    ----------
+    vertices : sequence of array_like
+        For each handle vertex indices, or a boolean mask over all vertices.
+    names : sequence of str, optional
+        One per handle, unique. Default: handle_0, handle_1, ...
+
+    Raises
+    ------
+    ValueError
+        For fewer than two handles, an empty or overlapping handle, a negative or non-integer index, names that
+        do not match; the message names the handle.
+
+    >>> handles = Handles([[0, 1], [7, 8]], names=["foot", "head"])
+    >>> handles["head"].vertices
+    array([7, 8], dtype=int32)
+    """
+
+    def __init__(
+        self, vertices: Sequence[ArrayLike], *, names: Sequence[str] | None = None
+    ) -> None:
+        if names is None:
+            names = [f"handle_{i}" for i in range(len(vertices))]
+        _check_names(names, len(vertices))
+        self._handles = tuple(
+            Handle(name, _as_indices(name, which))
+            for name, which in zip(names, vertices, strict=True)
+        )
+        if len(self._handles) < 2:
+            raise ValueError(
+                f"Handles: got {len(self._handles)}, but posing needs a fixed handle and at least one "
+                "to move"
+            )
+        self._check_disjoint()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names in order; the first one is fixed while sampling."""
+        return tuple(handle.name for handle in self._handles)
+
+    def index(self, name: str) -> int:
+        """Position of the handle with this name; ValueError lists the names if there is none."""
+        if name not in self.names:
+            raise ValueError(
+                f"there is no handle '{name}'; the handles are {', '.join(self.names)}"
+            )
+        return self.names.index(name)
+
+    def __len__(self) -> int:
+        return len(self._handles)
+
+    def __iter__(self) -> Iterator[Handle]:
+        return iter(self._handles)
+
+    def __getitem__(self, key: int | str) -> Handle:
+        return self._handles[self.index(key) if isinstance(key, str) else key]
+
+    def __repr__(self) -> str:
+        sizes = ", ".join(f"{handle.name}: {len(handle.vertices)}" for handle in self)
+        return f"Handles({sizes})"
+
+    def _check_disjoint(self) -> None:
+        for i, a in enumerate(self._handles):
+            for b in self._handles[i + 1 :]:
+                common = np.intersect1d(a.vertices, b.vertices)
+                if common.size:
+                    raise ValueError(
+                        f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, the "
+                        f"first is {common[0]}; a vertex can follow one handle only"
+                    )
+
+
+def _check_names(names: Sequence[str], count: int) -> None:
+    if len(names) != count:
+        raise ValueError(f"Handles: got {len(names)} names for {count} handles")
+    for name in names:
+        if not isinstance(name, str) or not name.strip():
+            raise ValueError(f"Handles: a name must be a non-empty string, got {name!r}")
+        if list(names).count(name) > 1:
+            raise ValueError(f"Handles: the name '{name}' is used twice")
+
+
+def _as_indices(name: str, which: ArrayLike) -> IndexArray:
+    array = np.asarray(which)
+    if array.dtype == bool:
+        array = np.flatnonzero(array)
+    if array.size == 0:
+        raise ValueError(
+            f"Handles: '{name}' has no vertices; widen its boxes or spheres, or list vertices"
+        )
+    if array.ndim != 1 or not np.issubdtype(array.dtype, np.integer):
+        raise ValueError(
+            f"Handles: '{name}' must be a list of vertex indices or a boolean mask, got "
+            f"{array.dtype} of shape {array.shape}"
+        )
+    if array.min() < 0:
+        raise ValueError(f"Handles: '{name}' has the negative vertex index {array.min()}")
+    if array.max() > np.iinfo(np.int32).max:
+        raise ValueError(f"Handles: '{name}' has the vertex index {array.max()}, beyond 32 bits")
+    indices = np.unique(array).astype(np.int32)
+    indices.setflags(write=False)
+    return indices

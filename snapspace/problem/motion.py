@@ -1,0 +1,35 @@
+"""Rigid motions of a handle."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+FloatArray = NDArray[np.float64]
+
+
+def rotation_matrix(euler: ArrayLike) -> FloatArray:
+    """R = Rz(gamma) Ry(beta) Rx(alpha) of extrinsic Euler angles (alpha, beta, gamma) in radians.
+
+    (..., 3) angles give (..., 3, 3) matrices.
+    """
+    matrices: FloatArray = Rotation.from_euler("xyz", np.asarray(euler, np.float64)).as_matrix()
+    return matrices
+
+
+def rigid_offset(euler: ArrayLike, translation: ArrayLike) -> FloatArray:
+    """(..., 3, 4) offset [R - I | t] of rigid motions about a centroid.
+
+    It maps (rest position - centroid, 1) to the displacement that the motion wants:
+    target = R (v - c) + c + t. The identity has offset zero.
+    """
+    rotation = rotation_matrix(euler) - np.eye(3)
+    return np.concatenate([rotation, np.asarray(translation, np.float64)[..., None]], axis=-1)
+
+
+def affine_offset(matrix: ArrayLike, centroid: ArrayLike) -> FloatArray:
+    """(3, 4) offset of an affine map `matrix` (3, 4) that acts on world positions (v, 1)."""
+    linear, shift = np.asarray(matrix, np.float64)[:, :3], np.asarray(matrix, np.float64)[:, 3]
+    c = np.asarray(centroid, np.float64)
+    return np.concatenate([linear - np.eye(3), (linear @ c + shift - c)[:, None]], axis=1)

@@ -1,0 +1,159 @@
+"""PosingProblem: elastic shapes under moved handles."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import core
+from ..energy import ElasticEnergy, StVK
+from ..mesh import TetMesh
+from .handle_box import HandleBox
+from .handles import Handles
+from .motion import rigid_offset
+
+FloatArray = NDArray[np.float64]
+
+
+class PosingProblem:
+    """Deformation-based modelling as a parametrised minimisation (paper, sec. 3.2).
+
+    F(x, w) = E(x) + stiffness * sum_h sum_{j in h} m_j |v_j - target_j(w)|^2, where m_j is a quarter of the volume of the
+    tets at j, and handle h asks for target_j = R (rest_j - c) + c + t about its mass centroid c.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+    handles : Handles
+        The first one stays at rest while sampling.
+    material : StVK, default StVK(lam=1, mu=1)
+    stiffness : float, default 1000
+        Weight of the handles, > 0, in energy per volume and squared length (mu of the paper's eq. 2).
+    domain : HandleBox
+        Bounds of the motions; `moving` is set to the number of handles less one.
+
+    Raises
+    ------
+    ValueError
+        For a stiffness that is not positive, a handle with a vertex outside of the mesh (the message names it), or
+        handles that all lie on one line, about which the shape could turn freely.
+    """
+
+    def __init__(
+        self,
+        mesh: TetMesh,
+        handles: Handles,
+        *,
+        domain: HandleBox,
+        material: StVK | None = None,
+        stiffness: float = 1000.0,
+    ) -> None:
+        self.mesh = mesh
+        self.handles = handles
+        self.material = material or StVK()
+        self.stiffness = float(stiffness)
+        self.domain = replace(domain, moving=len(handles) - 1)
+        if not (math.isfinite(self.stiffness) and self.stiffness > 0):
+            raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")
+        for handle in handles:
+            if handle.vertices[-1] >= len(mesh.vertices):
+                raise ValueError(
+                    f"PosingProblem: handle '{handle.name}' has vertex index {handle.vertices[-1]}, "
+                    f"but the mesh has {len(mesh.vertices)} vertices"
+                )
+        held = mesh.vertices[self.pinned] - mesh.vertices[self.pinned].mean(axis=0)
+        extents = np.linalg.svd(held, compute_uv=False)
+        if extents.size < 2 or extents[1] <= 1e-9 * mesh.diagonal:
+            raise ValueError(
+                "PosingProblem: the vertices of all handles lie on one line, so the shape could turn "
+                "about it; give the handles more vertices"
+            )
+
+    @property
+    def dimension(self) -> int:
+        """Number of parameters w."""
+        return self.domain.dimension
+
+    @cached_property
+    def energy(self) -> ElasticEnergy:
+        """The elastic energy E."""
+        return ElasticEnergy(self.mesh, self.material)
+
+    @cached_property
+    def centroids(self) -> FloatArray:
+        """Mass centroids of the handles at rest, (h, 3)."""
+        masses, vertices = self.mesh.vertex_masses, self.mesh.vertices
+        return np.array(
+            [
+                np.average(vertices[h.vertices], axis=0, weights=masses[h.vertices])
+                for h in self.handles
+            ]
+        )
+
+    @cached_property
+    def pinned(self) -> NDArray[np.int32]:
+        """Vertices of all handles, handle by handle, (p,)."""
+        return np.concatenate([handle.vertices for handle in self.handles])
+
+    @cached_property
+    def pin_weights(self) -> FloatArray:
+        """stiffness * m_j of the pinned vertices, (p,)."""
+        weights: FloatArray = self.stiffness * self.mesh.vertex_masses[self.pinned]
+        return weights
+
+    @cached_property
+    def system(self) -> core.PosingSystem:  # type: ignore[name-defined]
+        """The compiled problem with its scalar factor, shared by all samples."""
+        mesh, material = self.mesh, self.material
+        return core.PosingSystem(
+            mesh.vertices, mesh.tets, material.lam, material.mu, self.pinned, self.pin_weights
+        )
+
+    def offsets(self, parameters: ArrayLike) -> FloatArray:
+        """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (dimension,)."""
+        w = np.asarray(parameters, np.float64)
+        if w.shape != (self.dimension,):
+            raise ValueError(
+                f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} moving "
+                f"handles need ({self.dimension},): translation, then angles, handle by handle"
+            )
+        if not np.isfinite(w).all():
+            raise ValueError("PosingProblem: a parameter is not finite")
+        motions = w.reshape(-1, 6)
+        moving = rigid_offset(motions[:, 3:], motions[:, :3])
+        return np.concatenate([np.zeros((1, 3, 4)), moving])
+
+    def target_displacements(self, offsets: FloatArray) -> FloatArray:
+        """Displacements (p, 3) that the offsets (h, 3, 4) ask of the pinned vertices."""
+        vertices = self.mesh.vertices
+        return np.concatenate(
+            [
+                (vertices[handle.vertices] - center) @ offset[:, :3].T + offset[:, 3]
+                for handle, center, offset in zip(
+                    self.handles, self.centroids, offsets, strict=True
+                )
+            ]
+        )
+
+    def handle_energy(self, x: ArrayLike, offsets: FloatArray) -> float:
+        """The second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4), straight from its definition."""
+        moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
+        wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
+        return float(self.pin_weights @ ((moved - wanted) ** 2).sum(axis=1))
+
+    def value_and_gradient(self, x: ArrayLike, parameters: ArrayLike) -> tuple[float, FloatArray]:
+        """F(x, w) at positions x (3n,) and its gradient (3n,) by x."""
+        offsets = self.offsets(parameters)
+        elastic, gradient = self.energy.value_and_gradient(x)
+        positions = np.asarray(x, np.float64).reshape(-1, 3)
+        wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
+        pull = 2.0 * self.pin_weights[:, None] * (positions[self.pinned] - wanted)
+        np.add.at(gradient.reshape(-1, 3), self.pinned, pull)
+        return elastic + self.handle_energy(x, offsets), gradient
+
+    def __repr__(self) -> str:
+        return f"PosingProblem({self.mesh!r}, {self.handles!r}, stiffness {self.stiffness:g})"

@@ -1,0 +1,78 @@
+"""The elastic energy in reduced coordinates (paper, sec. 6.1)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .._core import core
+from ..energy import ElasticEnergy
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+
+class Quartic:
+    """E(tau + U q) as a polynomial of degree four in q, exact for St.Venant-Kirchhoff.
+
+    Parameters
+    ----------
+    dimension : int, d
+    coefficients : (C(d + 4, 4),)
+        Of the monomials x_i x_j x_k x_l, i <= j <= k <= l, of x = (1, q); l slowest, i fastest. The polynomial on the
+        first d' coordinates is therefore a prefix.
+
+    Raises
+    ------
+    ValueError
+        If the number of coefficients does not match.
+    """
+
+    def __init__(self, dimension: int, coefficients: FloatArray) -> None:
+        if coefficients.shape != (coefficient_count(dimension),):
+            raise ValueError(
+                f"Quartic: dimension {dimension} needs {coefficient_count(dimension)} coefficients, got "
+                f"an array of shape {coefficients.shape}"
+            )
+        self.dimension = dimension
+        self.coefficients = np.ascontiguousarray(coefficients, np.float64)
+        self._core = core.Quartic(dimension, self.coefficients)
+
+    def value(self, q: ArrayLike) -> float:
+        """Energy at q (d,)."""
+        return self.value_and_gradient(q)[0]
+
+    def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
+        """Energy at q and its gradient (d,): U^T of the full gradient at tau + U q."""
+        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
+        return value, gradient
+
+    def hessian(self, q: ArrayLike) -> FloatArray:
+        """Hessian at q, (d, d)."""
+        hessian: FloatArray = self._core.hessian(np.asarray(q, np.float64))
+        return hessian
+
+    def leading(self, dimension: int) -> Quartic:
+        """The polynomial on the first coordinates."""
+        return Quartic(dimension, self.coefficients[: coefficient_count(dimension)])
+
+
+def coefficient_count(dimension: int) -> int:
+    """C(d + 4, 4), the number of monomials of degree up to four in d variables."""
+    return math.comb(dimension + 4, 4)
+
+
+def reduced_quartic(
+    energy: ElasticEnergy, subspace: AffineSubspace, *, threads: int | None = None
+) -> Quartic:
+    """The elastic energy on a subspace.
+
+    Cost: 6 m multiply-adds per pair of the (d + 1)(d + 2)/2 monomials of degree two, as one matrix product (BLAS-3);
+    the coefficients are bitwise the same for any number of threads (default: all).
+    """
+    offset = subspace.tau - energy.mesh.vertices.reshape(-1)
+    modes = np.ascontiguousarray(np.vstack([offset, subspace.basis.T]))
+    coefficients = core.quartic_coefficients(energy.core, modes, threads=threads or 0)
+    return Quartic(subspace.dimension, coefficients)

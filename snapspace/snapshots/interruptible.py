@@ -1,0 +1,38 @@
+"""Running a compiled solve so that Ctrl-C ends it and progress shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import TimeoutError as StillRunning
+from typing import Any
+
+from .._core import core
+
+POLL_SECONDS = 0.1
+
+
+def run_interruptible(
+    solve: Callable[[core.SolveControl], Any],  # type: ignore[name-defined]
+    on_progress: Callable[[int], None],
+) -> tuple[Any, bool]:
+    """Calls solve(control) on a thread of its own.
+
+    Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of finished samples now and then.
+    The solve keeps what it finished: an interrupted one returns early with the rest marked cancelled.
+    """
+    control = core.SolveControl()
+    interrupted = False
+    with ThreadPoolExecutor(max_workers=1) as pool:
+        future: Future[Any] = pool.submit(solve, control)
+        while True:
+            try:
+                result = future.result(timeout=POLL_SECONDS)
+                break
+            except StillRunning:
+                on_progress(control.finished)
+            except KeyboardInterrupt:
+                interrupted = True
+                control.cancel()
+    on_progress(control.finished)
+    return result, interrupted

@@ -1,0 +1,174 @@
+"""Affine subspaces of shapes, and the best one for given snapshots (paper, sec. 5)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import cholesky, eigh, solve_triangular
+from scipy.sparse import csr_array
+
+from .mesh import apply_mass, mass_gram, mass_matrix
+from .snapshots import Snapshots
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AffineSubspace:
+    """The shapes tau + U q (paper, eq. 4).
+
+    tau : (3n,) reference shape, x0 y0 z0 x1 ...
+    basis : (3n, d) U, with M-orthonormal columns, best first
+    mass : (n, n) scalar mass matrix M of the reference shape
+    eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared error on the snapshots
+    """
+
+    tau: FloatArray
+    basis: FloatArray
+    mass: csr_array
+    eigenvalues: FloatArray
+
+    @property
+    def dimension(self) -> int:
+        """d."""
+        return int(self.basis.shape[1])
+
+    @property
+    def energy_fraction(self) -> float:
+        """Share of the snapshots' squared M-norm that the subspace holds (paper, sec. 5.2)."""
+        return float(self.eigenvalues[: self.dimension].sum() / self.eigenvalues.sum())
+
+    def leading(self, dimension: int) -> AffineSubspace:
+        """The first columns: the best subspace of that dimension for the same snapshots."""
+        _check_dimension(dimension, self.dimension)
+        basis = np.asfortranarray(self.basis[:, :dimension])
+        return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
+
+    def coordinates(self, shapes: ArrayLike) -> FloatArray:
+        """q = U^T M (x - tau) of the M-projection of shapes (3n,) or (3n, k): (d,) or (d, k)."""
+        x = np.asarray(shapes, np.float64)
+        offset = x - (self.tau if x.ndim == 1 else self.tau[:, None])
+        coordinates: FloatArray = self.basis.T @ apply_mass(self.mass, offset)
+        return coordinates
+
+    def shape(self, q: ArrayLike) -> FloatArray:
+        """tau + U q, (3n,), for coordinates (d,)."""
+        x: FloatArray = self.tau + self.basis @ np.asarray(q, np.float64)
+        return x
+
+
+def snapshot_pca(
+    snapshots: Snapshots,
+    *,
+    dimension: int | None = None,
+    energy_fraction: float | None = None,
+    lumped: bool = False,
+    include_unconverged: bool = False,
+) -> AffineSubspace:
+    """Subspace that best approximates the snapshots in the M-norm, at the rest shape (paper, sec. 5).
+
+    Parameters
+    ----------
+    snapshots : Snapshots
+    dimension, energy_fraction : int, float in (0, 1]
+        Give one: d, or the smallest d whose eigenvalues hold that fraction of their sum.
+    lumped : bool, default False
+        Diagonal instead of consistent mass matrix.
+    include_unconverged : bool, default False
+        Also use snapshots whose solver stopped early.
+
+    Returns
+    -------
+    AffineSubspace
+        U^T M U = I to rounding; the bases are nested; the squared errors of the snapshots add up to the eigenvalues
+        beyond d. Signs are fixed: the largest entry of a column is positive.
+
+    Raises
+    ------
+    ValueError
+        If no or both sizes are given, the dimension exceeds the number of independent snapshots, or no snapshot is usable.
+    """
+    usable = snapshots if include_unconverged else snapshots.select(snapshots.converged)
+    if len(usable) == 0:
+        raise ValueError(
+            f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more iterations, "
+            "a smaller domain, or include_unconverged=True"
+        )
+    mesh = snapshots.problem.mesh
+    mass = mass_matrix(mesh, lumped=lumped)
+    return pca(
+        usable.shapes,
+        mesh.vertices.reshape(-1),
+        mass,
+        dimension=dimension,
+        energy_fraction=energy_fraction,
+    )
+
+
+def pca(
+    shapes: FloatArray,
+    tau: FloatArray,
+    mass: csr_array,
+    *,
+    dimension: int | None = None,
+    energy_fraction: float | None = None,
+) -> AffineSubspace:
+    """Mass-weighted PCA of shapes (3n, k) about tau (3n,) by the method of snapshots (paper, sec. 5.2).
+
+    As `snapshot_pca`, for any shapes and any scalar mass matrix (n, n).
+    """
+    if (dimension is None) == (energy_fraction is None):
+        raise ValueError("pca: give either dimension or energy_fraction")
+    displacements = shapes - tau[:, None]
+    weighted = apply_mass(mass, displacements)
+    eigenvalues, vectors = eigh(displacements.T @ weighted)
+    eigenvalues, vectors = np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
+    # Eigenvalues below this are rounding noise of the largest one.
+    noise = len(eigenvalues) * np.finfo(float).eps * eigenvalues[0]
+    rank = int((eigenvalues > noise).sum())
+    if rank == 0:
+        raise ValueError(
+            f"pca: all {len(eigenvalues)} snapshots equal the reference shape, so there is no "
+            "direction to span"
+        )
+    if energy_fraction is not None:
+        if not 0 < energy_fraction <= 1:
+            raise ValueError(f"pca: energy_fraction is {energy_fraction}, but must be in (0, 1]")
+        held = np.cumsum(eigenvalues[:rank]) / eigenvalues.sum()
+        dimension = min(rank, int(np.searchsorted(held, energy_fraction * (1 - 1e-15))) + 1)
+    assert dimension is not None
+    if dimension > rank:
+        raise ValueError(
+            f"pca: dimension {dimension} exceeds the {rank} independent directions of "
+            f"{len(eigenvalues)} usable snapshots; take more samples or a smaller dimension"
+        )
+    _check_dimension(dimension, rank)
+    basis = displacements @ (vectors[:, :dimension] / np.sqrt(eigenvalues[:dimension]))
+    basis = _orthonormalised(basis, mass)
+    signs = np.sign(basis[np.abs(basis).argmax(axis=0), np.arange(dimension)])
+    return AffineSubspace(tau, np.asfortranarray(basis * signs), mass, eigenvalues)
+
+
+def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
+    """Restores U^T M U = I by two Cholesky-QR passes, which are triangular and keep the bases nested.
+
+    The Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out orthonormal only to
+    eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
+    """
+    for _ in range(2):
+        factor = cholesky(mass_gram(mass, basis, basis))
+        basis = solve_triangular(factor, basis.T, trans="T").T
+    error = float(np.abs(mass_gram(mass, basis, basis) - np.eye(basis.shape[1])).max())
+    if error > 1e-10:
+        raise ValueError(
+            f"pca: the basis is orthonormal only to {error:.1e}; the last directions are noise, take a "
+            "smaller dimension"
+        )
+    return basis
+
+
+def _check_dimension(dimension: int, largest: int) -> None:
+    if not 1 <= dimension <= largest:
+        raise ValueError(f"dimension {dimension} is not between 1 and {largest}")
