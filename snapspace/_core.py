@@ -1,18 +1,18 @@
 """The compiled core: the widest of its builds that this processor can run.
 
-``SNAPSPACE_LEVEL`` (``baseline``, ``v3`` or ``v4``) forces one, for tests and comparisons. Results agree across levels up to
-rounding; within a level they are bitwise reproducible.
+``SNAPSPACE_LEVEL`` (``baseline``, ``v3`` or ``v4``) forces one, for tests and comparisons. Results
+agree across levels up to rounding; within a level they are bitwise reproducible.
 """
 
 from __future__ import annotations
 
 import importlib
 import os
-from types import ModuleType
+from typing import Any
 
 from snapspace._cpu_level import cpu_level
 
-#: Builds by the x86-64 level that they need; other processors have level 0 and take the plain build.
+#: Builds by the x86-64 level that they need; other processors have level 0 and take the plain one.
 BUILDS = {"v4": 4, "v3": 3, "baseline": 0}
 
 
@@ -31,10 +31,15 @@ def _chosen_level() -> str:
         raise ImportError(f"SNAPSPACE_LEVEL={wanted}: known levels are {', '.join(BUILDS)}")
     if wanted not in available:
         raise ImportError(
-            f"SNAPSPACE_LEVEL={wanted}: this processor runs {', '.join(available)}; unset the variable"
+            f"SNAPSPACE_LEVEL={wanted}: this processor runs {', '.join(available)}; unset it"
         )
     return wanted
 
 
 level = _chosen_level()
-core: ModuleType = importlib.import_module(f"snapspace._core_{level}")
+core = importlib.import_module(f"snapspace._core_{level}")
+
+
+def __getattr__(name: str) -> Any:
+    # the names of the compiled module are this module's; _core.pyi lists them
+    return getattr(core, name)

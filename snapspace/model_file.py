@@ -63,8 +63,9 @@ def load(path: str | Path) -> ReducedModel:
     Raises
     ------
     ValueError
-        If the file is missing, truncated, altered (checksum), of another kind or of a newer version, or if an array
-        is missing or has the wrong type or size. The message names the file and the cure.
+        If the file is missing, truncated, altered (checksum), of another kind or of a newer
+        version, or if an array is missing or has the wrong type or size. The message names the
+        file and the cure.
     """
     path = Path(path)
     if not path.is_file():
@@ -74,7 +75,8 @@ def load(path: str | Path) -> ReducedModel:
         raise ValueError(f"{path}: not a snapspace model; `snapspace build` makes one")
     if header.get("version") != str(VERSION):
         raise ValueError(
-            f"{path}: model version {header.get('version')}, this snapspace reads version {VERSION}; "
+            f"{path}: model version {header.get('version')}, this snapspace reads version "
+            f"{VERSION}; "
             "install the snapspace that wrote it, or build the model again"
         )
     _check_arrays(path, arrays)
@@ -106,7 +108,8 @@ def _arrays(model: ReducedModel) -> Arrays:
         "tets": problem.mesh.tets,
         "handle_vertices": problem.pinned,
         "handle_sizes": np.array(sizes, np.int32),
-        "basis": model.subspace.basis.T,  # (d, 3n): a mode is contiguous, and fewer modes are a prefix
+        # (d, 3n): a mode is contiguous, and fewer modes are a prefix
+        "basis": model.subspace.basis.T,
         "eigenvalues": model.subspace.eigenvalues,
         "quartic": model.elastic.coefficients,
         "handle_K": model.handles.K,
@@ -151,7 +154,7 @@ def _checksum(arrays: Arrays, header: dict[str, str]) -> str:
 def _read(path: Path) -> tuple[Arrays, dict[str, str]]:
     try:
         with safe_open(path, framework="np") as file:
-            arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
+            arrays = {name: file.get_tensor(name) for name in file.keys()}
             return arrays, dict(file.metadata() or {})
     except (SafetensorError, OSError, ValueError) as error:
         raise ValueError(
@@ -165,7 +168,8 @@ def _check_arrays(path: Path, arrays: Arrays) -> None:
             raise ValueError(f"{path}: the array '{name}' is missing; build the model again")
         if arrays[name].dtype != dtype:
             raise ValueError(
-                f"{path}: the array '{name}' is {arrays[name].dtype}, not {np.dtype(dtype)}; build the "
+                f"{path}: the array '{name}' is {arrays[name].dtype}, not {np.dtype(dtype)}; "
+                "build the "
                 "model again"
             )
 

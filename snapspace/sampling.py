@@ -15,7 +15,9 @@ METHODS: tuple[Method, ...] = ("random", "sobol", "grid")
 
 
 class Domain(Protocol):
-    """What a parameter domain must offer: the image of the unit cube under a measure-preserving map."""
+    """What a parameter domain must offer: the image of the unit cube under a measure-preserving
+    map.
+    """
 
     @property
     def dimension(self) -> int: ...
@@ -37,21 +39,22 @@ def sample(
     ----------
     domain : HandleBox or another domain
     count : int
-        How many, > 0. A grid has the largest number of points up to `count` that a product of nearly equal
-        numbers per axis allows: 300 in six dimensions are 3 * 3 * 3 * 2 * 2 * 2 = 216.
+        How many, > 0. A grid has the largest number of points up to `count` that a product of
+        nearly equal numbers per axis allows: 300 in six dimensions are 3 * 3 * 3 * 2 * 2 * 2 = 216.
     method : "random", "sobol" or "grid", default "random"
-        Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the centres of
-        equal cells.
+        Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
+        centres of equal cells.
     seed : int, default 0
         For "random" and for the scrambling of "sobol".
     scramble : bool, default True
-        Owen's scrambling of the Sobol sequence; without it the first point is the lower corner of the box.
+        Owen's scrambling of the Sobol sequence; without it the first point is the lower corner of
+        the box.
 
     Returns
     -------
     ndarray, (k, dimension)
-        k = count except for a grid. The same arguments give the same points; longer random and Sobol samples
-        begin with the shorter ones.
+        k = count except for a grid. The same arguments give the same points; longer random and
+        Sobol samples begin with the shorter ones.
 
     Raises
     ------

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import core
+from . import _core as core
 from .problem import affine_offset, rigid_offset
 from .reduction import ReducedModel
 
@@ -41,15 +41,15 @@ class FrameReport:
 class Session:
     """Poses of a reduced model: move handles, read vertices.
 
-    Each move solves the reduced problem by BFGS from the last frame's shape, with the inverse Hessian at rest as the first
-    approximation.
+    Each move solves the reduced problem by BFGS from the last frame's shape, with the inverse
+    Hessian at rest as the first approximation.
 
     Parameters
     ----------
     model : ReducedModel
     tolerance : float, default 1e-7
-        eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and a displacement of a
-        tenth of the diagonal.
+        eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and
+        a displacement of a tenth of the diagonal.
     max_iterations : int, default 300
         Bound on the work of one frame.
 
@@ -70,7 +70,8 @@ class Session:
     ) -> None:
         if not tolerance > 0 or max_iterations < 1:
             raise ValueError(
-                f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be positive"
+                f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be "
+                "positive"
             )
         self.model = model
         self.tolerance = tolerance
@@ -88,7 +89,9 @@ class Session:
 
     @property
     def vertices(self) -> FloatArray:
-        """Vertices of the current shape, (n, 3): tau + U q, carried along by the fixed handle's motion if it has one."""
+        """Vertices of the current shape, (n, 3): tau + U q, carried along by the fixed handle's
+        motion if it has one.
+        """
         shape = self.model.subspace.shape(self.q).reshape(-1, 3)
         if not np.array_equal(self._maps[0], np.eye(3, 4)):
             shape = shape @ self._maps[0, :, :3].T + self._maps[0, :, 3]
@@ -103,8 +106,8 @@ class Session:
     ) -> FrameReport:
         """Puts a handle at a rigid motion from rest about its centroid, and solves.
 
-        The motion is absolute: moving twice to the same place is moving once. Moving the first handle carries the
-        whole shape along: only motions relative to it deform.
+        The motion is absolute: moving twice to the same place is moving once. Moving the first
+        handle carries the whole shape along: only motions relative to it deform.
 
         Parameters
         ----------
@@ -115,7 +118,8 @@ class Session:
         Raises
         ------
         ValueError
-            For an unknown handle, or values that are not three finite numbers; the shape stays as it was.
+            For an unknown handle, or values that are not three finite numbers; the shape stays as
+            it was.
         """
         offset = rigid_offset(_three(euler, "euler"), _three(translation, "translation"))
         self._place(handle, _world_map(offset, self._center(handle)))
@@ -127,8 +131,8 @@ class Session:
         Raises
         ------
         ValueError
-            For an unknown handle, a matrix of another shape or not finite, or one that is not a rigid motion
-            for the first handle.
+            For an unknown handle, a matrix of another shape or not finite, or one that is not a
+            rigid motion for the first handle.
         """
         wanted = np.asarray(matrix, np.float64)
         if wanted.shape != (3, 4) or not np.isfinite(wanted).all():
@@ -137,13 +141,16 @@ class Session:
         rigid = np.allclose(linear @ linear.T, np.eye(3), atol=1e-9) and np.linalg.det(linear) > 0
         if self.model.problem.handles.index(handle) == 0 and not rigid:
             raise ValueError(
-                f"move_affine: '{handle}' is the reference of all others and takes rigid motions only"
+                f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
+                "only"
             )
         self._place(handle, wanted)
         return self.solve()
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
-        """Puts all handles at a parameter vector of the problem's domain (dimension,), and solves."""
+        """Puts all handles at a parameter vector of the problem's domain (dimension,), and
+        solves.
+        """
         offsets = self.model.problem.offsets(parameters)
         centers = self.model.problem.centroids
         maps = [_world_map(offset, center) for offset, center in zip(offsets, centers, strict=True)]

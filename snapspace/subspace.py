@@ -22,7 +22,8 @@ class AffineSubspace:
     tau : (3n,) reference shape, x0 y0 z0 x1 ...
     basis : (3n, d) U, with M-orthonormal columns, best first
     mass : (n, n) scalar mass matrix M of the reference shape
-    eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared error on the snapshots
+    eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared
+    error on the snapshots
     """
 
     tau: FloatArray
@@ -67,7 +68,8 @@ def snapshot_pca(
     lumped: bool = False,
     include_unconverged: bool = False,
 ) -> AffineSubspace:
-    """Subspace that best approximates the snapshots in the M-norm, at the rest shape (paper, sec. 5).
+    """Subspace that best approximates the snapshots in the M-norm, at the rest shape (paper, sec.
+    5).
 
     Parameters
     ----------
@@ -82,18 +84,20 @@ def snapshot_pca(
     Returns
     -------
     AffineSubspace
-        U^T M U = I to rounding; the bases are nested; the squared errors of the snapshots add up to the eigenvalues
-        beyond d. Signs are fixed: the largest entry of a column is positive.
+        U^T M U = I to rounding; the bases are nested; the squared errors of the snapshots add up
+        to the eigenvalues beyond d. Signs are fixed: the largest entry of a column is positive.
 
     Raises
     ------
     ValueError
-        If no or both sizes are given, the dimension exceeds the number of independent snapshots, or no snapshot is usable.
+        If no or both sizes are given, the dimension exceeds the number of independent snapshots,
+        or no snapshot is usable.
     """
     usable = snapshots if include_unconverged else snapshots.select(snapshots.converged)
     if len(usable) == 0:
         raise ValueError(
-            f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more iterations, "
+            f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
+            "iterations, "
             "a smaller domain, or include_unconverged=True"
         )
     mesh = snapshots.problem.mesh
@@ -115,7 +119,8 @@ def pca(
     dimension: int | None = None,
     energy_fraction: float | None = None,
 ) -> AffineSubspace:
-    """Mass-weighted PCA of shapes (3n, k) about tau (3n,) by the method of snapshots (paper, sec. 5.2).
+    """Mass-weighted PCA of shapes (3n, k) about tau (3n,) by the method of snapshots (paper, sec.
+    5.2).
 
     As `snapshot_pca`, for any shapes and any scalar mass matrix (n, n).
     """
@@ -152,10 +157,11 @@ def pca(
 
 
 def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
-    """Restores U^T M U = I by two Cholesky-QR passes, which are triangular and keep the bases nested.
+    """Restores U^T M U = I by two Cholesky-QR passes, which are triangular and keep the bases
+    nested.
 
-    The Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out orthonormal only to
-    eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
+    The Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out
+    orthonormal only to eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
     """
     for _ in range(2):
         factor = cholesky(mass_gram(mass, basis, basis))
@@ -163,7 +169,8 @@ def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
     error = float(np.abs(mass_gram(mass, basis, basis) - np.eye(basis.shape[1])).max())
     if error > 1e-10:
         raise ValueError(
-            f"pca: the basis is orthonormal only to {error:.1e}; the last directions are noise, take a "
+            f"pca: the basis is orthonormal only to {error:.1e}; the last directions are noise, "
+            "take a "
             "smaller dimension"
         )
     return basis

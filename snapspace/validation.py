@@ -16,17 +16,19 @@ from .snapshots.solve import Progress
 
 FloatArray = NDArray[np.float64]
 
-#: The reference is solved until twice the predicted decrease is below this share of F; on the Dragon its shapes are then
-#: within 1e-4 of the limit, relative to the displacement.
+#: The reference is solved until twice the predicted decrease is below this share of F; on the
+#: Dragon its shapes are then within 1e-4 of the limit, relative to the displacement.
 REFERENCE_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
 class Validation:
-    """Errors and costs on unseen parameters, one entry per sample that the full solver converged on.
+    """Errors and costs on unseen parameters, one entry per sample that the full solver converged
+    on.
 
     error : |x_red - x_full|_M / |x_full - rest|_M of the reduced solve from the rest shape
-    projection_error : the same for the M-projection of x_full into the subspace, the least error possible
+    projection_error : the same for the M-projection of x_full into the subspace, the least error
+    possible
     energy_ratio : objective of the reduced solution over that of the full one
     iterations : of BFGS
     solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
@@ -62,7 +64,9 @@ class Validation:
 
 
 def unseen_parameters(model: ReducedModel, count: int, *, seed: int) -> FloatArray:
-    """Uniform random parameters (count, p) from a stream of their own: no seed gives those of `sample`."""
+    """Uniform random parameters (count, p) from a stream of their own: no seed gives those of
+    `sample`.
+    """
     if count < 1:
         raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))

@@ -24,11 +24,11 @@ const double* checked(const ElasticEnergy& energy, const VectorIn& u) {
   return u.data();
 }
 
-nb::tuple blocks_of(const BlockHessian& hessian) {
+std::tuple<IndicesOut, IndicesOut, DoublesOut> blocks_of(const BlockHessian& hessian) {
   const std::size_t count = hessian.columns().size();
-  return nb::make_tuple(copy_to_array(hessian.row_start().data(), {hessian.row_start().size()}),
+  return {copy_to_array(hessian.row_start().data(), {hessian.row_start().size()}),
                         copy_to_array(hessian.columns().data(), {count}),
-                        copy_to_array(hessian.blocks().data()->data(), {count, 3, 3}));
+                        copy_to_array(hessian.blocks().data()->data(), {count, 3, 3})};
 }
 
 }  // namespace

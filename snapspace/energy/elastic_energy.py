@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
-from .._core import core
+from .. import _core as core
 from ..mesh import TetMesh
 from .material import StVK
 
@@ -26,8 +26,8 @@ class ElasticEnergy:
 
     Notes
     -----
-    Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises ValueError for
-    another size. Energies are invariant under rigid motions of x and vanish at rest.
+    Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises
+    ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.
     """
 
     def __init__(self, mesh: TetMesh, material: StVK) -> None:
@@ -35,7 +35,7 @@ class ElasticEnergy:
         self.material = material
 
     @cached_property
-    def core(self) -> core.ElasticEnergy:  # type: ignore[name-defined]
+    def core(self) -> core.ElasticEnergy:
         """The compiled energy; it takes displacements."""
         mesh, material = self.mesh, self.material
         return core.ElasticEnergy(mesh.vertices, mesh.tets, material.lam, material.mu)
@@ -62,8 +62,8 @@ class ElasticEnergy:
     def clamped_hessian(self, x: ArrayLike, *, threshold: float) -> csr_array:
         """Hessian with every tet at its signed singular values clamped to at least `threshold`.
 
-        The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian` where
-        no singular value is below the threshold; positive semi-definite at threshold 1.
+        The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian`
+        where no singular value is below the threshold; positive semi-definite at threshold 1.
         """
         if not 0 < threshold <= 1:
             raise ValueError(f"clamped_hessian: threshold is {threshold}, but must be in (0, 1]")

@@ -22,8 +22,8 @@ class StVK:
 
     Notes
     -----
-    The reduced energy is an exact polynomial of degree four (paper, sec. 6.1). The material does not
-    resist inversion: psi(F) = psi(-F), and strong compression softens it.
+    The reduced energy is an exact polynomial of degree four (paper, sec. 6.1). The material does
+    not resist inversion: psi(F) = psi(-F), and strong compression softens it.
     """
 
     lam: float = 1.0

@@ -12,7 +12,8 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class HandleBox:
-    """Motions of the moving handles: translations and Euler angles up to given bounds (paper, sec. 4.1).
+    """Motions of the moving handles: translations and Euler angles up to given bounds (paper, sec.
+    4.1).
 
     Parameters
     ----------
@@ -26,11 +27,13 @@ class HandleBox:
     Raises
     ------
     ValueError
-        For a bound that is negative or not finite, for bounds that are all zero, or an angle beyond pi.
+        For a bound that is negative or not finite, for bounds that are all zero, or an angle
+        beyond pi.
 
     Notes
     -----
-    A parameter vector has 6 entries per moving handle: translation x, y, z, then angles alpha, beta, gamma.
+    A parameter vector has 6 entries per moving handle: translation x, y, z, then angles alpha,
+    beta, gamma.
     """
 
     translation: float | tuple[float, float, float]
@@ -44,7 +47,8 @@ class HandleBox:
                 raise ValueError(f"HandleBox: {name} must be one number or three, got {bounds}")
             if not np.isfinite(bounds).all() or (bounds < 0).any():
                 raise ValueError(
-                    f"HandleBox: {name} is {getattr(self, name)}, but a bound must be zero or positive"
+                    f"HandleBox: {name} is {getattr(self, name)}, but a bound must be zero or "
+                    "positive"
                 )
         if np.max(self.angle) > np.pi:
             raise ValueError(

@@ -13,7 +13,9 @@ IndexArray = NDArray[np.int32]
 
 @dataclass(frozen=True)
 class Handle:
-    """A named set of vertices that follows one motion. `vertices` is sorted and unique, (k,) int32."""
+    """A named set of vertices that follows one motion. `vertices` is sorted and unique, (k,)
+    int32.
+    """
 
     name: str
     vertices: IndexArray
@@ -32,8 +34,8 @@ class Handles:
     Raises
     ------
     ValueError
-        For fewer than two handles, an empty or overlapping handle, a negative or non-integer index, names that
-        do not match; the message names the handle.
+        For fewer than two handles, an empty or overlapping handle, a negative or non-integer
+        index, names that do not match; the message names the handle.
 
     >>> handles = Handles([[0, 1], [7, 8]], names=["foot", "head"])
     >>> handles["head"].vertices
@@ -52,7 +54,8 @@ class Handles:
         )
         if len(self._handles) < 2:
             raise ValueError(
-                f"Handles: got {len(self._handles)}, but posing needs a fixed handle and at least one "
+                f"Handles: got {len(self._handles)}, but posing needs a fixed handle and at "
+                "least one "
                 "to move"
             )
         self._check_disjoint()
@@ -89,7 +92,8 @@ class Handles:
                 common = np.intersect1d(a.vertices, b.vertices)
                 if common.size:
                     raise ValueError(
-                        f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, the "
+                        f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, "
+                        "the "
                         f"first is {common[0]}; a vertex can follow one handle only"
                     )
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import core
+from .. import _core as core
 from ..energy import ElasticEnergy, StVK
 from ..mesh import TetMesh
 from .handle_box import HandleBox
@@ -22,8 +22,9 @@ FloatArray = NDArray[np.float64]
 class PosingProblem:
     """Deformation-based modelling as a parametrised minimisation (paper, sec. 3.2).
 
-    F(x, w) = E(x) + stiffness * sum_h sum_{j in h} m_j |v_j - target_j(w)|^2, where m_j is a quarter of the volume of the
-    tets at j, and handle h asks for target_j = R (rest_j - c) + c + t about its mass centroid c.
+    F(x, w) = E(x) + stiffness * sum_h sum_{j in h} m_j |v_j - target_j(w)|^2, where m_j is a
+    quarter of the volume of the tets at j, and handle h asks for target_j = R (rest_j - c) + c + t
+    about its mass centroid c.
 
     Parameters
     ----------
@@ -32,15 +33,17 @@ class PosingProblem:
         The first one stays at rest while sampling.
     material : StVK, default StVK(lam=1, mu=1)
     stiffness : float, default 1000
-        Weight of the handles, > 0, in energy per volume and squared length (mu of the paper's eq. 2).
+        Weight of the handles, > 0, in energy per volume and squared length (mu of the paper's eq.
+        2).
     domain : HandleBox
         Bounds of the motions; `moving` is set to the number of handles less one.
 
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, a handle with a vertex outside of the mesh (the message names it), or
-        handles that all lie on one line, about which the shape could turn freely.
+        For a stiffness that is not positive, a handle with a vertex outside of the mesh (the
+        message names it), or handles that all lie on one line, about which the shape could turn
+        freely.
     """
 
     def __init__(
@@ -62,14 +65,16 @@ class PosingProblem:
         for handle in handles:
             if handle.vertices[-1] >= len(mesh.vertices):
                 raise ValueError(
-                    f"PosingProblem: handle '{handle.name}' has vertex index {handle.vertices[-1]}, "
+                    f"PosingProblem: handle '{handle.name}' has vertex index "
+                    f"{handle.vertices[-1]}, "
                     f"but the mesh has {len(mesh.vertices)} vertices"
                 )
         held = mesh.vertices[self.pinned] - mesh.vertices[self.pinned].mean(axis=0)
         extents = np.linalg.svd(held, compute_uv=False)
         if extents.size < 2 or extents[1] <= 1e-9 * mesh.diagonal:
             raise ValueError(
-                "PosingProblem: the vertices of all handles lie on one line, so the shape could turn "
+                "PosingProblem: the vertices of all handles lie on one line, so the shape could "
+                "turn "
                 "about it; give the handles more vertices"
             )
 
@@ -106,7 +111,7 @@ class PosingProblem:
         return weights
 
     @cached_property
-    def system(self) -> core.PosingSystem:  # type: ignore[name-defined]
+    def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
         mesh, material = self.mesh, self.material
         return core.PosingSystem(
@@ -118,7 +123,8 @@ class PosingProblem:
         w = np.asarray(parameters, np.float64)
         if w.shape != (self.dimension,):
             raise ValueError(
-                f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} moving "
+                f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} "
+                "moving "
                 f"handles need ({self.dimension},): translation, then angles, handle by handle"
             )
         if not np.isfinite(w).all():
@@ -140,7 +146,9 @@ class PosingProblem:
         )
 
     def handle_energy(self, x: ArrayLike, offsets: FloatArray) -> float:
-        """The second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4), straight from its definition."""
+        """The second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4), straight
+        from its definition.
+        """
         moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return float(self.pin_weights @ ((moved - wanted) ** 2).sum(axis=1))

@@ -28,9 +28,9 @@ def read_problem(
     ----------
     path : path of a JSON file
         {"mesh": path relative to the file, "material": {"model": "stvk", "lam", "mu"}, "stiffness",
-        "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres", "vertices"}, ...]}.
-        A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres [[x, y, z], radius]
-        and vertices; the first handle is the fixed one.
+        "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
+        "vertices"}, ...]}. A handle is the union of its boxes [[min corner], [max corner]] (null:
+        unbounded), spheres [[x, y, z], radius] and vertices; the first handle is the fixed one.
     mesh : TetMesh, optional
         Used instead of the file's mesh.
     repair : bool, default False
@@ -39,8 +39,8 @@ def read_problem(
     Raises
     ------
     ValueError
-        For a missing file, text that is not JSON, a missing, unknown or mistyped entry; the message names
-        the file and the entry.
+        For a missing file, text that is not JSON, a missing, unknown or mistyped entry; the
+        message names the file and the entry.
     """
     path = Path(path)
     content = _load(path)

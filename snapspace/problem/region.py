@@ -33,7 +33,7 @@ def in_box(vertices: ArrayLike, lower: Corner, upper: Corner) -> NDArray[np.bool
         raise ValueError(
             f"box: the lower corner {list(lower)} must be below the upper corner {list(upper)}"
         )
-    inside: NDArray[np.bool_] = ((points >= low) & (points <= high)).all(axis=1)
+    inside: NDArray[np.bool_] = np.all((points >= low) & (points <= high), axis=1)
     return inside
 
 

@@ -17,8 +17,9 @@ FloatArray = NDArray[np.float64]
 class HandleQuadric:
     """Eq. (2) at the shape rest + U q as a quadratic form in q and the handles' offsets D_h.
 
-    value = q^T K q - 2 sum_h (L_h vec D_h) . q + sum_h tr(D_h S_h D_h^T), where D_h (3, 4) maps (rest - centroid, 1) to the wanted
-    displacement, so that any affine motion is exact: [R - I | t] for a rigid one.
+    value = q^T K q - 2 sum_h (L_h vec D_h) . q + sum_h tr(D_h S_h D_h^T), where D_h (3, 4) maps
+    (rest - centroid, 1) to the wanted displacement, so that any affine motion is exact: [R - I |
+    t] for a rigid one.
 
     K : (d, d)    L : (h, d, 12), columns are the entries of D_h row by row    S : (h, 4, 4)
     """

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import core
+from .. import _core as core
 from ..energy import ElasticEnergy
 from ..subspace import AffineSubspace
 
@@ -21,8 +21,8 @@ class Quartic:
     ----------
     dimension : int, d
     coefficients : (C(d + 4, 4),)
-        Of the monomials x_i x_j x_k x_l, i <= j <= k <= l, of x = (1, q); l slowest, i fastest. The polynomial on the
-        first d' coordinates is therefore a prefix.
+        Of the monomials x_i x_j x_k x_l, i <= j <= k <= l, of x = (1, q); l slowest, i fastest.
+        The polynomial on the first d' coordinates is therefore a prefix.
 
     Raises
     ------
@@ -33,7 +33,8 @@ class Quartic:
     def __init__(self, dimension: int, coefficients: FloatArray) -> None:
         if coefficients.shape != (coefficient_count(dimension),):
             raise ValueError(
-                f"Quartic: dimension {dimension} needs {coefficient_count(dimension)} coefficients, got "
+                f"Quartic: dimension {dimension} needs {coefficient_count(dimension)} "
+                "coefficients, got "
                 f"an array of shape {coefficients.shape}"
             )
         self.dimension = dimension
@@ -69,8 +70,9 @@ def reduced_quartic(
 ) -> Quartic:
     """The elastic energy on a subspace.
 
-    Cost: 6 m multiply-adds per pair of the (d + 1)(d + 2)/2 monomials of degree two, as one matrix product (BLAS-3);
-    the coefficients are bitwise the same for any number of threads (default: all).
+    Cost: 6 m multiply-adds per pair of the (d + 1)(d + 2)/2 monomials of degree two, as one matrix
+    product (BLAS-3); the coefficients are bitwise the same for any number of threads (default:
+    all).
     """
     offset = subspace.tau - energy.mesh.vertices.reshape(-1)
     modes = np.ascontiguousarray(np.vstack([offset, subspace.basis.T]))

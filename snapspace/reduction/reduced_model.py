@@ -96,7 +96,8 @@ def reduce(
     threads: int | None = None,
     provenance: dict[str, Any] | None = None,
 ) -> ReducedModel:
-    """Restricts a problem to a subspace (paper, sec. 6.1), exactly: reduced and full objective agree at tau + U q.
+    """Restricts a problem to a subspace (paper, sec. 6.1), exactly: reduced and full objective
+    agree at tau + U q.
 
     Parameters
     ----------

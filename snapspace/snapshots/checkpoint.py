@@ -36,7 +36,8 @@ class Checkpoint:
     Parameters
     ----------
     folder : Path
-        Made when the first samples are saved. Each save adds one file that is either complete or not there.
+        Made when the first samples are saved. Each save adds one file that is either complete or
+        not there.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -44,7 +45,9 @@ class Checkpoint:
 
     @classmethod
     def beside(cls, output: Path, key: str) -> Checkpoint:
-        """The checkpoint of a run that writes `output`: a folder beside it whose name holds the run's key."""
+        """The checkpoint of a run that writes `output`: a folder beside it whose name holds the
+        run's key.
+        """
         return cls(output.with_name(f"{output.name}.partial-{key}"))
 
     def save(
@@ -65,7 +68,9 @@ class Checkpoint:
             path.write_bytes(content)
 
     def load(self) -> dict[int, tuple[FloatArray, SampleReport]]:
-        """All finished samples by number. Files that are not readable are skipped: their samples are solved again."""
+        """All finished samples by number. Files that are not readable are skipped: their samples
+        are solved again.
+        """
         found: dict[int, tuple[FloatArray, SampleReport]] = {}
         for path in sorted(self.folder.glob("samples-*.safetensors")):
             try:

@@ -7,19 +7,20 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from concurrent.futures import TimeoutError as StillRunning
 from typing import Any
 
-from .._core import core
+from .. import _core as core
 
 POLL_SECONDS = 0.1
 
 
 def run_interruptible(
-    solve: Callable[[core.SolveControl], Any],  # type: ignore[name-defined]
+    solve: Callable[[core.SolveControl], Any],
     on_progress: Callable[[int], None],
 ) -> tuple[Any, bool]:
     """Calls solve(control) on a thread of its own.
 
-    Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of finished samples now and then.
-    The solve keeps what it finished: an interrupted one returns early with the rest marked cancelled.
+    Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of
+    finished samples now and then. The solve keeps what it finished: an interrupted one returns
+    early with the rest marked cancelled.
     """
     control = core.SolveControl()
     interrupted = False

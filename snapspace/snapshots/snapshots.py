@@ -17,9 +17,10 @@ FloatArray = NDArray[np.float64]
 class SampleReport:
     """How the full-space solve of one sample ended.
 
-    status is one of converged, max_iterations, line_search_failed, not_finite; value is the objective F at the shape,
-    gradient_norm the Euclidean norm of its gradient, decrement twice the decrease that the solver's model still
-    predicted, seconds the wall time, inverted_tets the number of tets with det F <= 0.
+    status is one of converged, max_iterations, line_search_failed, not_finite; value is the
+    objective F at the shape, gradient_norm the Euclidean norm of its gradient, decrement twice the
+    decrease that the solver's model still predicted, seconds the wall time, inverted_tets the
+    number of tets with det F <= 0.
     """
 
     status: str
@@ -66,7 +67,9 @@ class Snapshots:
         return Snapshots(self.problem, self.parameters[which], self.shapes[:, which], reports)
 
     def summary(self) -> str:
-        """One line: how many converged, how many were left out and why, iterations, inverted tets."""
+        """One line: how many converged, how many were left out and why, iterations, inverted
+        tets.
+        """
         good = int(self.converged.sum())
         parts = [f"{good} of {len(self)} samples converged"]
         for status in sorted({r.status for r in self.reports if not r.converged}):

@@ -22,7 +22,9 @@ Progress = Callable[[int, int], None]
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during `solve_snapshots`: the finished samples are in the checkpoint, if there is one."""
+    """Ctrl-C during `solve_snapshots`: the finished samples are in the checkpoint, if there is
+    one.
+    """
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,15 +36,15 @@ class SolverOptions:
     solver : "fast" or "newton", default "fast"
         L-BFGS on a scalar factor that all samples share, or the paper's Newton method (sec. 4.2).
     tolerance : float, default 1e-5
-        Converged when twice the decrease that the solver's model predicts is below tolerance * F, and for "fast" the
-        mean decrease of the last 8 iterations is as well. On the Dragon 1e-5 leaves 0.3 % of the displacement,
-        1e-10 none of it that matters.
+        Converged when twice the decrease that the solver's model predicts is below tolerance * F,
+        and for "fast" the mean decrease of the last 8 iterations is as well. On the Dragon 1e-5
+        leaves 0.3 % of the displacement, 1e-10 none of it that matters.
     max_iterations : int, default 1000
     clamp : float, default 0.6
         Newton only: singular values are raised to this in the Hessian; the paper uses 0.5 to 0.8.
     wave : int, optional
-        Samples solved together; they start from the samples of earlier waves only, so that results do not depend
-        on threads. Default 32 for "fast", 2 for "newton".
+        Samples solved together; they start from the samples of earlier waves only, so that results
+        do not depend on threads. Default 32 for "fast", 2 for "newton".
     """
 
     solver: Solver = "fast"
@@ -91,14 +93,14 @@ def solve_snapshots(
     progress : callable(done, total), optional
         Called now and then, from this thread.
     checkpoint : Checkpoint, optional
-        Finished samples are saved there wave by wave, and on Ctrl-C; a run with the same arguments goes on from
-        them and ends with the same result as one that was not interrupted.
+        Finished samples are saved there wave by wave, and on Ctrl-C; a run with the same arguments
+        goes on from them and ends with the same result as one that was not interrupted.
 
     Returns
     -------
     Snapshots
-        In the order of `parameters`, with a report each. Not every sample has to be converged: `snapshot_pca` leaves
-        out those that are not.
+        In the order of `parameters`, with a report each. Not every sample has to be converged:
+        `snapshot_pca` leaves out those that are not.
 
     Raises
     ------
@@ -146,7 +148,9 @@ class _Run:
             self.reports[index] = report
 
     def solve_wave(self, wave: range) -> None:
-        """Solves those samples of a wave that are not solved yet, from the samples of the waves before it."""
+        """Solves those samples of a wave that are not solved yet, from the samples of the waves
+        before it.
+        """
         missing = [i for i in wave if i not in self.reports]
         if not missing:
             return
@@ -174,7 +178,9 @@ class _Run:
             raise Interrupted(f"{len(self.reports)} of {total} samples are finished")
 
     def _starts(self, before: int, missing: list[int]) -> FloatArray:
-        """Guesses from the converged samples before the wave, and from the rest shape at parameters zero."""
+        """Guesses from the converged samples before the wave, and from the rest shape at
+        parameters zero.
+        """
         known = [i for i in range(before) if self.reports[i].converged]
         to_unit = self.problem.domain.to_unit
         parameters = to_unit(np.vstack([np.zeros(self.samples.shape[1]), self.samples[known]]))

@@ -30,12 +30,13 @@ def nearest_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray) -> 
 def interpolated_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray) -> FloatArray:
     """Shapes interpolated between all known samples by linear radial basis functions.
 
-    Arguments and result as for `nearest_start`. On the Dragon such starts need a fifth fewer evaluations than the
-    nearest sample and half as many as the rest shape. Falls back on the nearest sample while there are too few
-    samples to fix the interpolant's constant term.
+    Arguments and result as for `nearest_start`. On the Dragon such starts need a fifth fewer
+    evaluations than the nearest sample and half as many as the rest shape. Falls back on the
+    nearest sample while there are too few samples to fix the interpolant's constant term.
     """
     if len(known) < 2:
         return nearest_start(known, shapes, wanted)
-    # the interpolant is linear in the data: one row of weights per wanted sample, applied to whole shapes
+    # the interpolant is linear in the data: one row of weights per wanted sample, applied to whole
+    # shapes
     weights = RBFInterpolator(known, np.eye(len(known)), kernel="linear")(wanted)
     return np.ascontiguousarray(weights @ shapes)

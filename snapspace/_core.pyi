@@ -1,0 +1,190 @@
+"""The loops of snapspace that must be fast."""
+
+import enum
+
+import numpy
+from numpy.typing import NDArray
+
+
+lane_count: int
+
+class ElasticEnergy:
+    """
+    St.Venant-Kirchhoff energy of a mesh as a function of displacements u (3n,) from rest.
+    """
+
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
+
+    def value_and_gradient(self, u: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+        """Energy and its gradient (3n,)."""
+
+    def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Hessian at u times v (3n,), without forming the Hessian."""
+
+    def hessian_blocks(self, u: NDArray[numpy.float64]) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        Hessian at u as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)).
+        """
+
+    def clamped_hessian_blocks(self, u: NDArray[numpy.float64], threshold: float) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        The same with every element at its signed singular values clamped to at least threshold.
+        """
+
+    def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
+        """Number of elements with det F <= 0."""
+
+class SolveStatus(enum.Enum):
+    """How a full-space solve ended."""
+
+    converged = 0
+
+    max_iterations = 1
+
+    line_search_failed = 2
+
+    not_finite = 3
+
+    cancelled = 4
+
+class SolveReport:
+    """How the solve of one sample ended."""
+
+    @property
+    def status(self) -> SolveStatus: ...
+
+    @property
+    def iterations(self) -> int: ...
+
+    @property
+    def evaluations(self) -> int: ...
+
+    @property
+    def value(self) -> float:
+        """Objective at the returned shape."""
+
+    @property
+    def gradient_norm(self) -> float:
+        """Euclidean norm of its gradient."""
+
+    @property
+    def decrement(self) -> float:
+        """
+        -g.d of the last direction d: twice the decrease that the quadratic model predicts.
+        """
+
+    @property
+    def seconds(self) -> float:
+        """Wall time from start to end of this sample."""
+
+    @property
+    def inverted_tets(self) -> int: ...
+
+class SolveControl:
+    """Shared with a running solve: ends it early, counts what is finished."""
+
+    def __init__(self) -> None: ...
+
+    def cancel(self) -> None: ...
+
+    @property
+    def finished(self) -> int: ...
+
+class Batch:
+    """Solutions of one call."""
+
+    @property
+    def shapes(self) -> NDArray[numpy.float64]:
+        """(samples, 3n) displacements from rest."""
+
+    @property
+    def reports(self) -> list[SolveReport]: ...
+
+    @property
+    def linear_iterations(self) -> int:
+        """Conjugate gradient iterations of all samples together (Newton only)."""
+
+class PosingSystem:
+    """What all samples of a posing problem share, with its scalar factor."""
+
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def factor_nonzeros(self) -> int: ...
+
+    def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Inverse of the scalar matrix, applied to x, y and z."""
+
+    def solve_fast(self, targets: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Batch: ...
+
+    def solve_newton(self, targets: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch: ...
+
+def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
+    """
+    Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy; modes (d+1, 3n): offset, then basis.
+    """
+
+class Status(enum.Enum):
+    """How a reduced solve ended."""
+
+    converged = 0
+
+    max_iterations = 1
+
+    line_search_failed = 2
+
+    not_finite = 3
+
+class Report:
+    """How a reduced solve ended."""
+
+    @property
+    def status(self) -> Status: ...
+
+    @property
+    def iterations(self) -> int: ...
+
+    @property
+    def evaluations(self) -> int: ...
+
+    @property
+    def value(self) -> float: ...
+
+    @property
+    def gradient_norm(self) -> float: ...
+
+class Quartic:
+    """Polynomial of degree four with fully symmetric packed coefficients."""
+
+    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+class PosingLoop:
+    """The live loop: set offsets, solve from the last frame."""
+
+    def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def q(self) -> NDArray[numpy.float64]: ...
+
+    @q.setter
+    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
+
+    def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+    def solve(self, *, tolerance: float, max_iterations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+BUILDS: dict[str, int]
+level: str
+
+def available_levels() -> list[str]: ...
