@@ -153,6 +153,9 @@ class Report:
     @property
     def gradient_norm(self) -> float: ...
 
+def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """tau + sum of q_i modes_i, (3n,)."""
+
 class Quartic:
     """Polynomial of degree four with fully symmetric packed coefficients."""
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse import csr_array
 
+from . import _core as core
 from .mesh import apply_mass, mass_gram, mass_matrix
 from .snapshots import Snapshots
 
@@ -56,8 +57,7 @@ class AffineSubspace:
 
     def shape(self, q: ArrayLike) -> FloatArray:
         """tau + U q, (3n,), for coordinates (d,)."""
-        x: FloatArray = self.tau + self.basis @ np.asarray(q, np.float64)
-        return x
+        return core.reconstruct(self.tau, self.basis.T, np.asarray(q, np.float64))
 
 
 def snapshot_pca(

@@ -27,8 +27,8 @@ const double* checked(const ElasticEnergy& energy, const VectorIn& u) {
 std::tuple<IndicesOut, IndicesOut, DoublesOut> blocks_of(const BlockHessian& hessian) {
   const std::size_t count = hessian.columns().size();
   return {copy_to_array(hessian.row_start().data(), {hessian.row_start().size()}),
-                        copy_to_array(hessian.columns().data(), {count}),
-                        copy_to_array(hessian.blocks().data()->data(), {count, 3, 3})};
+          copy_to_array(hessian.columns().data(), {count}),
+          copy_to_array(hessian.blocks().data()->data(), {count, 3, 3})};
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "bindings/arrays.h"
 #include "online/posing_solver.h"
+#include "online/reconstruct.h"
 
 namespace snapspace {
 
@@ -37,6 +38,18 @@ void bind_online(nb::module_& m) {
       .def_ro("evaluations", &online::Report::evaluations)
       .def_ro("value", &online::Report::value)
       .def_ro("gradient_norm", &online::Report::gradient_norm);
+
+  m.def(
+      "reconstruct",
+      [](VectorIn tau, MatrixIn modes, VectorIn q) {
+        require(modes.shape(0) == q.size() && modes.shape(1) == tau.size(),
+                "tau (3n,), modes (d, 3n) and q (d,) do not match");
+        DoublesOut shape = new_array<double>({tau.size()});
+        online::reconstruct(tau.size(), static_cast<int>(q.size()), tau.data(), modes.data(),
+                            q.data(), shape.data());
+        return shape;
+      },
+      nb::arg("tau"), nb::arg("modes"), nb::arg("q"), "tau + sum of q_i modes_i, (3n,).");
 
   nb::class_<Quartic>(m, "Quartic",
                       "Polynomial of degree four with fully symmetric packed coefficients.")

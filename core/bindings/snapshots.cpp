@@ -72,10 +72,10 @@ void bind_snapshots(nb::module_& m) {
             for (std::size_t i = 0; i < tets.size(); ++i)
               require(tets.data()[i] >= 0 && tets.data()[i] < n,
                       "a tet has a vertex index out of range");
-            RestShape rest(vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0)));
-            new (self) PosingSystem(std::move(rest), StVK{lam, mu},
-                                    {pinned.data(), pinned.data() + pinned.size()},
-                                    {weights.data(), weights.data() + weights.size()});
+            const LocalMesh mesh(vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0)));
+            new (self)
+                PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
+                             {weights.data(), weights.data() + weights.size()});
           },
           nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
           nb::arg("pinned").noconvert(), nb::arg("weights"))
@@ -86,8 +86,10 @@ void bind_snapshots(nb::module_& m) {
           [](const PosingSystem& self, VectorIn vector) {
             require(vector.size() == static_cast<std::size_t>(self.size()), "needs a (3n,) vector");
             DoublesOut result = new_array<double>({vector.size()});
-            std::vector<double> scratch(vector.size());
-            self.factor.solve(vector.data(), result.data(), scratch.data());
+            std::vector<double> shape(vector.size()), scratch(vector.size());
+            self.to_internal(vector.data(), shape.data());
+            self.factor.solve(shape.data(), shape.data(), scratch.data());
+            self.to_external(shape.data(), result.data());
             return result;
           },
           nb::arg("vector"), "Inverse of the scalar matrix, applied to x, y and z.")

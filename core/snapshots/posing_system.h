@@ -3,28 +3,51 @@
 #include <vector>
 
 #include "energy/elastic_energy.h"
+#include "mesh/locality.h"
 #include "snapshots/scalar_factor.h"
 
 namespace snapspace {
 
 /// What all samples of a posing problem share: F(u) = E(u) + sum_k weight_k |u_k - target_k|^2 over
 /// pinned vertices k. Only the targets differ from sample to sample, so one factor serves them all.
+///
+/// Inside, vertices are numbered along a space-filling curve; `to_internal` and `to_external`
+/// translate shapes.
 struct PosingSystem {
+  std::vector<std::int32_t> order;  ///< the caller's index of every internal vertex
   ElasticEnergy energy;
-  std::vector<std::int32_t> pinned;  ///< vertices of the handles
+  std::vector<std::int32_t> pinned;  ///< vertices of the handles, internal
   std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
   ScalarFactor factor;               ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
 
-  PosingSystem(RestShape rest, StVK material, std::vector<std::int32_t> pinned_vertices,
+  PosingSystem(const LocalMesh& mesh, StVK material, std::vector<std::int32_t> pinned_vertices,
                std::vector<double> pin_weights)
-      : energy{std::move(rest), material},
-        pinned(std::move(pinned_vertices)),
+      : order(mesh.order),
+        energy{RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()),
+                         mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4)),
+               material},
+        pinned(renumbered(std::move(pinned_vertices), mesh.places)),
         weights(std::move(pin_weights)),
         factor(scalar_matrix()) {}
 
   [[nodiscard]] int size() const { return 3 * energy.rest.vertex_count; }
 
+  /// Copies a shape vector from the caller's numbering into the internal one.
+  void to_internal(const double* from, double* to) const {
+    for (std::size_t v = 0; v < order.size(); ++v) std::copy_n(from + 3 * order[v], 3, to + 3 * v);
+  }
+  /// And back.
+  void to_external(const double* from, double* to) const {
+    for (std::size_t v = 0; v < order.size(); ++v) std::copy_n(from + 3 * v, 3, to + 3 * order[v]);
+  }
+
  private:
+  static std::vector<std::int32_t> renumbered(std::vector<std::int32_t> vertices,
+                                              const std::vector<std::int32_t>& places) {
+    for (std::int32_t& vertex : vertices) vertex = places[vertex];
+    return vertices;
+  }
+
   [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const {
     Eigen::SparseMatrix<double> A =
         (2.0 * energy.material.mu + energy.material.lam) * energy.rest.laplacian();

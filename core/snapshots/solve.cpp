@@ -36,11 +36,15 @@ std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamp
       const int sample = next++;
       return sample < samples.count ? sample : -1;
     };
-    const auto start = [&](int sample) { return samples.starts + offset(system, sample); };
+    std::vector<double> shape(system.size());
+    const auto start = [&](int sample) {
+      system.to_internal(samples.starts + offset(system, sample), shape.data());
+      return shape.data();
+    };
     const auto finish = [&](int sample, SolveReport report, const auto& write) {
-      double* shape = samples.shapes + offset(system, sample);
-      write(shape);
-      report.inverted_tets = system.energy.inverted_tets(shape);
+      write(shape.data());
+      report.inverted_tets = system.energy.inverted_tets(shape.data());
+      system.to_external(shape.data(), samples.shapes + offset(system, sample));
       reports[sample] = report;
       ++control.finished;
     };
@@ -58,12 +62,12 @@ std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSa
   const int workers = std::min(samples.count, thread_count(options.threads));
   parallel_for(workers, workers, [&](int) {
     Newton solver(system, samples, options, clamp);
+    std::vector<double> start(system.size());
     for (int sample = next++; sample < samples.count && !control.cancelled; sample = next++) {
-      const SolveReport report =
-          solver.solve(sample, samples.starts + offset(system, sample), control);
+      system.to_internal(samples.starts + offset(system, sample), start.data());
+      const SolveReport report = solver.solve(sample, start.data(), control);
       if (report.status == SolveStatus::cancelled) break;
-      std::copy(solver.shape().begin(), solver.shape().end(),
-                samples.shapes + offset(system, sample));
+      system.to_external(solver.shape().data(), samples.shapes + offset(system, sample));
       reports[sample] = report;
       ++control.finished;
     }
