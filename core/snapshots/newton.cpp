@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "snapshots/line_search.h"
@@ -19,6 +20,9 @@ void add_scaled(std::vector<double>& y, double scale, const std::vector<double>&
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += scale * x[i];
 }
 
+/// Relative decrement below which the minimum is near enough for the unclamped Hessian.
+constexpr double kNearMinimum = 1e-2;
+
 }  // namespace
 
 Newton::Newton(const PosingSystem& system, const PosingSamples& samples,
@@ -33,8 +37,11 @@ Newton::Newton(const PosingSystem& system, const PosingSamples& samples,
     v->resize(system.size());
 }
 
-void Newton::assemble() {
-  hessian_.assemble_clamped(system_.energy, u_.data(), clamp_);
+void Newton::assemble(bool exact) {
+  if (exact)
+    hessian_.assemble(system_.energy, u_.data());
+  else
+    hessian_.assemble_clamped(system_.energy, u_.data(), clamp_);
   for (std::size_t k = 0; k < system_.pinned.size(); ++k)
     hessian_.add_to_diagonal(system_.pinned[k], 2.0 * system_.weights[k]);
 }
@@ -46,13 +53,16 @@ SolveReport Newton::solve(int sample, const double* start, const SolveControl& c
   u_.assign(start, start + u_.size());
   report.value = objective_.value_and_gradient(u_.data(), gradient_.data());
   report.evaluations = 1;
-  double previous_decrement = 0.0;
+  double previous_decrement = std::numeric_limits<double>::infinity();
   while (!control.cancelled) {
     if (!std::isfinite(report.value)) {
       report.status = SolveStatus::not_finite;
       break;
     }
-    assemble();
+    // Elements that stay below the clamping threshold at the minimum make the clamped Hessian a
+    // wrong one, with linear and often very slow convergence. Once the minimum is near, the Hessian
+    // itself is used.
+    assemble(previous_decrement < kNearMinimum * report.value);
     // Loose systems far from the minimum, tight ones near it (Eisenstat & Walker 1996): the
     // relative decrement of the last step tells which.
     const double scale = std::max(report.value, 1e-300);

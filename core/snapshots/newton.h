@@ -23,7 +23,7 @@ class Newton {
   [[nodiscard]] long linear_iterations() const { return linear_iterations_; }
 
  private:
-  void assemble();
+  void assemble(bool exact);
   double find_direction(double relative_residual, const SolveControl& control);
   bool line_search(SolveReport& report, double slope);
 
