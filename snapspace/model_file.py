@@ -53,7 +53,7 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
     arrays, header = _arrays(model), _header(model)
     header["checksum"] = _checksum(arrays, header)
     with atomic_file(path) as temporary:
-        temporary.write_bytes(save(arrays, header))
+        temporary.write_bytes(_sorted_header(save(arrays, header)))
     return path
 
 
@@ -137,6 +137,14 @@ def _header(model: ReducedModel) -> dict[str, str]:
         "problem": json.dumps(content, sort_keys=True),
         "provenance": json.dumps(model.provenance, sort_keys=True),
     }
+
+
+def _sorted_header(content: bytes) -> bytes:
+    """The same safetensors file with its header in order: the library writes it in a random one."""
+    size = int.from_bytes(content[:8], "little")
+    header = json.dumps(json.loads(content[8 : 8 + size]), sort_keys=True).encode()
+    header += b" " * (-len(header) % 8)  # the arrays stay aligned
+    return len(header).to_bytes(8, "little") + header + content[8 + size :]
 
 
 def _checksum(arrays: Arrays, header: dict[str, str]) -> str:

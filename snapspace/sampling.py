@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Literal, Protocol
 
@@ -22,6 +23,11 @@ class Domain(Protocol):
     @property
     def dimension(self) -> int: ...
 
+    @property
+    def free_axes(self) -> NDArray[np.bool_]:
+        """Mask of the axes along which the domain has extent."""
+        ...
+
     def from_unit(self, points: FloatArray) -> FloatArray: ...
 
 
@@ -40,7 +46,8 @@ def sample(
     domain : HandleBox or another domain
     count : int
         How many, > 0. A grid has the largest number of points up to `count` that a product of
-        nearly equal numbers per axis allows: 300 in six dimensions are 3 * 3 * 3 * 2 * 2 * 2 = 216.
+        nearly equal numbers per axis of non-zero width allows: 300 in six dimensions are
+        3 * 3 * 3 * 2 * 2 * 2 = 216.
     method : "random", "sobol" or "grid", default "random"
         Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
         centres of equal cells.
@@ -70,7 +77,7 @@ def sample(
     elif method == "sobol":
         points = _sobol(domain.dimension, count, seed=seed, scramble=scramble)
     elif method == "grid":
-        points = _grid(domain.dimension, count)
+        points = _grid(domain.free_axes, count)
     else:
         raise ValueError(f"sample: unknown method '{method}'; known are {', '.join(METHODS)}")
     return domain.from_unit(points)
@@ -83,11 +90,13 @@ def _sobol(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArr
     return points[:count]
 
 
-def _grid(dimension: int, count: int) -> FloatArray:
+def _grid(free_axes: NDArray[np.bool_], count: int) -> FloatArray:
+    dimension = len(free_axes)
     per_axis = [1] * dimension
-    axis = 0
+    axes = itertools.cycle(np.flatnonzero(free_axes).tolist())
+    axis = next(axes)
     while math.prod(per_axis) // per_axis[axis] * (per_axis[axis] + 1) <= count:
         per_axis[axis] += 1
-        axis = (axis + 1) % dimension
+        axis = next(axes)
     centers = [(np.arange(k) + 0.5) / k for k in per_axis]
     return np.stack(np.meshgrid(*centers, indexing="ij"), axis=-1).reshape(-1, dimension)

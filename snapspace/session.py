@@ -106,8 +106,9 @@ class Session:
     ) -> FrameReport:
         """Puts a handle at a rigid motion from rest about its centroid, and solves.
 
-        The motion is absolute: moving twice to the same place is moving once. Moving the first
-        handle carries the whole shape along: only motions relative to it deform.
+        The motion is absolute: moving twice to the same place is moving once. The first handle,
+        which was fixed while sampling, may move as well: the problem is solved relative to it, so
+        that the same rigid motion of all handles carries the shape along rigidly.
 
         Parameters
         ----------

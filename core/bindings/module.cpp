@@ -9,6 +9,8 @@ void bind_online(nb::module_& m);
 }  // namespace snapspace
 
 NB_MODULE(SNAPSPACE_MODULE, m) {
+  // What outlives the interpreter is not lost memory, and users should not read about it.
+  nanobind::set_leak_warnings(false);
   m.doc() = "The loops of snapspace that must be fast.";
   m.attr("lane_count") = snapspace::kLaneCount;
   snapspace::bind_energy(m);

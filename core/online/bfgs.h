@@ -39,6 +39,7 @@ class Bfgs {
 
  private:
   static constexpr int kMaxTrials = 40;
+  static constexpr int kMaxIdleSteps = 4;
 
   template <class Objective>
   bool line_search(Objective& objective, const double* q, Report& report, double slope);
@@ -79,6 +80,7 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
   };
   reset();
   bool pristine = true;
+  int idle_steps = 0;  // accepted steps in a row that did not change the value
   while (report.iterations < stop.max_iterations) {
     set_direction();
     const double slope = dot(gradient_.data(), direction_.data(), d_);
@@ -102,6 +104,7 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
     ++report.iterations;
     const double decrease = report.value - trial_value_;
     report.value = trial_value_;
+    idle_steps = decrease > 0.0 ? 0 : idle_steps + 1;
     update();
     pristine = false;
     std::copy(trial_.begin(), trial_.end(), q);
@@ -110,6 +113,10 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
     const double step = step_ * std::sqrt(dot(direction_.data(), direction_.data(), d_));
     if (terminates(stop, report, decrease, step, std::sqrt(dot(q, q, d_)))) {
       report.status = Status::converged;
+      break;
+    }
+    if (idle_steps == kMaxIdleSteps) {  // a tolerance below what values resolve
+      report.status = Status::line_search_failed;
       break;
     }
   }

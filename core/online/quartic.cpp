@@ -33,7 +33,7 @@ double Quartic::value_and_gradient(const double* q, double* gradient) {
     for (int k = 0; k <= l; ++k) {
       const std::size_t count = pair_count(k + 1);
       const double outer = x_[k] * x_[l];
-      // Four partial sums let the compiler keep the dot product in vector registers.
+      // Eight partial sums let the compiler keep the dot product in vector registers.
       double sums[8] = {};
       std::size_t p = 0;
       for (; p + 8 <= count; p += 8)

@@ -73,6 +73,12 @@ class HandleBox:
         one = np.concatenate([np.broadcast_to(self.translation, 3), np.broadcast_to(self.angle, 3)])
         return np.tile(one.astype(np.float64), self.moving)
 
+    @property
+    def free_axes(self) -> NDArray[np.bool_]:
+        """Mask (dimension,) of the parameters whose bound is not zero."""
+        free: NDArray[np.bool_] = self.half_widths > 0
+        return free
+
     def from_unit(self, points: FloatArray) -> FloatArray:
         """Maps points of the unit cube, (k, dimension) in [0, 1], onto the box."""
         return (2.0 * points - 1.0) * self.half_widths

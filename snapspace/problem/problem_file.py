@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..energy import StVK
 from ..mesh import TetMesh, read_tets
 from .handle_box import HandleBox
 from .handles import Handles
+from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three
 from .posing_problem import PosingProblem
 from .region import in_box, in_sphere
 
 _KEYS = {"mesh", "material", "stiffness", "domain", "handles"}
+_Mask = NDArray[np.bool_]
 
 
 def read_problem(
@@ -48,8 +50,6 @@ def read_problem(
         if mesh is None:
             mesh = _mesh(path, content, repair=repair)
         return _problem(content, mesh)
-    except (TypeError, KeyError, IndexError) as error:
-        raise ValueError(f"{path}: an entry has the wrong form ({error})") from None
     except ValueError as error:
         message = str(error)
         raise ValueError(message if str(path) in message else f"{path}: {message}") from None
@@ -80,54 +80,35 @@ def _load(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path}: there is no such problem file") from None
     except (OSError, UnicodeDecodeError) as error:
         raise ValueError(f"{path}: cannot be read as a problem file ({error})") from None
-    except json.JSONDecodeError as error:
+    except (ValueError, RecursionError) as error:
         raise ValueError(f"{path}: not valid JSON: {error}") from None
-    if not isinstance(content, dict):
-        raise ValueError(f"{path}: a problem is a JSON object, got a {type(content).__name__}")
-    _refuse_unknown(content, _KEYS, str(path))
-    return content
+    return as_object(content, f"{path}: a problem", known=_KEYS)
 
 
-def _refuse_unknown(content: Mapping[str, Any], known: set[str], where: str) -> None:
-    for key in content:
-        if key not in known:
-            raise ValueError(
-                f"{where}: unknown entry '{key}'; known are {', '.join(sorted(known))}"
-            )
-
-
-def _entry(content: Mapping[str, Any], key: str) -> Any:
+def _entry(content: dict[str, Any], key: str) -> Any:
     if key not in content:
         raise ValueError(f"the entry '{key}' is missing")
     return content[key]
 
 
-def _number(value: Any, what: str) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"{what} must be a number, got {value!r}")
-    return float(value)
-
-
 def _bounds(value: Any, what: str) -> float | tuple[float, float, float]:
     if not isinstance(value, list):
-        return _number(value, what)
+        return as_number(value, what)
     if len(value) != 3:
         raise ValueError(f"{what} must be one number or three, got {len(value)}")
-    x, y, z = (_number(item, what) for item in value)
-    return x, y, z
+    return as_three(value, what)
 
 
-def _mesh(path: Path, content: Mapping[str, Any], *, repair: bool) -> TetMesh:
-    name = _entry(content, "mesh")
-    if not isinstance(name, str):
-        raise ValueError(f"'mesh' must be a path, got {name!r}")
-    return read_tets(path.parent / name, repair=repair)
+def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
+    return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
 
 
-def _problem(content: Mapping[str, Any], mesh: TetMesh) -> PosingProblem:
-    domain = _entry(content, "domain")
-    _refuse_unknown(domain, {"translation", "angle_degrees"}, "domain")
-    angle = np.deg2rad(_bounds(_entry(domain, "angle_degrees"), "domain.angle_degrees"))
+def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
+    domain = as_object(_entry(content, "domain"), "domain", known={"translation", "angle_degrees"})
+    degrees = _bounds(_entry(domain, "angle_degrees"), "domain.angle_degrees")
+    if np.max(degrees) > 180:
+        raise ValueError(f"domain.angle_degrees is {degrees}, but it must be at most 180")
+    angle = np.deg2rad(degrees)
     box = HandleBox(
         translation=_bounds(_entry(domain, "translation"), "domain.translation"),
         angle=float(angle) if angle.ndim == 0 else (angle[0], angle[1], angle[2]),
@@ -136,47 +117,60 @@ def _problem(content: Mapping[str, Any], mesh: TetMesh) -> PosingProblem:
         mesh,
         _handles(_entry(content, "handles"), mesh),
         material=_material(content.get("material", {})),
-        stiffness=_number(_entry(content, "stiffness"), "stiffness"),
+        stiffness=as_number(_entry(content, "stiffness"), "stiffness"),
         domain=box,
     )
 
 
-def _material(content: Mapping[str, Any]) -> StVK:
-    _refuse_unknown(content, {"model", "lam", "mu"}, "material")
+def _material(value: Any) -> StVK:
+    content = as_object(value, "material", known={"model", "lam", "mu"})
     model = content.get("model", "stvk")
     if model != "stvk":
         raise ValueError(f"material: unknown model '{model}'; known is stvk")
     return StVK(
-        lam=_number(content.get("lam", 1.0), "material.lam"),
-        mu=_number(content.get("mu", 1.0), "material.mu"),
+        lam=as_number(content.get("lam", 1.0), "material.lam"),
+        mu=as_number(content.get("mu", 1.0), "material.mu"),
     )
 
 
-def _handles(content: Any, mesh: TetMesh) -> Handles:
-    if not isinstance(content, list):
-        raise ValueError(f"'handles' must be a list, got a {type(content).__name__}")
-    names = [str(item.get("name", f"handle_{i}")) for i, item in enumerate(content)]
-    masks = [_mask(item, name, mesh) for item, name in zip(content, names, strict=True)]
+def _handles(value: Any, mesh: TetMesh) -> Handles:
+    known = {"name", "boxes", "spheres", "vertices"}
+    items = [
+        as_object(item, f"handles[{i}]", known=known)
+        for i, item in enumerate(as_list(value, "handles"))
+    ]
+    names = [
+        as_text(item.get("name", f"handle_{i}"), f"handles[{i}].name")
+        for i, item in enumerate(items)
+    ]
+    masks = [_mask(item, name, mesh) for item, name in zip(items, names, strict=True)]
     return Handles(masks, names=names)
 
 
-def _mask(item: Mapping[str, Any], name: str, mesh: TetMesh) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def _mask(item: dict[str, Any], name: str, mesh: TetMesh) -> _Mask:
+    """The union of a handle's boxes, spheres and vertices."""
     where = f"handle '{name}'"
-    _refuse_unknown(item, {"name", "boxes", "spheres", "vertices"}, where)
-    mask = np.zeros(len(mesh.vertices), dtype=bool)
+    mask = np.zeros(len(mesh.vertices), dtype=np.bool_)
     try:
-        for lower, upper in item.get("boxes", []):
-            mask |= in_box(mesh.vertices, lower, upper)
-        for center, radius in item.get("spheres", []):
+        for box in as_list(item.get("boxes", []), "boxes"):
+            mask |= _in_box(box, mesh)
+        for sphere in as_list(item.get("spheres", []), "spheres"):
+            center, radius = as_list(sphere, "a sphere", items=("center", "radius"))
+            center, radius = as_three(center, "a center"), as_number(radius, "a radius")
             mask |= in_sphere(mesh.vertices, center, radius)
-    except (ValueError, TypeError) as error:
+        for vertex in as_list(item.get("vertices", []), "vertices"):
+            mask[as_index(vertex, "a vertex", below=len(mask))] = True
+    except ValueError as error:
         raise ValueError(f"{where}: {error}") from None
-    for vertex in item.get("vertices", []):
-        if isinstance(vertex, bool) or not isinstance(vertex, int):
-            raise ValueError(f"{where}: a vertex must be an index, got {vertex!r}")
-        if not 0 <= vertex < len(mask):
-            raise ValueError(
-                f"{where}: vertex index {vertex} is out of range, the mesh has {len(mask)} vertices"
-            )
-        mask[vertex] = True
     return mask
+
+
+def _in_box(box: Any, mesh: TetMesh) -> _Mask:
+    lower, upper = (
+        [
+            None if bound is None else as_number(bound, "a corner")
+            for bound in as_list(corner, "a corner")
+        ]
+        for corner in as_list(box, "a box", items=("min corner", "max corner"))
+    )
+    return in_box(mesh.vertices, lower, upper)

@@ -35,7 +35,11 @@ class HandleQuadric:
         return float(q @ self.K @ q - 2.0 * linear @ q + constant)
 
     def leading(self, dimension: int) -> HandleQuadric:
-        """The form on the first coordinates."""
+        """The form on the first coordinates; ValueError unless there are that many."""
+        if not 1 <= dimension <= len(self.K):
+            raise ValueError(
+                f"HandleQuadric: dimension {dimension} is not between 1 and {len(self.K)}"
+            )
         K = np.ascontiguousarray(self.K[:dimension, :dimension])
         return HandleQuadric(K, np.ascontiguousarray(self.L[:, :dimension]), self.S)
 

@@ -78,12 +78,10 @@ class Checkpoint:
                 reports = [
                     SampleReport(**entry) for entry in json.loads(_metadata(path)["reports"])
                 ]
+                samples = zip(tensors["indices"], tensors["shapes"], reports, strict=True)
+                found.update({int(index): (shape, report) for index, shape, report in samples})
             except (SafetensorError, OSError, KeyError, ValueError, TypeError):
                 continue
-            for index, shape, report in zip(
-                tensors["indices"], tensors["shapes"], reports, strict=True
-            ):
-                found[int(index)] = (shape, report)
         return found
 
     def remove(self) -> None:

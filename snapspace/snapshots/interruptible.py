@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from concurrent.futures import Future, ThreadPoolExecutor
-from concurrent.futures import TimeoutError as StillRunning
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import Any
 
 from .. import _core as core
@@ -26,14 +25,13 @@ def run_interruptible(
     interrupted = False
     with ThreadPoolExecutor(max_workers=1) as pool:
         future: Future[Any] = pool.submit(solve, control)
-        while True:
+        done = False
+        while not done:
             try:
-                result = future.result(timeout=POLL_SECONDS)
-                break
-            except StillRunning:
-                on_progress(control.finished)
-            except KeyboardInterrupt:
+                done = future in wait([future], timeout=POLL_SECONDS).done
+                if not interrupted:
+                    on_progress(control.finished)
+            except KeyboardInterrupt:  # also one that arrives while progress is drawn
                 interrupted = True
                 control.cancel()
-    on_progress(control.finished)
-    return result, interrupted
+    return future.result(), interrupted

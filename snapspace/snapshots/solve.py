@@ -154,7 +154,9 @@ class _Run:
         missing = [i for i in wave if i not in self.reports]
         if not missing:
             return
-        starts = self._starts(wave.start, missing)
+        # for the whole wave: products with fewer rows round differently, and which samples are
+        # missing depends on where an earlier run was interrupted
+        starts = self._starts(wave)[np.subtract(missing, wave.start)]
         targets = np.stack(
             [
                 self.problem.target_displacements(self.problem.offsets(self.samples[i]))
@@ -177,16 +179,16 @@ class _Run:
         if interrupted:
             raise Interrupted(f"{len(self.reports)} of {total} samples are finished")
 
-    def _starts(self, before: int, missing: list[int]) -> FloatArray:
+    def _starts(self, wave: range) -> FloatArray:
         """Guesses from the converged samples before the wave, and from the rest shape at
         parameters zero.
         """
-        known = [i for i in range(before) if self.reports[i].converged]
+        known = [i for i in range(wave.start) if self.reports[i].converged]
         to_unit = self.problem.domain.to_unit
         parameters = to_unit(np.vstack([np.zeros(self.samples.shape[1]), self.samples[known]]))
         shapes = np.vstack([np.zeros(self.displacements.shape[1]), self.displacements[known]])
         guess = interpolated_start if self.options.solver == "fast" else nearest_start
-        return guess(parameters, shapes, to_unit(self.samples[missing]))
+        return guess(parameters, shapes, to_unit(self.samples[wave]))
 
     def _solve(self, targets: FloatArray, starts: FloatArray, control: Any) -> Any:
         options = self.options

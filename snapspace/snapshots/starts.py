@@ -34,9 +34,12 @@ def interpolated_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray
     evaluations than the nearest sample and half as many as the rest shape. Falls back on the
     nearest sample while there are too few samples to fix the interpolant's constant term.
     """
-    if len(known) < 2:
+    # the interpolant needs distinct points, but a sample may repeat another one or the rest pose
+    distinct = np.sort(np.unique(known.round(9), axis=0, return_index=True)[1])
+    if len(distinct) < 2:
         return nearest_start(known, shapes, wanted)
-    # the interpolant is linear in the data: one row of weights per wanted sample, applied to whole
-    # shapes
-    weights = RBFInterpolator(known, np.eye(len(known)), kernel="linear")(wanted)
+    # it is linear in the data: one row of weights per wanted sample, applied to whole shapes
+    weights = np.zeros((len(wanted), len(known)))
+    interpolant = RBFInterpolator(known[distinct], np.eye(len(distinct)), kernel="linear")
+    weights[:, distinct] = interpolant(wanted)
     return np.ascontiguousarray(weights @ shapes)

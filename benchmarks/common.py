@@ -1,0 +1,70 @@
+"""What the benchmarks share: the meshes' folder, tables, JSON, peak memory."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+import snapspace as ss
+from snapspace import generators
+
+
+def meshes_folder() -> Path:
+    """The folder of real meshes: SNAPSPACE_MESHES, or ../shared/meshes beside the checkout."""
+    default = Path(__file__).parent.parent.parent / "shared" / "meshes"
+    return Path(os.environ.get("SNAPSPACE_MESHES", default))
+
+
+def read_problem(name: str) -> ss.PosingProblem:
+    """A problem of the meshes' folder by name, or `creature:TETS`, which needs no folder."""
+    if name.startswith("creature"):
+        return creature_problem(int(name.partition(":")[2] or 25_000))
+    path = meshes_folder() / "problems" / f"{name}.json"
+    if not path.is_file():
+        sys.exit(f"{path} is missing: set SNAPSPACE_MESHES, or use --problem creature:25000")
+    return ss.read_problem(path)
+
+
+def creature_problem(tets: int) -> ss.PosingProblem:
+    """The generated creature, feet fixed, head moving."""
+    mesh = generators.creature(tets)
+    parts = generators.creature_handles(mesh)
+    handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
+    domain = ss.HandleBox(translation=0.3, angle=np.pi / 4)
+    return ss.PosingProblem(mesh, handles, domain=domain)
+
+
+def peak_memory_bytes() -> int:
+    """Largest resident size of this process so far."""
+    scale = 1 if sys.platform == "darwin" else 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * scale
+
+
+def progress(done: int, total: int) -> None:
+    """Samples done, on standard error."""
+    if sys.stderr.isatty():
+        print(f"\r{done}/{total} samples ", end="", file=sys.stderr, flush=True)
+
+
+def show(
+    title: str, rows: Sequence[tuple[str, Any, str]], result: dict[str, Any], as_json: bool
+) -> None:
+    """Prints rows (figure, measured, goal) as a table, or `result` as one JSON object."""
+    if as_json:
+        print(json.dumps(result))
+        return
+    table = Table("figure", "measured", "goal", title=title)
+    for figure, measured, goal in rows:
+        table.add_row(
+            figure, f"{measured:.4g}" if isinstance(measured, float) else str(measured), goal
+        )
+    Console().print(table)

@@ -1,0 +1,115 @@
+"""The pipeline on one problem: seconds per stage, memory, file size, errors, ms per frame.
+
+python benchmarks/pipeline.py --problem dragon --samples 300 --dimension 40
+"""
+
+from __future__ import annotations
+
+import argparse
+import tempfile
+import time
+from pathlib import Path
+
+import common
+import numpy as np
+
+import snapspace as ss
+
+PAPER = {  # table 1 and 2: samples, seconds for snapshots and coefficients, ms per frame, error
+    "dragon": "paper: 8121 s + 5162 s, 9.9 ms a frame, error 0.042",
+    "elephant": "paper: 3608 s + 5663 s, 21 ms a frame, error 0.009",
+}
+
+
+def drag(model: ss.ReducedModel, *, frames: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Milliseconds of solve and of solve + all vertices along a smooth path through the domain.
+
+    The path joins random parameters of the domain by straight lines, 60 frames each: a hand that
+    moves from one end of the box to another in a second.
+    """
+    corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
+    session = model.session()
+    session.pose(corners[0])
+    solve, frame = [], []
+    for k in range(frames):
+        a, b = corners[k // 60], corners[k // 60 + 1]
+        w = a + (b - a) * (k % 60) / 60.0
+        begin = time.perf_counter()
+        report = session.pose(w)
+        _ = session.vertices
+        frame.append(1e3 * (time.perf_counter() - begin))
+        solve.append(1e3 * report.seconds)
+    return np.array(solve), np.array(frame)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--problem", default="dragon")
+    parser.add_argument("--samples", type=int, default=300)
+    parser.add_argument("--dimension", type=int, default=40)
+    parser.add_argument("--validate", type=int, default=30, help="held-out samples")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+
+    problem = common.read_problem(args.problem)
+    laps = [time.perf_counter()]
+    parameters = ss.sample(problem.domain, args.samples, seed=args.seed)
+    snapshots = ss.solve_snapshots(problem, parameters, progress=common.progress)
+    laps.append(time.perf_counter())
+    subspace = ss.snapshot_pca(snapshots, dimension=args.dimension)
+    laps.append(time.perf_counter())
+    model = ss.reduce(problem, subspace, snapshots=snapshots)
+    laps.append(time.perf_counter())
+    peak = common.peak_memory_bytes()
+    with tempfile.TemporaryDirectory() as folder:
+        path = model.save(Path(folder) / "model.snapspace")
+        size = path.stat().st_size
+        model = ss.load(path)
+    solve, frame = drag(model, frames=600, seed=args.seed + 1)
+    validation = ss.validate(model, samples=args.validate, progress=common.progress)
+
+    stages = np.diff(laps)
+    errors = validation.as_json(model.dimension)
+    result = {
+        "problem": args.problem,
+        "vertices": len(problem.mesh.vertices),
+        "tets": len(problem.mesh.tets),
+        "samples": args.samples,
+        "converged": int(snapshots.converged.sum()),
+        "iterations_mean": float(np.mean([r.iterations for r in snapshots.reports])),
+        "evaluations_mean": float(np.mean([r.evaluations for r in snapshots.reports])),
+        "inverted_tets_max": max(r.inverted_tets for r in snapshots.reports),
+        "seconds": dict(zip(("snapshots", "basis", "reduction"), stages.tolist(), strict=True)),
+        "peak_memory_bytes": peak,
+        "model_bytes": size,
+        "drag_ms": {
+            "solve_median": float(np.median(solve)),
+            "frame_median": float(np.median(frame)),
+            "frame_p99": float(np.percentile(frame, 99)),
+        },
+        "validation": errors,
+    }
+    rows = [
+        ("vertices / tets", f"{result['vertices']} / {result['tets']}", ""),
+        ("samples converged", f"{result['converged']} of {args.samples}", ""),
+        ("iterations, mean", result["iterations_mean"], ""),
+        ("inverted tets, max", result["inverted_tets_max"], ""),
+        ("snapshots, s", float(stages[0]), "<= 480"),
+        ("basis + coefficients, s", float(stages[1] + stages[2]), "<= 60"),
+        ("peak memory, GiB", peak / 2**30, "<= 4"),
+        ("model file, MB", size / 1e6, "<= 60"),
+        ("projection error, median", errors["projection_error"]["median"], "<= 0.01"),
+        ("reduced error, mean", errors["error"]["mean"], ""),
+        ("reduced error, median", errors["error"]["median"], ""),
+        ("reduced error, max", errors["error"]["max"], ""),
+        ("energy ratio, median", errors["energy_ratio"]["median"], ""),
+        ("solve in a drag, ms median", float(np.median(solve)), ""),
+        ("frame in a drag, ms median", float(np.median(frame)), "<= 4"),
+        ("frame in a drag, ms 99 %", float(np.percentile(frame, 99)), ""),
+    ]
+    common.show(f"{args.problem}; {PAPER.get(args.problem, '')}", rows, result, args.json)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,5 @@
+"""`python -m snapspace` is `snapspace`."""
+
+from .cli import main
+
+raise SystemExit(main())

@@ -1,0 +1,65 @@
+"""What the user sees: one JSON object on standard output, everything else on standard error."""
+
+from __future__ import annotations
+
+import json
+import math
+import shlex
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+
+def console() -> Console:
+    """A console on the standard error of this moment."""
+    return Console(stderr=True, highlight=False)
+
+
+def notice(message: str) -> None:
+    """One line on standard error."""
+    click.echo(f"snapspace: {one_line(message)}", err=True)
+
+
+def one_line(message: str) -> str:
+    """The message without line breaks."""
+    return " ".join(line.strip() for line in message.splitlines() if line.strip())
+
+
+def print_json(content: dict[str, Any]) -> None:
+    """The result as one JSON object on standard output; a number that is not finite is null."""
+    click.echo(json.dumps(_finite(content), indent=2, allow_nan=False))
+
+
+def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
+    """A table of names and values on standard error."""
+    table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
+    table.add_column(style="dim", no_wrap=True)
+    table.add_column(overflow="fold")
+    for name, value in facts:
+        table.add_row(Text(name), Text(value))
+    screen = console()
+    screen.print(Text(title, style="bold"))
+    screen.print(table)
+
+
+def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:
+    """What to try next and the command for it, as a line that can be copied."""
+    click.echo("next:", err=True)
+    for purpose, words in commands:
+        click.echo(f"  # {purpose}", err=True)
+        click.echo(f"  {shlex.join(['snapspace', *map(str, words)])}", err=True)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(item) for item in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value

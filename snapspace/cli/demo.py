@@ -1,0 +1,139 @@
+"""`snapspace demo`: the whole pipeline on a generated creature."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+import click
+
+from ..generators import creature
+from ..mesh import write_tets
+from ..mesh.atomic_file import atomic_file
+from ..pictures import save_png
+from ..problem import read_problem
+from ..sampling import sample
+from ..snapshots import SolverOptions
+from ..validation import validate
+from .console import console, notice, print_json, print_next
+from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
+from .options import FILE, json_option, threads_option
+from .pipeline import build_model
+from .pose import write_shape
+from .progress import sample_progress
+from .recipe import Recipe, check_dimension
+from .summary import print_summary
+from .units import in_time
+from .validate import print_validation
+
+VALIDATION_SAMPLES = 10
+
+
+@click.command(short_help="Build and paint a model of a generated creature.")
+@click.option(
+    "--output",
+    type=FILE,
+    default=Path("snapspace-demo"),
+    show_default=True,
+    metavar="DIR",
+    help="Folder for the files.",
+)
+@click.option(
+    "--tets",
+    type=click.IntRange(5_000, 1_500_000),
+    default=20_000,
+    show_default=True,
+    help="Size of the creature.",
+)
+@click.option("--samples", type=click.IntRange(min=1), default=300, show_default=True)
+@click.option("--dimension", type=click.IntRange(min=1), default=40, show_default=True)
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@threads_option
+@json_option
+def demo(
+    output: Path,
+    tets: int,
+    samples: int,
+    dimension: int,
+    seed: int,
+    threads: int | None,
+    as_json: bool,
+) -> None:
+    """Build a model of a generated creature, validate it, and paint some of its poses.
+
+    Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.png
+    (a contact sheet) and creature.obj (one pose).
+
+    \b
+    Example:
+      snapspace demo --output creature --tets 50000
+    """
+    begin = time.perf_counter()
+    files = {
+        kind: output / f"creature.{kind}" for kind in ("msh", "json", "snapspace", "png", "obj")
+    }
+    check_dimension(dimension, samples)
+    _make_folder(output)
+    with console().status("generating the creature"):
+        write_tets(files["msh"], creature(tets))
+    with atomic_file(files["json"]) as path:
+        path.write_text(json.dumps(PROBLEM, indent=1) + "\n", encoding="utf-8")
+
+    problem = read_problem(files["json"])
+    recipe = Recipe(
+        parameters=sample(problem.domain, samples, seed=seed),
+        sampling={"method": "random", "samples": samples, "seed": seed, "scramble": True},
+        solver=SolverOptions(),
+        dimension=dimension,
+        threads=threads,
+    )
+    source = {"problem": files["json"].name, "mesh": files["msh"].name}
+    built = build_model(problem, recipe, files["snapspace"], source=source, begin=begin)
+    print_summary(built, include_unconverged=False)
+    with sample_progress("full solutions", total=VALIDATION_SAMPLES) as progress:
+        validation = validate(
+            built.model, samples=VALIDATION_SAMPLES, threads=threads, progress=progress
+        )
+    print_validation(validation, dimension, asked=VALIDATION_SAMPLES)
+
+    with console().status("painting"):
+        shapes = posed_shapes(built.model)
+        save_png(files["png"], contact_sheet(built.model, shapes))
+    write_shape(files["obj"], problem.mesh, shapes[POSE_OF_OBJ])
+    seconds = time.perf_counter() - begin
+    notice(f"done in {in_time(seconds)}: {', '.join(str(path) for path in files.values())}")
+    print_next(_suggestions(files))
+    if as_json:
+        print_json(
+            {
+                "folder": str(output),
+                "files": {kind: str(path) for kind, path in files.items()},
+                "build": built.as_json(),
+                "validation": validation.as_json(dimension),
+                "seconds": seconds,
+            }
+        )
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(
+            f"{folder}: cannot make the folder ({error.strerror}); give another --output"
+        ) from None
+
+
+def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
+    model, folder = files["snapspace"], files["obj"].parent
+    head = ["--handle", "head", "--euler", "0,-30,20", "--translate", "0.1,0,0.1"]
+    tail = ["--handle", "tail", "--euler", "-35,0,20", "--translate", "0,-0.3,0"]
+    outputs = ["-o", str(folder / "mine.obj"), "--png", str(folder / "mine.png")]
+    finer = ["--samples", "600", "--dimension", "60", "-o", str(folder / "finer.snapspace")]
+    return [
+        ("a pose of your own", ["pose", model, *head, *tail, *outputs]),
+        ("more about its error", ["validate", model, "--samples", "30"]),
+        ("what is in it and how it was made", ["info", model]),
+        ("a more accurate one", ["build", "--problem", files["json"], *finer]),
+    ]

@@ -1,0 +1,108 @@
+"""The program `snapspace`: its commands, and what becomes of errors."""
+
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import click
+
+from .. import __version__
+from ..mesh import MeshNotice
+from .build import build
+from .console import notice, one_line
+from .demo import demo
+from .info import info
+from .pose import pose
+from .validate import validate
+
+OK, USER_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 2, 130, 141
+
+
+@click.group(
+    invoke_without_command=True,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+@click.version_option(__version__, prog_name="snapspace", message="%(prog)s %(version)s")
+@click.pass_context
+def snapspace(ctx: click.Context) -> None:
+    """Pose elastic meshes live: sample a shape problem, keep the best small space, solve in it.
+
+    \b
+    Try it:
+      snapspace demo                                     # a creature, ready to pose
+    With a mesh of your own:
+      snapspace build --problem dragon.json -o dragon.snapspace
+      snapspace validate dragon.snapspace
+      snapspace pose dragon.snapspace --handle head --euler 0,0,30 -o posed.obj
+
+    With --json a command prints one JSON object on standard output; everything else goes to
+    standard error. Exit codes: 0 done, 2 a mistake in the input, 130 interrupted.
+    """
+    if ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
+
+
+for command in (demo, build, validate, pose, info):
+    snapspace.add_command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Runs the program and returns its exit code.
+
+    Mistakes of the user (ValueError from the library, wrong usage) become one line on standard
+    error. Anything else is a fault of ours and keeps its traceback.
+    """
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        with _notices(), snapspace.make_context("snapspace", words) as ctx:
+            snapspace.invoke(ctx)
+        sys.stdout.flush()
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except click.ClickException as error:
+        return _refuse(_usage(error))
+    except ValueError as error:
+        return _refuse(str(error))
+    except MemoryError as error:
+        return _refuse(f"not enough memory ({error}); take fewer samples or a smaller dimension")
+    except (KeyboardInterrupt, click.Abort) as stop:
+        notice(f"interrupted{': ' if str(stop) else ''}{stop}")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # the reader has gone; Python would complain again when it closes the pipe
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return BROKEN_PIPE
+    return OK
+
+
+def _refuse(message: str) -> int:
+    notice(f"error: {message}")
+    return USER_ERROR
+
+
+def _usage(error: click.ClickException) -> str:
+    message = one_line(error.format_message()).rstrip(".")
+    ctx = getattr(error, "ctx", None)
+    return f"{message}; see '{ctx.command_path} --help'" if ctx else message
+
+
+@contextmanager
+def _notices() -> Iterator[None]:
+    """Shows each `MeshNotice` as one line."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("always", MeshNotice)
+        ordinary = warnings.showwarning
+
+        def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
+            if issubclass(category, MeshNotice):
+                notice(f"notice: {message}")
+            else:
+                ordinary(message, category, *where, **to)
+
+        warnings.showwarning = show
+        yield

@@ -1,0 +1,73 @@
+"""Figures of model files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model_file import load
+from .mesh_info import Info, mesh_facts, mesh_figures
+from .problem_info import problem_facts, problem_figures
+from .units import in_bytes, in_time
+
+_DIMENSIONS = (1, 2, 5, 10, 20, 30, 40, 60, 80, 100, 150, 200, 300)
+
+
+def model_info(file: Path) -> Info:
+    """JSON content and facts of a model file; ValueError if it is not one."""
+    model = load(file)
+    subspace = model.subspace
+    figures: dict[str, Any] = {
+        "kind": "model",
+        "bytes": file.stat().st_size,
+        "dimension": model.dimension,
+        "samples": len(model.training_parameters),
+        "energy_fraction": subspace.energy_fraction,
+        "lumped_mass": bool(subspace.mass.nnz == len(model.problem.mesh.vertices)),
+        "eigenvalues": subspace.eigenvalues.tolist(),
+        **problem_figures(model.problem),
+        "mesh": mesh_figures(model.problem.mesh),
+        "provenance": model.provenance,
+    }
+    facts = [
+        ("dimension", f"{model.dimension}, from {figures['samples']} snapshots"),
+        ("not captured", _decay(subspace.eigenvalues, model.dimension)),
+        ("file", in_bytes(figures["bytes"])),
+        *problem_facts(figures),
+        *mesh_facts(figures["mesh"]),
+        *_provenance_facts(model.provenance),
+    ]
+    return figures, facts
+
+
+def _decay(eigenvalues: NDArray[np.float64], dimension: int) -> str:
+    """The snapshots' relative error beyond d modes: the root of the share of their energy."""
+    tails = np.cumsum(eigenvalues[::-1])[::-1] / eigenvalues.sum()
+    shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
+    errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)
+    return ", ".join(f"{_percent(error)} at d = {d}" for d, error in errors)
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %"
+
+
+def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """What is recorded, for models of any origin: entries that are not there are left out."""
+    facts = []
+    for key in ("problem", "mesh"):
+        if isinstance(record.get(key), str):
+            facts.append((f"{key} file", record[key]))
+    for key in ("sampling", "solver", "versions"):
+        if isinstance(record.get(key), dict):
+            facts.append((key, ", ".join(f"{name} {value}" for name, value in record[key].items())))
+    snapshots, seconds = record.get("snapshots"), record.get("seconds")
+    if isinstance(snapshots, dict) and "summary" in snapshots:
+        facts.append(("snapshots", str(snapshots["summary"])))
+    if isinstance(seconds, dict):
+        times = (f"{name} {in_time(float(value))}" for name, value in seconds.items())
+        facts.append(("time", ", ".join(times)))
+    return facts

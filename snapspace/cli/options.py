@@ -1,0 +1,71 @@
+"""Options that several commands share, and the values they take."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+Vector = tuple[float, float, float]
+
+FILE = click.Path(path_type=Path)
+
+
+def parse_vector(text: str) -> Vector:
+    """Three finite numbers with commas or spaces between them, such as -10,0,0; else ValueError."""
+    words = text.split(",") if "," in text else text.split()
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        raise ValueError(f"'{text}' is not three numbers such as 0,0,30") from None
+    if len(numbers) != 3:
+        raise ValueError(f"'{text}' has {len(numbers)} of three numbers, such as 0,0,30")
+    if not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"'{text}' is not finite")
+    return numbers[0], numbers[1], numbers[2]
+
+
+def vector_option(name: str, text: str) -> Callable[[Command], Command]:
+    """An option that may be repeated, whose values are vectors."""
+
+    def parse(ctx: click.Context, option: click.Parameter, values: Sequence[str]) -> list[Vector]:
+        try:
+            return [parse_vector(value) for value in values]
+        except ValueError as error:
+            raise click.BadParameter(str(error), ctx, option) from None
+
+    return click.option(name, multiple=True, metavar="X,Y,Z", callback=parse, help=text)
+
+
+def json_option(command: Command) -> Command:
+    """--json as the parameter as_json."""
+    return click.option(
+        "--json",
+        "as_json",
+        is_flag=True,
+        help="Print the result as one JSON object on standard output.",
+    )(command)
+
+
+def threads_option(command: Command) -> Command:
+    """--threads, None for all."""
+    return click.option(
+        "--threads",
+        type=click.IntRange(min=1),
+        metavar="N",
+        help="Threads [default: all]. The result does not depend on them.",
+    )(command)
+
+
+def leading_option(command: Command) -> Command:
+    """--dimension of a model that exists already."""
+    return click.option(
+        "--dimension",
+        type=click.IntRange(min=1),
+        metavar="D",
+        help="Use only the first D modes of the model [default: all].",
+    )(command)

@@ -1,0 +1,165 @@
+"""From a problem to a model file, with progress, a checkpoint and a record of how it was made."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..problem import PosingProblem
+from ..reduction import ReducedModel, reduce
+from ..snapshots import (
+    Checkpoint,
+    Snapshots,
+    run_key,
+    solve_snapshots,
+    solver_key,
+)
+from ..subspace import AffineSubspace, snapshot_pca
+from .console import console, notice
+from .memory import peak_memory_bytes
+from .progress import sample_progress
+from .recipe import Recipe, provenance
+
+
+@dataclass(frozen=True)
+class Built:
+    """A model, the snapshots it comes from, its file, and seconds by stage."""
+
+    model: ReducedModel
+    snapshots: Snapshots
+    path: Path
+    seconds: dict[str, float]
+
+    def as_json(self) -> dict[str, Any]:
+        """The figures with the keys of `snapspace build --json`."""
+        problem, reports = self.model.problem, self.snapshots.reports
+        return {
+            "vertices": len(problem.mesh.vertices),
+            "tets": len(problem.mesh.tets),
+            "parameters": problem.dimension,
+            "samples": len(self.snapshots),
+            "dimension": self.model.dimension,
+            "energy_fraction": self.model.subspace.energy_fraction,
+            "seconds": self.seconds,
+            "snapshots": {
+                "converged": int(self.snapshots.converged.sum()),
+                "iterations_mean": float(np.mean([report.iterations for report in reports])),
+                "inverted_tets_max": max(report.inverted_tets for report in reports),
+            },
+            "model_bytes": self.path.stat().st_size,
+            "peak_memory_bytes": peak_memory_bytes(),
+        }
+
+
+def build_model(
+    problem: PosingProblem,
+    recipe: Recipe,
+    output: Path,
+    *,
+    source: dict[str, Any],
+    begin: float | None = None,
+) -> Built:
+    """Solves the samples, makes subspace and reduced model, and writes the model file.
+
+    Finished samples are in a folder beside `output` until the file is written; the same call goes
+    on from them.
+
+    Parameters
+    ----------
+    problem, recipe : what to build
+    output : Path
+        Checked by the caller, since this takes long.
+    source : dict
+        Names of the problem's and the mesh's file, for the record.
+    begin : float, optional
+        `time.perf_counter()` when the work began, for the total. Default: now.
+
+    Raises
+    ------
+    ValueError
+        If the basis cannot be made; the samples are kept.
+    KeyboardInterrupt
+        On Ctrl-C, with a line that says what is kept.
+    """
+    begin = time.perf_counter() if begin is None else begin
+    key = run_key(problem, recipe.parameters, solver_key(recipe.solver))
+    checkpoint = Checkpoint.beside(output, key)
+    seconds: dict[str, float] = {}
+    try:
+        with _stage(seconds, "snapshots"):
+            snapshots = _solved(problem, recipe, checkpoint)
+        with _stage(seconds, "basis"), console().status("basis"):
+            subspace = _subspace(snapshots, recipe)
+        with _stage(seconds, "reduction"), console().status("reduced energy"):
+            usable = np.ones(len(snapshots), bool)
+            if not recipe.include_unconverged:
+                usable = snapshots.converged
+            model = reduce(
+                problem, subspace, snapshots=snapshots.select(usable), threads=recipe.threads
+            )
+        record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
+        model = replace(model, provenance=record)
+        model.save(output)
+    except KeyboardInterrupt:
+        kept = len(checkpoint.load())
+        raise KeyboardInterrupt(_resume_line(kept, len(recipe.parameters))) from None
+    checkpoint.remove()
+    seconds["total"] = time.perf_counter() - begin
+    return Built(model, snapshots, output, seconds)
+
+
+def _solved(problem: PosingProblem, recipe: Recipe, checkpoint: Checkpoint) -> Snapshots:
+    total, found = len(recipe.parameters), len(checkpoint.load())
+    if found:
+        notice(f"resuming: {found} of {total} samples were finished before")
+    for folder in checkpoint.folder.parent.iterdir():
+        other_run = folder.name.startswith(checkpoint.folder.name.rpartition("-")[0] + "-")
+        if other_run and folder != checkpoint.folder:
+            notice(f"notice: {folder} holds samples of other options; delete it if not needed")
+    with sample_progress("snapshots", done=found, total=total) as progress:
+        return solve_snapshots(
+            problem,
+            recipe.parameters,
+            options=recipe.solver,
+            threads=recipe.threads,
+            progress=progress,
+            checkpoint=checkpoint,
+        )
+
+
+def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:
+    try:
+        return snapshot_pca(
+            snapshots,
+            dimension=recipe.dimension,
+            energy_fraction=recipe.energy_fraction,
+            lumped=recipe.lumped,
+            include_unconverged=recipe.include_unconverged,
+        )
+    except ValueError as error:
+        hint = ""
+        if not recipe.include_unconverged and not snapshots.converged.all():
+            hint = " or with --include-unconverged"
+        raise ValueError(
+            f"{error} ({snapshots.summary()}; they are kept, so the same command with another "
+            f"--dimension{hint} takes seconds)"
+        ) from None
+
+
+@contextmanager
+def _stage(seconds: dict[str, float], name: str) -> Iterator[None]:
+    begin = time.perf_counter()
+    yield
+    seconds[name] = time.perf_counter() - begin
+
+
+def _resume_line(kept: int, total: int) -> str:
+    if not kept:
+        return f"none of {total} samples was finished yet"
+    return f"{kept} of {total} samples are kept; the same command goes on from there"

@@ -1,0 +1,142 @@
+"""`snapspace pose`: one pose of a model as a file."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import TetMesh, write_surface, write_tets
+from ..mesh.input_path import writable_path
+from ..pictures import render, save_png, tint
+from ..reduction import ReducedModel
+from .console import notice, print_facts, print_json
+from .files import SURFACE_OUTPUTS, TET_OUTPUTS
+from .loading import load_leading
+from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
+from .options import FILE, json_option, leading_option, vector_option
+
+
+@click.command(cls=MotionCommand, short_help="Move handles and write the shape.")
+@click.argument("model_file", type=FILE, metavar="M.snapspace")
+@click.option("--handle", multiple=True, metavar="NAME", help="Handle to move; repeat for more.")
+@vector_option(
+    "--euler",
+    "Angles in degrees about the fixed axes x, y, z (in this order).",
+)
+@vector_option("--translate", "Translation in the mesh's unit of length.")
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="FILE",
+    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh.",
+)
+@click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
+@click.option(
+    "--up",
+    type=click.Choice(["x", "y", "z"]),
+    default="z",
+    show_default=True,
+    help="Axis that points up in the picture.",
+)
+@leading_option
+@json_option
+@click.pass_context
+def pose(
+    ctx: click.Context,
+    /,
+    model_file: Path,
+    output: Path | None,
+    png: Path | None,
+    up: str,
+    dimension: int | None,
+    as_json: bool,
+    **_: Any,
+) -> None:
+    """Move handles and write the shape.
+
+    Motions are from rest and about the handle's centroid. Each --euler and --translate belongs to
+    the --handle before it; handles that are not named stay at rest.
+
+    \b
+    Examples:
+      snapspace pose dragon.snapspace --handle head --euler 0,0,30 --translate 0,0,1 -o out.obj
+      snapspace pose hand.snapspace --handle thumb --euler -20,0,0 --handle index --euler 30,0,0 \\
+          -o hand.vtu --png hand.png
+    """
+    motions = motions_in_order(ctx)
+    _check_outputs(output, png)
+    model = load_leading(model_file, dimension)
+    problem = model.problem
+    parameters, carrier = as_parameters(problem, motions)
+    for name in beyond_domain(problem, parameters):
+        notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
+
+    session = model.session()
+    begin = time.perf_counter()
+    report = session.pose(parameters)
+    vertices = session.vertices @ carrier[:, :3].T + carrier[:, 3]
+    frame_ms = 1e3 * (time.perf_counter() - begin)
+    if not report.converged:
+        notice(f"notice: the solve ended with {report.status}; the shape may be poor")
+    figures: dict[str, Any] = {
+        "status": report.status,
+        "iterations": report.iterations,
+        "evaluations": report.evaluations,
+        "value": report.value,
+        "gradient_norm": report.gradient_norm,
+        "solve_ms": 1e3 * report.seconds,
+        "frame_ms": frame_ms,
+        "inverted_tets": problem.energy.inverted_tets(vertices),
+        "dimension": model.dimension,
+        "output": None if output is None else str(output),
+        "png": None if png is None else str(png),
+    }
+    if output is not None:
+        write_shape(output, problem.mesh, vertices)
+    if png is not None:
+        save_png(png, _picture(model, vertices, up))
+    _print_report(figures)
+    if as_json:
+        print_json(figures)
+
+
+def write_shape(path: Path, mesh: TetMesh, vertices: NDArray[np.float64]) -> None:
+    """Writes a pose (n, 3) of a mesh: its surface or its tets, by the extension."""
+    if path.suffix.lower() in SURFACE_OUTPUTS:
+        write_surface(path, vertices, mesh.surface)
+    else:
+        write_tets(path, mesh, vertices=vertices)
+
+
+def _check_outputs(output: Path | None, png: Path | None) -> None:
+    """ValueError unless the files can be written: before anything is."""
+    if output is not None:
+        writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
+    if png is not None:
+        writable_path(png, known=(".png",))
+
+
+def _picture(model: ReducedModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
+    problem = model.problem
+    colors = tint(len(vertices), [handle.vertices for handle in problem.handles])
+    return render(vertices, problem.mesh.surface, colors=colors, up=up)
+
+
+def _print_report(figures: dict[str, Any]) -> None:
+    facts = [
+        ("status", f"{figures['status']} after {figures['iterations']} iterations"),
+        ("energy", f"{figures['value']:.6g}"),
+        ("inverted tets", str(figures["inverted_tets"])),
+        ("solve", f"{figures['solve_ms']:.2f} ms, with all vertices {figures['frame_ms']:.2f} ms"),
+    ]
+    written = [name for name in (figures["output"], figures["png"]) if name]
+    facts.append(
+        ("written", ", ".join(written) or "nothing; -o FILE or --png FILE keeps the shape")
+    )
+    print_facts("posed", facts)

@@ -1,0 +1,79 @@
+"""Recipe: what a build does with a problem, and the record of it in the model."""
+
+from __future__ import annotations
+
+import platform
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy
+from numpy.typing import NDArray
+
+from .. import __version__, _core
+from ..snapshots import Snapshots, SolverOptions, solver_key
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recipe:
+    """What to do with a problem.
+
+    parameters : (k, p) samples
+    sampling : how they were chosen, for the record
+    solver : SolverOptions
+    dimension, energy_fraction : one of them; see `snapshot_pca`
+    lumped, include_unconverged : as for `snapshot_pca`
+    threads : None for all
+    """
+
+    parameters: NDArray[np.float64]
+    sampling: dict[str, Any]
+    solver: SolverOptions
+    dimension: int | None
+    energy_fraction: float | None = None
+    lumped: bool = False
+    include_unconverged: bool = False
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        if (self.dimension is None) == (self.energy_fraction is None):
+            raise ValueError("give either --dimension or --energy-fraction")
+        if self.dimension is not None:
+            check_dimension(self.dimension, len(self.parameters))
+        if self.energy_fraction is not None and not 0 < self.energy_fraction <= 1:
+            raise ValueError(f"energy fraction is {self.energy_fraction}, but must be in (0, 1]")
+
+
+def check_dimension(dimension: int, samples: int) -> None:
+    """ValueError if there are fewer samples than modes."""
+    if dimension > samples:
+        raise ValueError(
+            f"dimension {dimension} needs at least as many samples, but there are {samples}; raise "
+            "--samples or lower --dimension"
+        )
+
+
+def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
+    """What made the model; no names of machines or people."""
+    return {
+        "versions": {
+            "snapspace": __version__,
+            "python": platform.python_version(),
+            "numpy": np.__version__,
+            "scipy": scipy.__version__,
+            "core": _core.level,
+        },
+        "sampling": recipe.sampling,
+        "solver": solver_key(recipe.solver),
+        "basis": {
+            "dimension": recipe.dimension,
+            "energy_fraction": recipe.energy_fraction,
+            "lumped": recipe.lumped,
+            "include_unconverged": recipe.include_unconverged,
+        },
+        "snapshots": {
+            "solved": len(snapshots),
+            "converged": int(snapshots.converged.sum()),
+            "summary": snapshots.summary(),
+        },
+    }

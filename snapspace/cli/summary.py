@@ -1,0 +1,38 @@
+"""What `build` and `demo` say at the end."""
+
+from __future__ import annotations
+
+from .console import print_facts
+from .pipeline import Built
+from .units import in_bytes, in_time
+
+
+def print_summary(built: Built, *, include_unconverged: bool) -> None:
+    """What was built, on standard error."""
+    figures = built.as_json()
+    snapshots = figures["snapshots"]
+    left_out = len(built.snapshots) - snapshots["converged"]
+    facts = [
+        ("mesh", f"{figures['vertices']} vertices, {figures['tets']} tets"),
+        ("samples", built.snapshots.summary()),
+    ]
+    if left_out:
+        what = "used all the same" if include_unconverged else "left out of the basis"
+        facts.append(("", f"{left_out} unconverged, {what}"))
+    seconds = ", ".join(f"{name} {in_time(value)}" for name, value in built.seconds.items())
+    facts += [
+        (
+            "subspace",
+            f"dimension {figures['dimension']}, holds {_percent(figures['energy_fraction'])} of "
+            "the snapshots' energy",
+        ),
+        ("time", seconds),
+        ("memory", f"{in_bytes(figures['peak_memory_bytes'])} at the most"),
+        ("model", f"{built.path}, {in_bytes(figures['model_bytes'])}"),
+    ]
+    print_facts("built", facts)
+
+
+def _percent(share: float) -> str:
+    """As many digits as tell the share from 100 %."""
+    return f"{100 * share:.6g} %"

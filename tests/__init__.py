@@ -1,0 +1,1 @@
+"""Tests; a package, so that the rooms can share `shapes` and `taylor`."""

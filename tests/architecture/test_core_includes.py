@@ -1,0 +1,104 @@
+"""The core's include graph, and the room that must compile alone: core/online."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+CORE = Path(__file__).parents[2] / "core"
+
+#: What a room's files may include of the project, besides their own room.
+ALLOWED: dict[str, set[str]] = {
+    "mesh": set(),
+    "simd": set(),
+    "threads": set(),
+    "online": set(),
+    "energy": {"mesh", "simd"},
+    "snapshots": {"mesh", "energy", "simd", "threads"},
+    "reduction": {"mesh", "energy", "online", "threads"},
+    "bindings": {"mesh", "energy", "snapshots", "reduction", "online", "simd", "threads"},
+}
+
+#: core/online is meant for WebAssembly too: no threads, files, output, exceptions, Eigen.
+ONLINE_MAY_INCLUDE = {
+    "algorithm", "array", "cmath", "cstddef", "cstdint", "limits", "memory", "numeric", "span",
+    "utility", "vector",
+}  # fmt: skip
+
+
+def sources(folder: Path) -> list[Path]:
+    return sorted([*folder.rglob("*.h"), *folder.rglob("*.cpp")])
+
+
+def name(path: Path) -> str:
+    return path.relative_to(CORE).as_posix()
+
+
+def included(path: Path, pattern: str) -> list[str]:
+    return re.findall(rf"^\s*#\s*include\s+{pattern}", path.read_text(encoding="utf-8"), re.M)
+
+
+def code(path: Path) -> str:
+    """A file's text without comments and strings."""
+    text = path.read_text(encoding="utf-8")
+    return re.sub(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', " ", text, flags=re.S)
+
+
+@pytest.mark.parametrize("path", sources(CORE), ids=name)
+def test_includes_point_one_way(path: Path) -> None:
+    own = path.relative_to(CORE).parts[0]
+    for target in included(path, r'"([^"]+)"'):
+        assert (CORE / target).is_file(), f"{name(path)} includes {target}, which is not in core"
+        room = target.split("/")[0]
+        assert room == own or room in ALLOWED[own], f"{name(path)} includes {target}"
+
+
+def test_every_room_has_its_place() -> None:
+    assert {path.relative_to(CORE).parts[0] for path in sources(CORE)} == set(ALLOWED)
+
+
+@pytest.mark.parametrize("path", sources(CORE / "online"), ids=name)
+def test_online_needs_numbers_and_memory_only(path: Path) -> None:
+    assert set(included(path, r"<([^>]+)>")) <= ONLINE_MAY_INCLUDE
+    for word in ("throw", "try", "catch", "thread_local", "std::cout", "printf", "fopen"):
+        assert not re.search(rf"\b{re.escape(word)}\b", code(path)), f"{name(path)}: {word}"
+
+
+@pytest.mark.parametrize("path", sources(CORE), ids=name)
+def test_headers_are_guarded_and_nothing_prints(path: Path) -> None:
+    if path.suffix == ".h":
+        assert "#pragma once" in path.read_text(encoding="utf-8")
+    assert not set(included(path, r"<([^>]+)>")) & {"iostream", "fstream", "cstdio", "omp.h"}
+
+
+@cache
+def compiler() -> list[str]:
+    """The C++ compiler that also builds the package."""
+    wanted = os.environ.get("CXX")
+    if wanted:
+        return shlex.split(wanted)
+    for candidate in ("c++", "g++", "clang++"):
+        if shutil.which(candidate):
+            return [candidate]
+    pytest.fail("no C++ compiler found (CXX, c++, g++, clang++): building snapspace needs one")
+
+
+@pytest.mark.parametrize("path", sources(CORE / "online"), ids=name)
+def test_online_compiles_alone(path: Path) -> None:
+    """Without Eigen, Python or exceptions, and every header by itself."""
+    options = ["-std=c++20", "-fsyntax-only", "-fno-exceptions", f"-I{CORE}", "-x", "c++", "-"]
+    finished = subprocess.run(
+        [*compiler(), *options],
+        input=f'#include "{name(path)}"\n',
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert finished.returncode == 0, finished.stderr

@@ -1,0 +1,139 @@
+"""Dependencies point one way, as the design says; read from the imports themselves."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+PACKAGE = Path(__file__).parents[2] / "snapspace"
+
+#: What the modules of a room may import when they are loaded, besides their own room.
+ALLOWED: dict[str, set[str]] = {
+    "_core": {"_cpu_level"},
+    "mesh": set(),
+    "sampling": set(),
+    "pictures": set(),
+    "generators": {"mesh"},
+    "energy": {"_core", "mesh"},
+    "problem": {"_core", "mesh", "energy"},
+    "snapshots": {"_core", "mesh", "energy", "problem"},
+    "subspace": {"_core", "mesh", "snapshots"},
+    "reduction": {"_core", "mesh", "energy", "problem", "snapshots", "subspace"},
+    "model_file": {"mesh", "energy", "problem", "snapshots", "subspace", "reduction"},
+    "session": {"_core", "mesh", "problem", "reduction", "subspace"},
+    "validation": {"mesh", "problem", "snapshots", "subspace", "reduction", "session", "sampling"},
+}
+
+#: `model.session()` and `model.save()` reach up, inside of the method, for the user's comfort.
+REACHING_UP = {("reduction", "session"), ("reduction", "model_file")}
+
+#: The top: may import everything, and nothing may import it.
+TOP = {"cli", "__main__", "__init__"}
+
+
+def room(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py").removesuffix(".pyi")
+
+
+def modules() -> list[Path]:
+    return sorted(path for path in PACKAGE.rglob("*.py") if "__pycache__" not in path.parts)
+
+
+def imported(node: ast.stmt, path: Path) -> Iterator[str]:
+    """Rooms of this package that an import statement names; '' for the package itself."""
+    package = ("snapspace", *path.relative_to(PACKAGE).parent.parts)
+    if isinstance(node, ast.Import):
+        targets = [alias.name.split(".") for alias in node.names]
+    elif isinstance(node, ast.ImportFrom):
+        base = list(package[: len(package) - node.level + 1]) if node.level else []
+        base += node.module.split(".") if node.module else []
+        targets = [[*base, alias.name] for alias in node.names]
+    else:
+        return
+    for target in targets:
+        if target[0] == "snapspace":
+            name = target[1] if len(target) > 1 else ""
+            known = (PACKAGE / name).is_dir() or (PACKAGE / f"{name}.py").is_file()
+            yield name if known or name == "_cpu_level" else ""
+
+
+def statements(path: Path) -> Iterator[tuple[ast.stmt, bool]]:
+    """All imports of a module, and whether they run (or are checked) later than at its loading."""
+
+    def walk(node: ast.AST, later: bool) -> Iterator[tuple[ast.stmt, bool]]:
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.Import | ast.ImportFrom):
+                yield child, later
+            in_function = isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+            for_types = isinstance(child, ast.If) and "TYPE_CHECKING" in ast.dump(child.test)
+            yield from walk(child, later or in_function or for_types)
+
+    yield from walk(ast.parse(path.read_text(encoding="utf-8")), False)
+
+
+def violations(path: Path) -> list[str]:
+    """Imports of a module that point the wrong way, as 'file:line: room imports room'."""
+    own = room(path)
+    found = []
+    for node, later in statements(path):
+        for target in imported(node, path):
+            fine = target == own or target in ALLOWED[own]
+            fine = fine or (later and (own, target) in REACHING_UP)
+            if not fine:
+                where = f"{path.relative_to(PACKAGE.parent)}:{node.lineno}"
+                found.append(f"{where}: {own} imports {target or 'the whole package'}")
+    return found
+
+
+@pytest.mark.parametrize("path", modules(), ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_imports_point_one_way(path: Path) -> None:
+    if room(path) not in TOP:
+        assert violations(path) == []
+
+
+def test_every_room_has_its_place() -> None:
+    """A new room is put into the table above, or the check would pass over it."""
+    rooms = {room(path) for path in modules()}
+    assert rooms - TOP == set(ALLOWED)
+
+
+def test_the_table_has_no_cycle() -> None:
+    """Else 'one way' would mean nothing."""
+    left = {name: set(below) for name, below in ALLOWED.items()}
+    while left:
+        free = [name for name, below in left.items() if not below & set(left)]
+        assert free, f"a cycle among {sorted(left)}"
+        for name in free:
+            del left[name]
+
+
+def test_nothing_imports_the_top() -> None:
+    for path in modules():
+        if room(path) not in TOP:
+            for node, _ in statements(path):
+                assert not set(imported(node, path)) & (TOP | {""}), path
+
+
+@pytest.mark.parametrize(
+    ("module", "line", "problem"),
+    [
+        ("mesh/read.py", "from ..problem import Handles", "mesh imports problem"),
+        ("energy/material.py", "import snapspace.snapshots.solve", "energy imports snapshots"),
+        ("sampling.py", "from .problem.handle_box import HandleBox", "sampling imports problem"),
+        ("generators/bar.py", "from snapspace import TetMesh", "generators imports the whole p"),
+        ("snapshots/solve.py", "from .. import subspace", "snapshots imports subspace"),
+        ("reduction/quartic.py", "from ..session import Session", "reduction imports session"),
+        ("session.py", "def f():\n    from .validation import validate", "session imports valid"),
+    ],
+)
+def test_the_check_sees_a_wrong_import(
+    monkeypatch: pytest.MonkeyPatch, module: str, line: str, problem: str
+) -> None:
+    path = PACKAGE / module
+    assert violations(path) == []
+    monkeypatch.setattr(Path, "read_text", lambda self, encoding: line)
+    (found,) = violations(path)
+    assert problem in found

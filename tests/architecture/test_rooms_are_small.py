@@ -1,0 +1,28 @@
+"""One idea per file, readable in one sitting."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+LONGEST = 300
+
+
+def sources() -> list[Path]:
+    rooms = [ROOT / folder for folder in ("snapspace", "core", "tests")]
+    files = [path for room in rooms for path in room.rglob("*.*")]
+    found = {path for path in files if path.suffix in {".py", ".h", ".cpp"}}
+    return sorted(found)
+
+
+@pytest.mark.parametrize("path", sources(), ids=lambda path: str(path.relative_to(ROOT)))
+def test_no_file_is_long(path: Path) -> None:
+    length = len(path.read_text(encoding="utf-8").splitlines())
+    assert length <= LONGEST, f"{path.relative_to(ROOT)} has {length} lines, split it by ideas"
+
+
+def test_there_are_files_to_check() -> None:
+    """An installed package without its sources beside the tests would pass everything."""
+    assert len(sources()) > 100

@@ -1,0 +1,73 @@
+"""The program as a function, and a small model that it made."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from snapspace.cli import main
+
+from .files import write_problem
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run of the program gave."""
+
+    code: int
+    out: str
+    err: str
+
+    @property
+    def json(self) -> Any:
+        """Standard output as the one JSON object that it must be."""
+        assert self.code == 0, self.err
+        return json.loads(self.out)
+
+    @property
+    def error(self) -> str:
+        """The one line of a refusal: exit code 2, nothing on standard output, no traceback."""
+        assert self.code == 2, (self.code, self.err)
+        assert self.out == ""
+        assert self.err.count("\n") == 1, self.err
+        assert self.err.startswith("snapspace: error: ")
+        return self.err.removeprefix("snapspace: error: ").rstrip("\n")
+
+
+Run = Callable[..., Result]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Run:
+    """run("info", path) is `snapspace info PATH`."""
+
+    def call(*words: object) -> Result:
+        capsys.readouterr()
+        code = main([str(word) for word in words])
+        out, err = capsys.readouterr()
+        return Result(code, out, err)
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def built_model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A model of the bar, dimension 10 from 24 samples. Not to be written to."""
+    folder = tmp_path_factory.mktemp("model")
+    problem, path = write_problem(folder), folder / "bar.snapspace"
+    words = ["build", "--problem", problem, "--samples", 24, "--dimension", 10, "-o", path]
+    assert main([str(word) for word in words]) == 0
+    return path
+
+
+@pytest.fixture
+def model(built_model: Path, tmp_path: Path) -> Path:
+    """A copy of the model in a folder of its own."""
+    path = tmp_path / built_model.name
+    path.write_bytes(built_model.read_bytes())
+    return path

@@ -1,0 +1,95 @@
+"""The program itself: help, version, `python -m`, faults of ours, readers that leave."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import snapspace
+from snapspace.cli import main
+
+from .conftest import Run
+
+COMMANDS = ("demo", "build", "validate", "pose", "info")
+
+
+def test_version(run: Run) -> None:
+    result = run("--version")
+    assert (result.code, result.out) == (0, f"snapspace {snapspace.__version__}\n")
+
+
+@pytest.mark.parametrize("flag", ["-h", "--help"])
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_an_example(run: Run, command: str, flag: str) -> None:
+    result = run(command, flag)
+    assert result.code == 0
+    assert f"    snapspace {command}" in result.out
+    assert "--json" in result.out
+
+
+def test_without_a_command_the_help_is_shown(run: Run) -> None:
+    result = run()
+    assert result.code == 0
+    for command in COMMANDS:
+        assert f"  {command}" in result.out
+
+
+def test_as_a_module(tmp_path: Path) -> None:
+    done = subprocess.run(
+        [sys.executable, "-m", "snapspace", "info", str(tmp_path / "none.mesh")],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr == (f"snapspace: error: {tmp_path / 'none.mesh'}: there is no such file\n")
+
+
+def test_a_fault_of_ours_keeps_its_traceback(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("a fault")
+
+    monkeypatch.setattr("snapspace.cli.loading.load", broken)
+    with pytest.raises(ZeroDivisionError, match="a fault"):
+        main(["pose", str(model)])
+
+
+def test_too_little_memory_is_one_line(
+    run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def greedy(*_: object) -> None:
+        raise MemoryError("8 TB")
+
+    monkeypatch.setattr("snapspace.cli.loading.load", greedy)
+    assert "not enough memory (8 TB)" in run("pose", model).error
+
+
+def test_an_interrupt_anywhere_is_exit_code_130(
+    run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("snapspace.cli.loading.load", interrupted)
+    result = run("validate", model)
+    assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
+def test_a_reader_that_leaves_is_no_error(model: Path) -> None:
+    process = subprocess.Popen(
+        [sys.executable, "-m", "snapspace", "info", str(model), "--json"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout is not None and process.stderr is not None
+    process.stdout.close()
+    err = process.stderr.read()
+    assert process.wait(timeout=60) == 141
+    process.stderr.close()
+    assert "Traceback" not in err
+    assert "Broken" not in err

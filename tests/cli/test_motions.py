@@ -1,0 +1,39 @@
+"""Motions on the command line: which --euler belongs to which --handle, and vectors."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from snapspace.cli.motions import Motion, collect_motions
+from snapspace.cli.options import parse_vector
+
+finite = st.floats(allow_nan=False, allow_infinity=False)
+
+
+def test_motions_belong_to_the_handle_before_them() -> None:
+    items = [
+        ("handle", "head"),
+        ("translate", (0.0, 0.0, 1.0)),
+        ("handle", "tail"),
+        ("handle", "paw"),
+        ("euler", (0.0, 0.0, 30.0)),
+        ("translate", (1.0, 0.0, 0.0)),
+    ]
+    assert collect_motions(items) == {
+        "head": Motion(None, (0.0, 0.0, 1.0)),
+        "tail": Motion(),
+        "paw": Motion((0.0, 0.0, 30.0), (1.0, 0.0, 0.0)),
+    }
+
+
+@given(finite, finite, finite, st.sampled_from([",", ", ", " ", "  "]))
+def test_a_vector_is_read_with_all_its_digits(x: float, y: float, z: float, between: str) -> None:
+    assert parse_vector(between.join(repr(value) for value in (x, y, z))) == (x, y, z)
+
+
+@pytest.mark.parametrize("text", ["", "1", "1,2", "1,2,3,4", "1,2,", "a,b,c", "nan,0,0", "inf 0 0"])
+def test_what_is_no_vector_is_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=f"'{text}'"):
+        parse_vector(text)

@@ -1,0 +1,60 @@
+"""Progress in a log, and the units of the summary."""
+
+from __future__ import annotations
+
+import pytest
+
+from snapspace.cli.progress import sample_progress
+from snapspace.cli.units import in_bytes, in_time
+
+
+def test_a_log_has_one_line_for_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
+    with sample_progress("snapshots", total=40) as progress:
+        for done in range(41):
+            progress(done, 40)
+            progress(done, 40)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 10
+    assert lines[0].startswith("snapspace: snapshots: 4 of 40 samples, ")
+    assert lines[0].endswith(" left")
+    assert lines[-1].startswith("snapspace: snapshots: 40 of 40 samples, ")
+    assert "left" not in lines[-1]
+
+
+def test_samples_that_were_there_before_are_no_progress(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    with sample_progress("snapshots", done=35, total=40) as progress:
+        progress(35, 40)
+        progress(36, 40)
+    assert [line.split(",")[0] for line in capsys.readouterr().err.splitlines()] == [
+        "snapspace: snapshots: 36 of 40 samples"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [
+        (0.1234, "0.12 s"),
+        (9.94, "9.9 s"),
+        (45.4, "45 s"),
+        (59.6, "1 min 00 s"),
+        (7500, "2 h 05 min"),
+    ],
+)
+def test_times(seconds: float, text: str) -> None:
+    assert in_time(seconds) == text
+
+
+@pytest.mark.parametrize(
+    ("count", "text"),
+    [
+        (17, "17 bytes"),
+        (1500, "1.5 kB"),
+        (60_000_000, "60 MB"),
+        (4.3e12, "4.3e+03 GB"),
+        (None, "unknown"),
+    ],
+)
+def test_sizes(count: int | None, text: str) -> None:
+    assert in_bytes(count) == text

@@ -1,0 +1,69 @@
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from snapspace import HandleBox
+
+
+def test_parameters_are_translation_then_angles_handle_by_handle() -> None:
+    box = HandleBox(translation=(1.0, 2.0, 3.0), angle=0.5, moving=2)
+    assert box.dimension == 12
+    assert box.half_widths.tolist() == [1, 2, 3, 0.5, 0.5, 0.5] * 2
+
+
+def test_the_unit_cube_goes_onto_the_box() -> None:
+    box = HandleBox(translation=(1.0, 2.0, 3.0), angle=0.5)
+    corners = box.from_unit(np.array([np.zeros(6), np.full(6, 0.5), np.ones(6)]))
+    assert np.array_equal(corners[0], -box.half_widths)
+    assert not corners[1].any()
+    assert np.array_equal(corners[2], box.half_widths)
+
+
+@given(arrays(np.float64, (3, 12), elements=st.floats(0, 1)))
+@settings(max_examples=30, deadline=None)
+def test_to_unit_is_the_inverse(points: np.ndarray) -> None:
+    box = HandleBox(translation=(1e-3, 2.0, 30.0), angle=(0.1, 3.0, np.pi), moving=2)
+    parameters = box.from_unit(points)
+    assert (np.abs(parameters) <= box.half_widths).all()
+    assert box.to_unit(parameters) == pytest.approx(points, abs=1e-15)
+    assert box.to_unit(parameters[0]) == pytest.approx(points[0], abs=1e-15)
+
+
+def test_a_parameter_without_width_stays_in_the_middle() -> None:
+    box = HandleBox(translation=(1.0, 0.0, 2.0), angle=0.0)
+    points = np.random.default_rng(0).random((4, 6))
+    parameters = box.from_unit(points)
+    assert not parameters[:, [1, 3, 4, 5]].any()
+    back = box.to_unit(parameters)
+    assert back[:, [0, 2]] == pytest.approx(points[:, [0, 2]])
+    assert (back[:, [1, 3, 4, 5]] == 0.5).all()
+
+
+def test_angles_of_half_a_turn_are_allowed() -> None:
+    assert HandleBox(translation=0.0, angle=np.deg2rad(180)).half_widths[3] == np.pi
+
+
+BAD: list[tuple[dict[str, Any], str]] = [
+    ({"translation": -1.0, "angle": 0.1}, "translation is -1.0, but a bound must be zero or"),
+    ({"translation": np.nan, "angle": 0.1}, "translation is nan, but a bound"),
+    ({"translation": 1.0, "angle": np.inf}, "angle is inf, but a bound"),
+    ({"translation": (1.0, 2.0), "angle": 0.1}, "translation must be one number or three, got"),
+    ({"translation": (1.0, -2.0, 1.0), "angle": 0.1}, "translation is (1.0, -2.0, 1.0), but"),
+    ({"translation": 1.0, "angle": 45.0}, "angle is 45.0, but it is in radians and at most pi"),
+    ({"translation": 1.0, "angle": (0.1, 4.0, 0.1)}, "angle is (0.1, 4.0, 0.1), but it is in"),
+    ({"translation": 0.0, "angle": (0.0, 0.0, 0.0)}, "all bounds are zero"),
+    ({"translation": 1.0, "angle": 0.1, "moving": 0}, "moving is 0, but one handle at least"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "message"), BAD)
+def test_wrong_bounds_are_refused(arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(f"HandleBox: {message}")):
+        HandleBox(**arguments)

@@ -1,0 +1,155 @@
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.stats import kstest, qmc
+
+from snapspace import HandleBox, sample
+from snapspace.sampling import METHODS
+
+FloatArray = NDArray[np.float64]
+BOX = HandleBox(translation=(0.5, 1.0, 2.0), angle=(0.1, 0.2, 3.0), moving=2)
+
+
+@dataclass(frozen=True)
+class UnitCube:
+    """A domain that is the unit cube itself."""
+
+    dimension: int
+
+    def from_unit(self, points: FloatArray) -> FloatArray:
+        return points
+
+
+CUBE = UnitCube(6)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_samples_lie_in_the_box_and_fill_it(method: Any) -> None:
+    points = sample(BOX, 4096, method=method)
+    assert points.shape == (4096, 12)
+    assert (np.abs(points) <= BOX.half_widths).all()
+    # a grid of 2 per axis has its cell centres halfway out
+    filled = 0.5 if method == "grid" else 0.99
+    assert (np.abs(points).max(axis=0) >= filled * BOX.half_widths).all()
+
+
+def test_random_marginals_are_uniform_and_independent() -> None:
+    points = sample(BOX, 2000, seed=3)
+    for values, width in zip(points.T, BOX.half_widths, strict=True):
+        assert kstest(values, "uniform", args=(-width, 2 * width)).pvalue > 1e-3
+    correlation = np.corrcoef(points.T) - np.eye(12)
+    assert np.abs(correlation).max() < 4 / math.sqrt(len(points))
+
+
+def test_the_kolmogorov_smirnov_test_has_teeth() -> None:
+    warped = sample(CUBE, 2000, seed=3) ** 1.2
+    assert kstest(warped[:, 0], "uniform").pvalue < 1e-3
+
+
+def test_sobol_begins_with_the_known_points() -> None:
+    """Sobol 1967; the tables of Joe & Kuo."""
+    points = sample(UnitCube(2), 8, method="sobol", scramble=False)
+    table = [
+        [0, 0],
+        [0.5, 0.5],
+        [0.75, 0.25],
+        [0.25, 0.75],
+        [0.375, 0.375],
+        [0.875, 0.875],
+        [0.625, 0.125],
+        [0.125, 0.625],
+    ]
+    assert np.array_equal(points, table)
+    assert not sample(CUBE, 1, method="sobol", scramble=False).any()
+    assert np.array_equal(sample(BOX, 1, method="sobol", scramble=False)[0], -BOX.half_widths)
+
+
+@pytest.mark.parametrize("scramble", [False, True])
+def test_sobol_puts_one_point_into_each_slab(scramble: bool) -> None:
+    """The first 2^k points cut every axis into 2^k slabs with one point each."""
+    points = sample(CUBE, 64, method="sobol", scramble=scramble)
+    for axis in points.T:
+        assert sorted(np.floor(64 * axis)) == list(range(64))
+
+
+@pytest.mark.parametrize("scramble", [False, True])
+def test_sobol_is_spread_more_evenly_than_random(scramble: bool) -> None:
+    sobol = qmc.discrepancy(sample(CUBE, 256, method="sobol", scramble=scramble))
+    random = [qmc.discrepancy(sample(CUBE, 256, seed=seed)) for seed in range(10)]
+    assert sobol < 0.5 * min(random)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_the_same_arguments_give_the_same_points(method: Any) -> None:
+    first = sample(BOX, 50, method=method, seed=7)
+    assert np.array_equal(first, sample(BOX, 50, method=method, seed=7))
+
+
+@pytest.mark.parametrize(
+    ("options", "differs"),
+    [
+        ({"method": "random"}, True),
+        ({"method": "sobol"}, True),
+        ({"method": "sobol", "scramble": False}, False),
+        ({"method": "grid"}, False),
+    ],
+)
+def test_the_seed_matters_where_there_is_chance(options: Any, differs: bool) -> None:
+    a, b = (sample(BOX, 20, seed=seed, **options) for seed in (0, 1))
+    assert np.array_equal(a, b) != differs
+
+
+@pytest.mark.parametrize(
+    "options", [{}, {"method": "sobol"}, {"method": "sobol", "scramble": False}]
+)
+@pytest.mark.parametrize("shorter", [1, 31, 32, 33])
+def test_longer_samples_begin_with_the_shorter_ones(options: Any, shorter: int) -> None:
+    assert np.array_equal(sample(BOX, 100, **options)[:shorter], sample(BOX, shorter, **options))
+
+
+def test_a_grid_has_the_centres_of_equal_cells() -> None:
+    points = sample(UnitCube(2), 6, method="grid")
+    expected = [[(i + 0.5) / 3, (j + 0.5) / 2] for i in range(3) for j in range(2)]
+    assert points == pytest.approx(np.array(expected))
+    box = HandleBox(translation=3.0, angle=1.0)
+    assert sorted(set(sample(box, 729, method="grid")[:, 0].round(12))) == [-2.0, 0.0, 2.0]
+
+
+@given(count=st.integers(1, 3000), dimension=st.integers(1, 8))
+@settings(max_examples=50, deadline=None)
+def test_a_grid_is_the_largest_product_of_nearly_equal_numbers(count: int, dimension: int) -> None:
+    points = sample(UnitCube(dimension), count, method="grid")
+    per_axis = [len(np.unique(axis.round(12))) for axis in points.T]
+    assert len(points) == math.prod(per_axis) <= count
+    assert max(per_axis) - min(per_axis) <= 1
+    assert per_axis == sorted(per_axis, reverse=True)
+    next_axis = per_axis.index(min(per_axis))
+    assert len(points) // per_axis[next_axis] * (per_axis[next_axis] + 1) > count
+    assert len(np.unique(points.round(12), axis=0)) == len(points)
+
+
+def test_three_hundred_in_six_dimensions_are_216() -> None:
+    assert len(sample(CUBE, 300, method="grid")) == 216
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"count": 0}, "the number of samples is 0, but must be at least 1"),
+        ({"count": -5}, "the number of samples is -5, but must be at least 1"),
+        ({"count": 4, "seed": -1}, "the seed is -1, but must not be negative"),
+        ({"count": 4, "method": "halton"}, "unknown method 'halton'; known are random, sobol, gr"),
+    ],
+)
+def test_bad_arguments_are_refused(arguments: dict[str, Any], message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(f"sample: {message}")):
+        sample(BOX, **arguments)

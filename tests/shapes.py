@@ -1,0 +1,72 @@
+"""Generated meshes, deformations and posing problems that several test rooms share."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from snapspace.energy import StVK
+from snapspace.generators import bar, cylinder
+from snapspace.mesh import TetMesh, mass_matrix
+from snapspace.problem import HandleBox, Handles, PosingProblem
+from snapspace.subspace import AffineSubspace, pca
+
+FloatArray = NDArray[np.float64]
+
+CORNER_TET = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=float)
+
+
+def one_tet(vertices: FloatArray = CORNER_TET) -> TetMesh:
+    return TetMesh(vertices, [[0, 1, 2, 3]])
+
+
+def irregular_bar(nx: int = 3, ny: int = 2, nz: int = 2, *, seed: int = 5) -> TetMesh:
+    """A bar without symmetries, whose vertices have coordinates with all their digits."""
+    regular = bar(nx, ny, nz, length=0.5 * nx, width=0.5 * ny, height=0.5 * nz)
+    noise = np.random.default_rng(seed).uniform(-0.06, 0.06, regular.vertices.shape)
+    return TetMesh(regular.vertices + noise, regular.tets)
+
+
+def flat_cylinder() -> TetMesh:
+    """A cylinder of flat tets, some forty times longer than high, off the origin."""
+    mesh = cylinder(2, 4, length=0.05, radius=1.0)
+    return TetMesh(mesh.vertices + np.array([3.0, -2.0, 1.0]), mesh.tets)
+
+
+def deformed(mesh: TetMesh, size: float, *, seed: int = 1) -> FloatArray:
+    """Positions (3n,) with every coordinate moved at random by up to `size`."""
+    rng = np.random.default_rng(seed)
+    return mesh.vertices.reshape(-1) + rng.uniform(-size, size, mesh.vertices.size)
+
+
+def random_rotation(seed: int = 2) -> FloatArray:
+    return Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+
+
+def moved(x: FloatArray, rotation: FloatArray, shift: FloatArray | float = 0.0) -> FloatArray:
+    """R v + t of every vertex of a shape vector."""
+    return (x.reshape(-1, 3) @ rotation.T + shift).reshape(-1)
+
+
+def bar_problem(mesh: TetMesh | None = None, *, stiffness: float = 100.0) -> PosingProblem:
+    """A bar with the handles foot and head at its ends and belly in its middle."""
+    mesh = mesh or irregular_bar(8, 2, 2)
+    x = (mesh.vertices[:, 0] - mesh.vertices[:, 0].min()) / np.ptp(mesh.vertices[:, 0])
+    belly = (np.abs(x - 0.5) < 0.1) & (mesh.vertices[:, 2] < mesh.vertices[:, 2].mean())
+    return PosingProblem(
+        mesh,
+        Handles([x < 0.1, x > 0.9, belly], names=["foot", "head", "belly"]),
+        domain=HandleBox(translation=0.8, angle=0.8),
+        material=StVK(lam=1.5, mu=0.7),
+        stiffness=stiffness,
+    )
+
+
+def random_subspace(
+    mesh: TetMesh, dimension: int, *, tau: FloatArray | None = None, seed: int = 3
+) -> AffineSubspace:
+    """A subspace of random directions, attached to the rest shape or to another shape tau."""
+    tau = mesh.vertices.reshape(-1) if tau is None else tau
+    directions = np.random.default_rng(seed).normal(size=(tau.size, dimension))
+    return pca(tau[:, None] + directions, tau, mass_matrix(mesh), dimension=dimension)

@@ -1,0 +1,46 @@
+"""Bars to pose: small, quick, and mild enough that nothing inverts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from snapspace import Handles, PosingProblem, SampleReport, Snapshots, SolverOptions, sample
+from snapspace.generators import bar
+from snapspace.problem import HandleBox
+from snapspace.snapshots.solve import Solver
+
+FloatArray = NDArray[np.float64]
+
+
+def posing_bar(
+    nx: int = 8, ny: int = 2, nz: int = 2, *, bound: float = 0.25, **options: Any
+) -> PosingProblem:
+    """A bar of length 4, held at its foot, its tip moved by up to `bound` units and radians."""
+    mesh = bar(nx, ny, nz)
+    x = mesh.vertices[:, 0]
+    handles = Handles([x < 0.6, x > 3.4], names=["foot", "tip"])
+    domain = HandleBox(translation=bound, angle=bound)
+    return PosingProblem(mesh, handles, domain=domain, **options)
+
+
+def parameters(problem: PosingProblem, count: int, *, seed: int = 3) -> FloatArray:
+    return sample(problem.domain, count, seed=seed)
+
+
+def tight(solver: Solver = "newton") -> SolverOptions:
+    """Converged as far as double precision goes."""
+    return SolverOptions(solver=solver, tolerance=1e-14)
+
+
+def without_seconds(snapshots: Snapshots) -> list[SampleReport]:
+    """Reports less the wall time, the one thing that may differ between equal runs."""
+    return [replace(report, seconds=0.0) for report in snapshots.reports]
+
+
+def assert_same_bits(a: Snapshots, b: Snapshots) -> None:
+    np.testing.assert_array_equal(a.shapes, b.shapes)
+    assert without_seconds(a) == without_seconds(b)

@@ -1,0 +1,208 @@
+"""Ctrl-C keeps what is finished, wherever it arrives, and the same call goes on from there."""
+
+from __future__ import annotations
+
+import _thread
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import Checkpoint, Interrupted, SolverOptions, solve_snapshots
+from snapspace import _core as core
+from snapspace.snapshots import SOLVERS, interruptible
+from snapspace.snapshots.interruptible import run_interruptible
+from snapspace.snapshots.solve import Solver
+
+from .bars import assert_same_bits, parameters, posing_bar
+
+PATIENCE = 20.0  # seconds until a test that waits for a thread has failed
+
+
+class FakeControl:
+    """A SolveControl that tells when it was cancelled."""
+
+    def __init__(self) -> None:
+        self.cancelled = threading.Event()
+        self.finished = 0
+
+    def cancel(self) -> None:
+        self.cancelled.set()
+
+
+@pytest.fixture(autouse=True)
+def quick_polls(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(interruptible, "POLL_SECONDS", 0.002)
+
+
+@pytest.fixture
+def fake_control(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setattr(interruptible, "core", SimpleNamespace(SolveControl=FakeControl))
+    yield
+
+
+def until_cancelled(control: Any) -> str:
+    """A solve that finishes three samples and then waits to be cancelled."""
+    control.finished = 3
+    assert control.cancelled.wait(PATIENCE), "nobody cancelled the solve"
+    return "partial result"
+
+
+@pytest.mark.usefixtures("fake_control")
+def test_an_undisturbed_solve_returns_its_result() -> None:
+    seen: list[int] = []
+
+    def solve(control: Any) -> str:
+        control.finished = 1
+        time.sleep(0.02)
+        control.finished = 2
+        return "result"
+
+    assert run_interruptible(solve, seen.append) == ("result", False)
+    assert seen == sorted(seen) and seen[-1] == 2
+
+
+@pytest.mark.usefixtures("fake_control")
+def test_ctrl_c_cancels_the_solve_and_keeps_its_result() -> None:
+    seen: list[int] = []
+    timer = threading.Timer(0.05, _thread.interrupt_main)
+
+    def solve(control: Any) -> str:
+        timer.start()
+        return until_cancelled(control)
+
+    assert run_interruptible(solve, seen.append) == ("partial result", True)
+    assert 3 in seen
+
+
+@pytest.mark.usefixtures("fake_control")
+def test_ctrl_c_while_progress_is_drawn_is_no_different() -> None:
+    def progress(finished: int) -> None:
+        if finished == 3:
+            raise KeyboardInterrupt
+
+    assert run_interruptible(until_cancelled, progress) == ("partial result", True)
+
+
+@pytest.mark.usefixtures("fake_control")
+def test_ctrl_c_at_the_very_end_is_not_lost() -> None:
+    def solve(control: Any) -> str:
+        control.finished = 5
+        return "result"
+
+    def progress(finished: int) -> None:
+        if finished == 5:
+            raise KeyboardInterrupt
+
+    assert run_interruptible(solve, progress) == ("result", True)
+
+
+@pytest.mark.usefixtures("fake_control")
+def test_an_error_of_the_solve_reaches_the_caller() -> None:
+    def solve(control: Any) -> str:
+        raise ValueError("the factor is not positive definite")
+
+    with pytest.raises(ValueError, match="not positive definite"):
+        run_interruptible(solve, lambda finished: None)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solver) -> None:
+    problem = posing_bar()
+    samples = parameters(problem, 12)
+    options = SolverOptions(solver=solver, wave=4)
+    checkpoint = Checkpoint(tmp_path / "run")
+
+    def progress(done: int, total: int) -> None:
+        if done > 4:  # in the second wave, wherever it is then
+            raise KeyboardInterrupt
+
+    with pytest.raises(Interrupted, match=r"of 12 samples are finished") as caught:
+        solve_snapshots(
+            problem, samples, options=options, threads=1, progress=progress, checkpoint=checkpoint
+        )
+    saved = checkpoint.load()
+    assert set(range(4)) < set(saved) < set(range(9))
+    assert str(caught.value) == f"{len(saved)} of 12 samples are finished"
+
+    first_call: list[int] = []
+    resumed = solve_snapshots(
+        problem,
+        samples,
+        options=options,
+        threads=2,
+        progress=lambda done, total: first_call.append(done),
+        checkpoint=checkpoint,
+    )
+    assert first_call[0] >= len(saved), "progress counts what was kept"
+    assert_same_bits(resumed, solve_snapshots(problem, samples, options=options, threads=1))
+
+
+def test_a_solve_of_the_core_ends_soon_after_ctrl_c(tmp_path: Path) -> None:
+    """A wave of many seconds, interrupted by a signal after a twentieth of one."""
+    problem = posing_bar(16, 4, 4, bound=1.0)
+    options = SolverOptions(tolerance=1e-14, wave=1000)
+    checkpoint = Checkpoint(tmp_path / "run")
+    timer = threading.Timer(0.05, _thread.interrupt_main)
+
+    def progress(done: int, total: int) -> None:
+        if not timer.is_alive():
+            timer.start()
+
+    begin = time.monotonic()
+    with pytest.raises(Interrupted):
+        solve_snapshots(
+            problem,
+            parameters(problem, 1000),
+            options=options,
+            threads=1,
+            progress=progress,
+            checkpoint=checkpoint,
+        )
+    assert time.monotonic() - begin < 5.0
+    assert len(checkpoint.load()) < 1000
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> None:
+    """Wherever it falls: the sample is reported as cancelled, or ended where it always ends."""
+    problem = posing_bar(12, 4, 4, bound=1.0)
+    w = parameters(problem, 1)[0]
+    targets = problem.target_displacements(problem.offsets(w))[None]
+    starts = np.zeros((1, problem.mesh.vertices.size))
+    options: dict[str, Any] = {"tolerance": 1e-10, "max_iterations": 1000, "threads": 1}
+    if solver == "newton":
+        options["clamp"] = 0.6
+    solve = getattr(problem.system, f"solve_{solver}")
+    begin = time.monotonic()
+    end = solve(targets, starts, control=core.SolveControl(), **options)
+    duration = time.monotonic() - begin
+    assert end.reports[0].status.name == "converged"
+    statuses = []
+    for delay in np.linspace(0.0, duration, 40):
+        control = core.SolveControl()
+        timer = threading.Timer(delay, control.cancel)
+        timer.start()
+        batch = solve(targets, starts, control=control, **options)
+        timer.join()
+        statuses.append(batch.reports[0].status.name)
+        if statuses[-1] != "cancelled":
+            assert batch.reports[0].iterations == end.reports[0].iterations
+            np.testing.assert_array_equal(batch.shapes, end.shapes)
+    assert "cancelled" in statuses
+
+
+def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
+    """Callers that know nothing of Interrupted still stop."""
+    problem = posing_bar()
+
+    def progress(done: int, total: int) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve_snapshots(problem, parameters(problem, 2), progress=progress)

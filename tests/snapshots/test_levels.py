@@ -1,0 +1,120 @@
+"""Every build of the core gives the same numbers up to rounding."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import _core
+
+SOLVE = """
+import json
+import snapspace as ss
+from snapspace import _core
+from snapspace.generators import bar
+
+mesh = bar(8, 2, 2)
+x = mesh.vertices[:, 0]
+problem = ss.PosingProblem(
+    mesh, ss.Handles([x < 0.6, x > 3.4]), domain=ss.HandleBox(translation=0.25, angle=0.25)
+)
+samples = ss.sample(problem.domain, 6, seed=3)
+result = {"level": _core.level}
+for solver in ("fast", "newton"):
+    options = ss.SolverOptions(solver=solver, tolerance=1e-13)
+    solved = ss.solve_snapshots(problem, samples, options=options, threads=1)
+    result[solver] = {
+        "converged": bool(solved.converged.all()),
+        "shapes": solved.shapes.tolist(),
+        "values": [report.value for report in solved.reports],
+    }
+model = ss.reduce(problem, ss.snapshot_pca(solved, dimension=4), threads=1)
+session = model.session()
+session.pose(samples[0])
+result["coefficients"] = model.elastic.coefficients.tolist()
+result["posed"] = session.vertices.tolist()
+print(json.dumps(result))
+"""
+
+
+def run(code: str, level: str | None) -> subprocess.CompletedProcess[str]:
+    environment = {k: v for k, v in os.environ.items() if k != "SNAPSPACE_LEVEL"}
+    if level is not None:
+        environment["SNAPSPACE_LEVEL"] = level
+    return subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, timeout=120
+    )
+
+
+def solve(level: str) -> Any:
+    finished = run(SOLVE, level)
+    assert finished.returncode == 0, finished.stderr
+    return json.loads(finished.stdout)
+
+
+def test_levels_agree() -> None:
+    """To 1e-6 of the displacement for shapes, which leave F within rounding at tolerance 1e-13.
+
+    Sums run in another order and fused multiply-adds round once less, so bits differ; 1e-6 is what
+    those differences grow to along a path of forty iterations.
+    """
+    levels = _core.available_levels()
+    assert "baseline" in levels and _core.level in levels
+    results = {level: solve(level) for level in levels}
+    reference = results["baseline"]
+    for level, result in results.items():
+        assert result["level"] == level
+        for solver in ("fast", "newton"):
+            assert result[solver]["converged"]
+            np.testing.assert_allclose(
+                result[solver]["values"], reference[solver]["values"], rtol=1e-11
+            )
+            np.testing.assert_allclose(
+                result[solver]["shapes"], reference[solver]["shapes"], rtol=0, atol=2.5e-7
+            )
+        np.testing.assert_allclose(result["posed"], reference["posed"], rtol=0, atol=2.5e-7)
+        scale = np.abs(reference["coefficients"]).max()
+        np.testing.assert_allclose(
+            result["coefficients"], reference["coefficients"], rtol=0, atol=1e-6 * scale
+        )
+
+
+def test_a_level_that_does_not_exist_is_refused_with_those_that_do() -> None:
+    finished = run("import snapspace", "avx")
+    assert finished.returncode != 0
+    assert finished.stderr.splitlines()[-1] == (
+        "ImportError: SNAPSPACE_LEVEL=avx: known levels are v4, v3, baseline"
+    )
+
+
+def test_a_level_beyond_the_processor_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_core, "cpu_level", lambda: 1)
+    monkeypatch.setenv("SNAPSPACE_LEVEL", "v4")
+    with pytest.raises(
+        ImportError, match="SNAPSPACE_LEVEL=v4: this processor runs baseline; unset"
+    ):
+        _core._chosen_level()  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    ("processor", "levels"),
+    [
+        (4, ["v4", "v3", "baseline"]),
+        (3, ["v3", "baseline"]),
+        (2, ["baseline"]),
+        (0, ["baseline"]),
+    ],
+)
+def test_the_widest_level_is_chosen(
+    monkeypatch: pytest.MonkeyPatch, processor: int, levels: list[str]
+) -> None:
+    monkeypatch.setattr(_core, "cpu_level", lambda: processor)
+    monkeypatch.delenv("SNAPSPACE_LEVEL", raising=False)
+    assert _core.available_levels() == levels
+    assert _core._chosen_level() == levels[0]  # type: ignore[attr-defined]

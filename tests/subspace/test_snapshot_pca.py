@@ -1,0 +1,95 @@
+"""The basis of solved snapshots: about rest, of the converged ones, with the mesh's mass."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from snapspace import Snapshots, pca, snapshot_pca, solve_snapshots
+from snapspace.mesh import mass_gram, mass_matrix
+
+from ..snapshots.bars import parameters, posing_bar
+
+
+@pytest.fixture(scope="module")
+def snapshots() -> Snapshots:
+    problem = posing_bar()
+    return solve_snapshots(problem, parameters(problem, 10), threads=1)
+
+
+def with_failures(snapshots: Snapshots, failed: list[int]) -> Snapshots:
+    reports = [
+        replace(report, status="max_iterations") if i in failed else report
+        for i, report in enumerate(snapshots.reports)
+    ]
+    return Snapshots(snapshots.problem, snapshots.parameters, snapshots.shapes, reports)
+
+
+@pytest.mark.parametrize("lumped", [False, True])
+def test_is_the_pca_about_rest_with_the_mass_of_the_mesh(
+    snapshots: Snapshots, lumped: bool
+) -> None:
+    mesh = snapshots.problem.mesh
+    subspace = snapshot_pca(snapshots, dimension=6, lumped=lumped)
+    mass = mass_matrix(mesh, lumped=lumped)
+    gram = mass_gram(mass, subspace.basis, subspace.basis)
+    np.testing.assert_allclose(gram, np.eye(6), rtol=0, atol=1e-12)
+    np.testing.assert_array_equal(subspace.tau, mesh.vertices.reshape(-1))
+    same = pca(snapshots.shapes, subspace.tau, mass, dimension=6)
+    np.testing.assert_array_equal(subspace.basis, same.basis)
+
+
+def test_all_snapshots_are_in_their_own_span(snapshots: Snapshots) -> None:
+    subspace = snapshot_pca(snapshots, dimension=10)
+    again = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(snapshots.shapes)
+    np.testing.assert_allclose(again, snapshots.shapes, rtol=0, atol=1e-9)
+
+
+def test_unconverged_ones_are_left_out_unless_asked_for(snapshots: Snapshots) -> None:
+    failing = with_failures(snapshots, [1, 4, 7])
+    chosen = snapshot_pca(failing, dimension=7)
+    assert len(chosen.eigenvalues) == 7
+    np.testing.assert_array_equal(
+        chosen.basis, snapshot_pca(failing.select(failing.converged), dimension=7).basis
+    )
+    everything = snapshot_pca(failing, dimension=7, include_unconverged=True)
+    np.testing.assert_array_equal(everything.basis, snapshot_pca(snapshots, dimension=7).basis)
+    with pytest.raises(
+        ValueError,
+        match=r"pca: dimension 8 exceeds the 7 independent directions of 7 usable snapshots; "
+        r"take more samples or a smaller dimension",
+    ):
+        snapshot_pca(failing, dimension=8)
+
+
+def test_none_converged_is_refused_with_the_cure(snapshots: Snapshots) -> None:
+    failing = with_failures(snapshots, list(range(10)))
+    with pytest.raises(
+        ValueError, match=r"none of the 10 snapshots converged; .*include_unconverged=True"
+    ):
+        snapshot_pca(failing, dimension=2)
+    assert snapshot_pca(failing, dimension=2, include_unconverged=True).dimension == 2
+
+
+def test_rest_alone_spans_nothing() -> None:
+    problem = posing_bar()
+    at_rest = solve_snapshots(problem, np.zeros((3, 6)), threads=1)
+    with pytest.raises(ValueError, match="all 3 snapshots equal the reference shape"):
+        snapshot_pca(at_rest, energy_fraction=0.9)
+
+
+def test_more_dimensions_never_hurt(snapshots: Snapshots) -> None:
+    """The spaces are nested: with every column the error falls on unseen shapes as well."""
+    subspace = snapshot_pca(snapshots, dimension=10)
+    problem = snapshots.problem
+    unseen = solve_snapshots(problem, parameters(problem, 4, seed=11), threads=1).shapes
+    displacements = unseen - subspace.tau[:, None]
+    errors = []
+    for dimension in range(1, 11):
+        smaller = subspace.leading(dimension)
+        left = displacements - smaller.basis @ smaller.coordinates(unseen)
+        errors.append(np.diag(mass_gram(subspace.mass, left, left)))
+    assert (np.diff(errors, axis=0) <= 1e-15).all()
+    assert np.mean(errors[-1]) < 0.01 * np.mean(errors[0])
