@@ -82,8 +82,8 @@ class LaneLbfgs {
 
     /// A single small predicted decrease may be luck: the mean of the last actual ones must be
     /// small as well.
-    [[nodiscard]] bool converged(double tolerance) const {
-      const double enough = tolerance * value;
+    [[nodiscard]] bool converged(double tolerance, double negligible) const {
+      const double enough = std::max(tolerance * value, negligible);
       if (-slope > enough) return false;
       const double recent = std::accumulate(decreases, decreases + kWindow, 0.0);
       return recent <= enough * kWindow;
@@ -226,7 +226,7 @@ class LaneLbfgs {
     lane.slope = slope;
     if (!std::isfinite(slope)) return finish(lane, SolveStatus::not_finite);
     if (slope > 0.0) return restart(index);
-    if (lane.converged(options_.tolerance)) return finish(lane, SolveStatus::converged);
+    if (lane.converged(options_.tolerance, objective_.negligible())) return finish(lane, SolveStatus::converged);
     if (lane.iterations >= options_.max_iterations) finish(lane, SolveStatus::max_iterations);
   }
 

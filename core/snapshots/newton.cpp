@@ -69,8 +69,9 @@ SolveReport Newton::solve(int sample, const double* start, const SolveControl& c
     const double forcing =
         report.iterations == 0 ? 0.1 : std::clamp(std::sqrt(previous_decrement / scale), 1e-3, 0.1);
     const double slope = -find_direction(forcing, control);
+    if (control.cancelled) break;  // the direction may be half done
     report.decrement = previous_decrement = -slope;
-    if (-slope <= options_.tolerance * report.value) {
+    if (-slope <= std::max(options_.tolerance * report.value, objective_.negligible())) {
       report.status = SolveStatus::converged;
       break;
     }

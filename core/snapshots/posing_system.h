@@ -32,6 +32,14 @@ struct PosingSystem {
 
   [[nodiscard]] int size() const { return 3 * energy.rest.vertex_count; }
 
+  /// Energy of a strain of 1e-12 everywhere. Where the minimum of F is zero, no share of F is ever
+  /// reached: a decrease below this is none.
+  [[nodiscard]] double negligible() const {
+    double volume = 0.0;
+    for (const RestTet& tet : energy.rest.tets) volume += tet.volume;
+    return 1e-24 * energy.material.mu * volume;
+  }
+
   /// Copies a shape vector from the caller's numbering into the internal one.
   void to_internal(const double* from, double* to) const {
     for (std::size_t v = 0; v < order.size(); ++v) std::copy_n(from + 3 * order[v], 3, to + 3 * v);
@@ -89,6 +97,8 @@ class PosingObjective {
     for (std::size_t k = 0; k < targets_.size(); ++k) set_lane(targets_[k], lane, target[k]);
   }
 
+  [[nodiscard]] double negligible() const { return negligible_; }
+
   /// F at u (3n); its gradient overwrites `gradient`.
   Real value_and_gradient(const Real* u, Real* gradient) const {
     Real value = system_.energy.value_and_gradient(u, gradient);
@@ -121,6 +131,7 @@ class PosingObjective {
   const PosingSamples& samples_;
   std::vector<Real> targets_;
   std::vector<Real> scratch_;
+  double negligible_ = system_.negligible();
 };
 
 }  // namespace snapspace
