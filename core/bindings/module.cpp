@@ -12,7 +12,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   // What outlives the interpreter is not lost memory, and users should not read about it.
   nanobind::set_leak_warnings(false);
   m.doc() = "The loops of snapspace that must be fast.";
-  m.attr("lane_count") = snapspace::kLaneCount;
+  m.attr("lane_count") = snapspace::kWideLanes;
   snapspace::bind_energy(m);
   snapspace::bind_snapshots(m);
   snapspace::bind_reduction(m);

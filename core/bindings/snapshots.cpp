@@ -96,17 +96,17 @@ void bind_snapshots(nb::module_& m) {
       .def(
           "solve_fast",
           [](const PosingSystem& self, TensorIn targets, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, SolveControl& control) {
+             int max_iterations, int threads, SolveControl& control, bool wide) {
             Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
             const PosingSamples samples =
                 posing_samples(self, targets, starts, batch.shapes.data());
             nb::gil_scoped_release release;
             batch.reports =
-                solve_fast(self, samples, {tolerance, max_iterations, threads}, control);
+                solve_fast(self, samples, {tolerance, max_iterations, wide, threads}, control);
             return batch;
           },
           nb::arg("targets"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"))
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("wide") = true)
       .def(
           "solve_newton",
           [](const PosingSystem& self, TensorIn targets, MatrixIn starts, double tolerance,
@@ -115,8 +115,8 @@ void bind_snapshots(nb::module_& m) {
             const PosingSamples samples =
                 posing_samples(self, targets, starts, batch.shapes.data());
             nb::gil_scoped_release release;
-            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, threads}, clamp,
-                                         control, &batch.linear_iterations);
+            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, true, threads},
+                                         clamp, control, &batch.linear_iterations);
             return batch;
           },
           nb::arg("targets"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),

@@ -1,70 +1,130 @@
 #pragma once
 /// One sample per SIMD lane.
 ///
-/// `Lanes` holds the same quantity of kLaneCount independent samples. Every operation is
-/// elementwise, so a lane never sees its neighbours: the result of a sample is bitwise the same in
-/// any lane, beside any other samples.
-
-#include <cstdint>
+/// A pack holds the same quantity of `Width` independent samples. Every operation is elementwise,
+/// so a lane never sees its neighbours: the result of a sample is bitwise the same in any lane,
+/// beside any other samples, and in packs of any width.
 
 namespace snapspace {
 
+/// Samples solved together by a thread, when there are many and when there are few.
 #if defined(__AVX512F__)
-inline constexpr int kLaneCount = 8;
+inline constexpr int kWideLanes = 8;
+inline constexpr int kNarrowLanes = 4;
 #elif defined(__AVX__)
-inline constexpr int kLaneCount = 4;
+inline constexpr int kWideLanes = 4;
+inline constexpr int kNarrowLanes = 4;
 #else
-inline constexpr int kLaneCount = 2;
+inline constexpr int kWideLanes = 2;
+inline constexpr int kNarrowLanes = 2;
 #endif
 
-struct alignas(kLaneCount * sizeof(double)) Lanes {
 #if defined(__GNUC__)
-  typedef double Vector __attribute__((vector_size(kLaneCount * sizeof(double))));
+// Compilers drop the attribute where the size depends on a template parameter: every size is named.
+template <class T, int Width>
+struct VectorOf;
+template <>
+struct VectorOf<double, 2> {
+  typedef double type __attribute__((vector_size(16)));
+};
+template <>
+struct VectorOf<double, 4> {
+  typedef double type __attribute__((vector_size(32)));
+};
+template <>
+struct VectorOf<double, 8> {
+  typedef double type __attribute__((vector_size(64)));
+};
+template <>
+struct VectorOf<float, 2> {
+  typedef float type __attribute__((vector_size(8)));
+};
+template <>
+struct VectorOf<float, 4> {
+  typedef float type __attribute__((vector_size(16)));
+};
+template <>
+struct VectorOf<float, 8> {
+  typedef float type __attribute__((vector_size(32)));
+};
+#endif
+
+template <class T, int Width>
+struct alignas(Width * sizeof(T)) Pack {
+  static constexpr int kWidth = Width;
+#if defined(__GNUC__)
+  using Vector = typename VectorOf<T, Width>::type;
   Vector v;
-  Lanes() = default;
-  Lanes(double s) : v(Vector{} + s) {}
-  explicit Lanes(Vector vector) : v(vector) {}
-  double operator[](int i) const { return v[i]; }
-  void set(int i, double s) { v[i] = s; }
-  friend Lanes operator+(Lanes a, Lanes b) { return Lanes(a.v + b.v); }
-  friend Lanes operator-(Lanes a, Lanes b) { return Lanes(a.v - b.v); }
-  friend Lanes operator*(Lanes a, Lanes b) { return Lanes(a.v * b.v); }
-  friend Lanes operator-(Lanes a) { return Lanes(-a.v); }
+  Pack() = default;
+  Pack(T s) : v(Vector{} + s) {}
+  explicit Pack(Vector vector) : v(vector) {}
+  friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
+  friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
+  friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+  friend Pack operator-(Pack a) { return Pack(-a.v); }
   /// a where the mask's lane is not zero, else b. Never a product: the unused side may be NaN.
-  friend Lanes select(Lanes mask, Lanes a, Lanes b) { return Lanes(mask.v != 0.0 ? a.v : b.v); }
+  friend Pack select(Pack mask, Pack a, Pack b) { return Pack(mask.v != T(0) ? a.v : b.v); }
 #else
-  double v[kLaneCount];
-  Lanes() = default;
-  Lanes(double s) {
-    for (double& x : v) x = s;
+  T v[Width];
+  Pack() = default;
+  Pack(T s) {
+    for (T& x : v) x = s;
   }
-  double operator[](int i) const { return v[i]; }
-  void set(int i, double s) { v[i] = s; }
   template <class Op>
-  static Lanes zip(const Lanes& a, const Lanes& b, Op op) {
-    Lanes r;
-    for (int i = 0; i < kLaneCount; ++i) r.v[i] = op(a.v[i], b.v[i]);
+  static Pack zip(const Pack& a, const Pack& b, Op op) {
+    Pack r;
+    for (int i = 0; i < Width; ++i) r.v[i] = op(a.v[i], b.v[i]);
     return r;
   }
-  friend Lanes operator+(const Lanes& a, const Lanes& b) {
-    return zip(a, b, [](double x, double y) { return x + y; });
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return zip(a, b, [](T x, T y) { return x + y; });
   }
-  friend Lanes operator-(const Lanes& a, const Lanes& b) {
-    return zip(a, b, [](double x, double y) { return x - y; });
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return zip(a, b, [](T x, T y) { return x - y; });
   }
-  friend Lanes operator*(const Lanes& a, const Lanes& b) {
-    return zip(a, b, [](double x, double y) { return x * y; });
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return zip(a, b, [](T x, T y) { return x * y; });
   }
-  friend Lanes operator-(const Lanes& a) { return Lanes(0.0) - a; }
-  friend Lanes select(const Lanes& mask, const Lanes& a, const Lanes& b) {
-    Lanes r;
-    for (int i = 0; i < kLaneCount; ++i) r.v[i] = mask.v[i] != 0.0 ? a.v[i] : b.v[i];
+  friend Pack operator-(const Pack& a) { return Pack(T(0)) - a; }
+  friend Pack select(const Pack& mask, const Pack& a, const Pack& b) {
+    Pack r;
+    for (int i = 0; i < Width; ++i) r.v[i] = mask.v[i] != T(0) ? a.v[i] : b.v[i];
     return r;
   }
 #endif
-  Lanes& operator+=(Lanes b) { return *this = *this + b; }
-  Lanes& operator-=(Lanes b) { return *this = *this - b; }
-  Lanes& operator*=(Lanes b) { return *this = *this * b; }
+  T operator[](int i) const { return v[i]; }
+  void set(int i, T s) { v[i] = s; }
+  Pack& operator+=(Pack b) { return *this = *this + b; }
+  Pack& operator-=(Pack b) { return *this = *this - b; }
+  Pack& operator*=(Pack b) { return *this = *this * b; }
 };
+
+template <int Width>
+using Lanes = Pack<double, Width>;
+/// The same in single precision, for what only steers a solver and never enters its result.
+template <int Width>
+using SingleLanes = Pack<float, Width>;
+
+template <int Width>
+inline SingleLanes<Width> to_single(Lanes<Width> a) {
+#if defined(__GNUC__)
+  return SingleLanes<Width>(__builtin_convertvector(a.v, typename SingleLanes<Width>::Vector));
+#else
+  SingleLanes<Width> r;
+  for (int i = 0; i < Width; ++i) r.v[i] = static_cast<float>(a.v[i]);
+  return r;
+#endif
+}
+
+template <int Width>
+inline Lanes<Width> to_double(SingleLanes<Width> a) {
+#if defined(__GNUC__)
+  return Lanes<Width>(__builtin_convertvector(a.v, typename Lanes<Width>::Vector));
+#else
+  Lanes<Width> r;
+  for (int i = 0; i < Width; ++i) r.v[i] = a.v[i];
+  return r;
+#endif
+}
 
 }  // namespace snapspace

@@ -99,7 +99,7 @@ double Newton::find_direction(double relative_residual, const SolveControl& cont
   constexpr int kMaxIterations = 1000;
   std::fill(direction_.begin(), direction_.end(), 0.0);
   for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
-  objective_.precondition(residual_.data(), preconditioned_.data());
+  objective_.precondition(residual_.data(), preconditioned_.data(), product_.data());
   search_ = preconditioned_;
   double norm = dot(residual_, preconditioned_);
   const double goal = norm * relative_residual * relative_residual;
@@ -115,7 +115,7 @@ double Newton::find_direction(double relative_residual, const SolveControl& cont
     const double step = norm / curvature;
     add_scaled(direction_, step, search_);
     add_scaled(residual_, -step, product_);
-    objective_.precondition(residual_.data(), preconditioned_.data());
+    objective_.precondition(residual_.data(), preconditioned_.data(), product_.data());
     const double next = dot(residual_, preconditioned_);
     const double ratio = next / norm;
     norm = next;

@@ -75,15 +75,13 @@ struct PosingSamples {
 
 /// The objective of the samples that are in the lanes now. Real is double (one lane) or Lanes.
 ///
-/// This is all that a solver knows of a problem: size, load, value_and_gradient, precondition.
+/// This is all that a solver knows of a problem: size, negligible, load, value_and_gradient,
+/// precondition.
 template <class Real>
 class PosingObjective {
  public:
   PosingObjective(const PosingSystem& system, const PosingSamples& samples)
-      : system_(system),
-        samples_(samples),
-        targets_(3 * system.pinned.size(), Real(0.0)),
-        scratch_(system.size()) {}
+      : system_(system), samples_(samples), targets_(3 * system.pinned.size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }
 
@@ -115,9 +113,11 @@ class PosingObjective {
     return value;
   }
 
-  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n, may be the same.
-  void precondition(const Real* vector, Real* result) {
-    system_.factor.solve(vector, result, scratch_.data());
+  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n, of Real or of any
+  /// other precision, may be the same. `scratch` is 3n.
+  template <class Any>
+  void precondition(const Any* vector, Any* result, Any* scratch) const {
+    system_.factor.solve(vector, result, scratch);
   }
 
  private:
@@ -130,7 +130,6 @@ class PosingObjective {
   const PosingSystem& system_;
   const PosingSamples& samples_;
   std::vector<Real> targets_;
-  std::vector<Real> scratch_;
   double negligible_ = system_.negligible();
 };
 

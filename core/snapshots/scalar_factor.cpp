@@ -35,6 +35,7 @@ ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A) {
     }
     column_start_.push_back(static_cast<std::int64_t>(rows_.size()));
   }
+  single_values_.assign(values_.begin(), values_.end());
 }
 
 }  // namespace snapspace

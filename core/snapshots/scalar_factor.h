@@ -1,7 +1,10 @@
 #pragma once
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
+
+#include "simd/lanes.h"
 
 namespace snapspace {
 
@@ -23,29 +26,50 @@ class ScalarFactor {
   void solve(const Real* right_hand_side, Real* solution, Real* scratch) const;
 
  private:
+  template <class T>
+  struct ScalarOf {
+    using type = T;
+  };
+  template <class T, int Width>
+  struct ScalarOf<Pack<T, Width>> {
+    using type = T;
+  };
+  template <class Real>
+  using Scalar = typename ScalarOf<Real>::type;
+
+  template <class Real>
+  const Scalar<Real>* entries() const {
+    if constexpr (std::is_same_v<Scalar<Real>, float>)
+      return single_values_.data();
+    else
+      return values_.data();
+  }
+
   std::vector<std::int32_t> order_;  // row of the factor -> vertex
   std::vector<std::int64_t>
       column_start_;  // n + 1, into rows_ and values_: below the diagonal only
   std::vector<std::int32_t> rows_;
   std::vector<double> values_;
+  std::vector<float> single_values_;  // the same, for right-hand sides in single precision
   std::vector<double> inverse_diagonal_;
 };
 
 template <class Real>
 void ScalarFactor::solve(const Real* right_hand_side, Real* solution, Real* scratch) const {
+  const auto* values = entries<Real>();
   const std::int32_t n = static_cast<std::int32_t>(order_.size());
   for (std::int32_t j = 0; j < n; ++j)
     for (int c = 0; c < 3; ++c) scratch[3 * j + c] = right_hand_side[3 * order_[j] + c];
 
   for (std::int32_t j = 0; j < n; ++j) {
     Real* x = scratch + 3 * j;
-    const Real scale(inverse_diagonal_[j]);
+    const Real scale(static_cast<Scalar<Real>>(inverse_diagonal_[j]));
     const Real x0 = x[0] *= scale;
     const Real x1 = x[1] *= scale;
     const Real x2 = x[2] *= scale;
     for (std::int64_t k = column_start_[j]; k < column_start_[j + 1]; ++k) {
       Real* y = scratch + 3 * rows_[k];
-      const Real l(values_[k]);
+      const Real l(values[k]);
       y[0] -= l * x0;
       y[1] -= l * x1;
       y[2] -= l * x2;
@@ -58,12 +82,12 @@ void ScalarFactor::solve(const Real* right_hand_side, Real* solution, Real* scra
     Real x2 = x[2];
     for (std::int64_t k = column_start_[j]; k < column_start_[j + 1]; ++k) {
       const Real* y = scratch + 3 * rows_[k];
-      const Real l(values_[k]);
+      const Real l(values[k]);
       x0 -= l * y[0];
       x1 -= l * y[1];
       x2 -= l * y[2];
     }
-    const Real scale(inverse_diagonal_[j]);
+    const Real scale(static_cast<Scalar<Real>>(inverse_diagonal_[j]));
     x[0] = x0 * scale;
     x[1] = x1 * scale;
     x[2] = x2 * scale;

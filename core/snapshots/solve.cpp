@@ -20,18 +20,16 @@ int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-}  // namespace
-
-std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamples& samples,
-                                    const SolveOptions& options, SolveControl& control) {
+template <int Width>
+std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const PosingSamples& samples,
+                                        const SolveOptions& options, SolveControl& control) {
   std::vector<SolveReport> reports(samples.count);
   std::atomic<int> next{0};
-  // No more groups of lanes than it takes to hold the samples: empty lanes cost as much as full
-  // ones.
-  const int groups =
-      std::min((samples.count + kLaneCount - 1) / kLaneCount, thread_count(options.threads));
+  // No more groups of lanes than hold the samples.
+  const int groups = std::min((samples.count + Width - 1) / Width, thread_count(options.threads));
   parallel_for(groups, groups, [&](int) {
-    LaneLbfgs solver(PosingObjective<Lanes>(system, samples), options);
+    using Objective = PosingObjective<Lanes<Width>>;
+    LaneLbfgs<Objective, Width> solver(Objective(system, samples), options);
     const auto take = [&] {
       const int sample = next++;
       return sample < samples.count ? sample : -1;
@@ -51,6 +49,14 @@ std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamp
     solver.run(take, start, finish, control);
   });
   return reports;
+}
+
+}  // namespace
+
+std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamples& samples,
+                                    const SolveOptions& options, SolveControl& control) {
+  return options.wide ? solve_in_lanes<kWideLanes>(system, samples, options, control)
+                      : solve_in_lanes<kNarrowLanes>(system, samples, options, control);
 }
 
 std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSamples& samples,

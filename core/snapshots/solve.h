@@ -7,7 +7,8 @@
 namespace snapspace {
 
 /// Full-space solutions of all samples by L-BFGS on the scalar factor, one sample per lane, threads
-/// over groups of lanes. One report per sample. The results do not depend on the number of threads.
+/// over groups of lanes. One report per sample. The results do not depend on the number of threads,
+/// nor on which samples are solved together.
 [[nodiscard]] std::vector<SolveReport> solve_fast(const PosingSystem& system,
                                                   const PosingSamples& samples,
                                                   const SolveOptions& options,

@@ -27,6 +27,8 @@ struct SolveReport {
 struct SolveOptions {
   double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value
   int max_iterations = 500;
+  bool wide =
+      true;  ///< packs of kWideLanes or of kNarrowLanes samples; results agree up to rounding
   int threads = 0;  ///< 0: as many as the machine has
 };
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import _core as core
 from ..problem import PosingProblem
 from .checkpoint import Checkpoint
 from .interruptible import run_interruptible
@@ -18,6 +20,9 @@ from .starts import interpolated_start, nearest_start
 FloatArray = NDArray[np.float64]
 Solver = Literal["fast", "newton"]
 SOLVERS: tuple[Solver, ...] = ("fast", "newton")
+#: Waves of at least this many samples are solved in wide packs: a pack costs as much half empty as
+#: full. Which one is taken depends on the wave only, not on what of it is missing.
+WIDE_FROM = 24
 Progress = Callable[[int, int], None]
 
 
@@ -165,7 +170,7 @@ class _Run:
         )
         already, total = len(self.reports), len(self.samples)
         batch, interrupted = run_interruptible(
-            lambda control: self._solve(targets, starts, control),
+            lambda control: self._solve(targets, starts, control, wide=len(wave) >= WIDE_FROM),
             lambda finished: self.progress(already + finished, total),
         )
         done = [k for k, report in enumerate(batch.reports) if report.status.name != "cancelled"]
@@ -190,17 +195,23 @@ class _Run:
         guess = interpolated_start if self.options.solver == "fast" else nearest_start
         return guess(parameters, shapes, to_unit(self.samples[wave]))
 
-    def _solve(self, targets: FloatArray, starts: FloatArray, control: Any) -> Any:
+    def _solve(
+        self, targets: FloatArray, starts: FloatArray, control: core.SolveControl, *, wide: bool
+    ) -> core.Batch:
         options = self.options
-        common = {
-            "tolerance": options.tolerance,
-            "max_iterations": options.max_iterations,
-            "threads": self.threads,
-            "control": control,
-        }
-        if options.solver == "newton":
-            return self.problem.system.solve_newton(targets, starts, clamp=options.clamp, **common)
-        return self.problem.system.solve_fast(targets, starts, **common)
+        solve = (
+            partial(self.problem.system.solve_newton, clamp=options.clamp)
+            if options.solver == "newton"
+            else partial(self.problem.system.solve_fast, wide=wide)
+        )
+        return solve(
+            targets,
+            starts,
+            tolerance=options.tolerance,
+            max_iterations=options.max_iterations,
+            threads=self.threads,
+            control=control,
+        )
 
 
 def _report(report: Any) -> SampleReport:
