@@ -1,4 +1,4 @@
-"""Every mistake in the input is one line that names the thing; exit code 2, and no file is touched."""
+"""A mistake in the input is one line that names it; exit code 2, and no file is touched."""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +11,7 @@ import pytest
 
 from snapspace import load, write_surface, write_tets
 from snapspace.cli.files import SURFACE_INPUTS, SURFACE_OUTPUTS, TET_INPUTS, TET_OUTPUTS
-from snapspace.mesh import read, read_surface, write
+from snapspace.mesh import read, write
 
 from .conftest import Run
 from .files import bar_mesh, write_problem, write_raw
@@ -17,17 +19,11 @@ from .files import bar_mesh, write_problem, write_raw
 
 def test_the_lists_of_extensions_are_those_of_the_mesh_room() -> None:
     assert list(TET_INPUTS) == list(read._READERS)
-    assert sorted(SURFACE_INPUTS) == sorted(read_surface_module()._READERS)
+    surfaces = importlib.import_module("snapspace.mesh.read_surface")
+    assert sorted(SURFACE_INPUTS) == sorted(surfaces._READERS)
     assert list(TET_OUTPUTS) == list(write._TET_FORMATS)
     assert list(SURFACE_OUTPUTS) == list(write._SURFACE_WRITERS)
     assert not set(TET_OUTPUTS) & set(SURFACE_OUTPUTS)
-
-
-def read_surface_module():  # type: ignore[no-untyped-def]
-    """The module, whose name the function of the package hides."""
-    import sys
-
-    return sys.modules[read_surface.__module__]
 
 
 def test_a_model(run: Run, model: Path) -> None:
@@ -49,8 +45,6 @@ def test_a_model(run: Run, model: Path) -> None:
 
 
 def test_a_model_without_a_record_is_shown_as_well(run: Run, model: Path) -> None:
-    from dataclasses import replace
-
     bare = replace(load(model), provenance={"seconds": "unknown", "snapshots": 3})
     bare.save(model)
     assert run("info", model, "--json").json["provenance"]["snapshots"] == 3
@@ -64,7 +58,7 @@ def test_the_errors_of_fewer_modes_fall_to_that_of_all(run: Run, model: Path) ->
 
 
 def test_a_valid_mesh(run: Run, tmp_path: Path) -> None:
-    """The bar of 4 x 1 x 1 in cubes of 1/2, each cut into six equal tets with angles of 45, 60, 90."""
+    """4 x 1 x 1 in cubes of 1/2, each cut into six equal tets with angles of 45, 60 and 90."""
     write_tets(tmp_path / "bar.vtu", bar_mesh())
     figures = run("info", tmp_path / "bar.vtu", "--json").json
     assert figures["kind"] == "tet mesh"
@@ -73,7 +67,7 @@ def test_a_valid_mesh(run: Run, tmp_path: Path) -> None:
     assert figures["volume"] == pytest.approx(4)
     assert figures["diagonal"] == pytest.approx(np.sqrt(18))
     assert figures["bounds"] == [[0, 0, 0], [4, 1, 1]]
-    assert figures["surface"]["faces"] == 2 * (4 + 4 * 16)
+    assert figures["surface"]["faces"] == 2 * (2 * 4 + 4 * 16)  # two for each square
     assert figures["dihedral_degrees"]["min"] == pytest.approx(45)
     assert figures["dihedral_degrees"]["max"] == pytest.approx(90)
     assert figures["tet_volume"]["min"] == pytest.approx(1 / 48)

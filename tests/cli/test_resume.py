@@ -19,7 +19,7 @@ from .conftest import Run
 from .files import bar_mesh, write_problem
 
 PATIENCE = 60.0  # seconds until the test gives up on the other process
-SAMPLES = 1500
+SAMPLES = 500
 # A process whose parent ignores SIGINT inherits that, for instance in the background of a shell.
 PROGRAM = (
     "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
@@ -82,8 +82,8 @@ def test_an_interrupt_after_the_samples_keeps_them_too(
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    words = ("build", "--problem", write_problem(tmp_path), "--samples", 12, "--dimension", 4)
-    words = (*words, "-o", tmp_path / "m.snapspace")
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
     with monkeypatch.context() as patch:
         patch.setattr(pipeline, "reduce", interrupted)
         result = run(*words)
