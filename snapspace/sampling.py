@@ -8,7 +8,6 @@ from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 FloatArray = NDArray[np.float64]
 Method = Literal["random", "sobol", "grid"]
@@ -84,6 +83,9 @@ def sample(
 
 
 def _sobol(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArray:
+    # imported here: scipy.stats would take a third of the time of `import snapspace`
+    from scipy.stats import qmc
+
     generator = qmc.Sobol(dimension, scramble=scramble, seed=np.random.default_rng(seed))
     # drawing a power of two and cutting avoids SciPy's warning; every prefix is the same sequence
     points: FloatArray = generator.random_base2(max(0, math.ceil(math.log2(count))))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -122,8 +123,19 @@ class Session:
             For an unknown handle, or values that are not three finite numbers; the shape stays as
             it was.
         """
-        offset = rigid_offset(_three(euler, "euler"), _three(translation, "translation"))
-        self._place(handle, _world_map(offset, self._center(handle)))
+        return self.move_all({handle: (euler, translation)})
+
+    def move_all(self, motions: Mapping[str, tuple[ArrayLike, ArrayLike]]) -> FrameReport:
+        """Puts several handles at rigid motions (euler, translation), and solves once.
+
+        As `move`; handles that are not named stay where they are. If one motion is refused, none is
+        made.
+        """
+        maps = {}
+        for handle, (euler, translation) in motions.items():
+            offset = rigid_offset(_three(euler, "euler"), _three(translation, "translation"))
+            maps[handle] = _world_map(offset, self._center(handle))
+        self._place(maps)
         return self.solve()
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:
@@ -145,7 +157,7 @@ class Session:
                 f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
                 "only"
             )
-        self._place(handle, wanted)
+        self._place({handle: wanted})
         return self.solve()
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
@@ -188,9 +200,10 @@ class Session:
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]
         return center
 
-    def _place(self, handle: str, world_map: FloatArray) -> None:
-        """Sets a handle's map, and the offsets of all handles relative to the first."""
-        self._maps[self.model.problem.handles.index(handle)] = world_map
+    def _place(self, maps: Mapping[str, FloatArray]) -> None:
+        """Sets handles' maps, and the offsets of all handles relative to the first."""
+        for handle, world_map in maps.items():
+            self._maps[self.model.problem.handles.index(handle)] = world_map
         back = self._maps[0, :, :3].T  # inverse rotation of the first handle
         offsets = [np.zeros((3, 4))]
         for target, center in zip(self._maps[1:], self.model.problem.centroids[1:], strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -95,7 +96,10 @@ def as_parameters(
     turn = turns[0]
     shift = centers[0] + wanted[0, :3] - turn.apply(centers[0])
     places = turn.inv().apply(centers[1:] + wanted[1:, :3] - shift)
-    angles = (turn.inv() * turns[1:]).as_euler("xyz")
+    with warnings.catch_warnings():
+        # at a pitch of 90 degrees the angles are not unique, and any of them will do
+        warnings.filterwarnings("ignore", message="Gimbal lock")
+        angles = (turn.inv() * turns[1:]).as_euler("xyz")
     carrier = np.column_stack([turn.as_matrix(), shift])
     return np.hstack([places - centers[1:], angles]).reshape(-1), carrier
 

@@ -2,12 +2,25 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from snapspace.cli.motions import Motion, collect_motions
+from snapspace.cli.motions import Motion, as_parameters, collect_motions
 from snapspace.cli.options import parse_vector
+from snapspace.problem import rotation_matrix
+
+from ..shapes import bar_problem
+
+
+def test_a_relative_turn_without_unique_angles_is_found_all_the_same() -> None:
+    problem = bar_problem()
+    parameters, carrier = as_parameters(problem, {problem.handles.names[0]: Motion((0, 90, 0))})
+    turn = rotation_matrix([0, np.pi / 2, 0])
+    np.testing.assert_allclose(carrier[:, :3], turn, atol=1e-14)
+    np.testing.assert_allclose(rotation_matrix(parameters[3:6]), turn.T, atol=1e-7)
+
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 

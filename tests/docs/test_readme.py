@@ -40,7 +40,7 @@ def test_quickstart_makes_a_model_whose_head_is_where_it_was_put(
     offsets = problem.offsets([0, 0.1, 0.1, 0, 0, 0.6])
     wanted = problem.mesh.vertices[problem.pinned] + problem.target_displacements(offsets)
     miss = np.linalg.norm(session.vertices[problem.pinned] - wanted, axis=1)
-    # the handles are soft constraints: what is pinned here is that they hold to a hundredth of the size
+    # the handles are soft constraints: they hold to a hundredth of the size
     assert np.sqrt(np.mean(miss**2)) < 0.01 * problem.mesh.diagonal
     vertices, faces = ss.read_surface(tmp_path / "creature.obj")
     assert len(faces) == len(problem.mesh.surface)

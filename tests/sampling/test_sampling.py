@@ -25,6 +25,10 @@ class UnitCube:
 
     dimension: int
 
+    @property
+    def free_axes(self) -> NDArray[np.bool_]:
+        return np.ones(self.dimension, dtype=bool)
+
     def from_unit(self, points: FloatArray) -> FloatArray:
         return points
 
@@ -139,6 +143,12 @@ def test_a_grid_is_the_largest_product_of_nearly_equal_numbers(count: int, dimen
 
 def test_three_hundred_in_six_dimensions_are_216() -> None:
     assert len(sample(CUBE, 300, method="grid")) == 216
+
+
+def test_a_grid_does_not_divide_axes_without_width() -> None:
+    points = sample(HandleBox(translation=1.0, angle=0.0), 300, method="grid")
+    assert len(points) == 7 * 7 * 6
+    assert len(np.unique(points, axis=0)) == len(points)
 
 
 @pytest.mark.parametrize(

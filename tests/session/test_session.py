@@ -242,3 +242,27 @@ def test_an_exhausted_budget_is_reported(posing_model: ReducedModel) -> None:
         if (report := session.solve()).converged:
             break
     assert report.converged, "solving on reaches the end"
+
+
+def test_all_handles_at_once_are_the_same_pose_as_one_after_another(
+    posing_model: ReducedModel,
+) -> None:
+    names = posing_model.problem.handles.names[1:]
+    motions = {name: ((0.1 * k, -0.2, 0.05), (0.02, 0.03 * k, 0.0)) for k, name in enumerate(names)}
+    together, one_by_one = (
+        posing_model.session(tolerance=1e-12),
+        posing_model.session(tolerance=1e-12),
+    )
+    assert together.move_all(motions).converged
+    for name, (euler, translation) in motions.items():
+        one_by_one.move(name, euler=euler, translation=translation)
+    np.testing.assert_allclose(together.vertices, one_by_one.vertices, atol=1e-6)
+
+
+def test_if_one_of_several_motions_is_refused_none_is_made(posing_model: ReducedModel) -> None:
+    session = posing_model.session()
+    first = posing_model.problem.handles.names[1]
+    with pytest.raises(ValueError, match="no handle 'wing'"):
+        session.move_all({first: ((0, 0, 0.3), (0, 0, 0)), "wing": ((0, 0, 0), (0, 0, 0))})
+    assert session.solve().value == pytest.approx(0.0, abs=1e-20)
+    np.testing.assert_array_equal(session.vertices, posing_model.problem.mesh.vertices)
