@@ -14,7 +14,7 @@ $(BIN)/pip:
 	$(BIN)/pip install --quiet --upgrade "pip>=23.1"
 
 $(STAMP): $(BIN)/pip $(CORE)
-	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.18"
+	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.19"
 	$(BIN)/pip install --quiet --no-build-isolation --editable ".[test,lint]"
 	touch $@
 

@@ -7,6 +7,7 @@ agree across levels up to rounding; within a level they are bitwise reproducible
 from __future__ import annotations
 
 import importlib
+import importlib.util
 import os
 from typing import Any
 
@@ -17,9 +18,13 @@ BUILDS = {"v4": 4, "v3": 3, "baseline": 0}
 
 
 def available_levels() -> list[str]:
-    """Names of the builds that this processor can run, widest first."""
+    """Names of the builds that are installed and that this processor can run, widest first."""
     level = cpu_level()
-    return [name for name, needed in BUILDS.items() if level >= needed]
+    return [
+        name
+        for name, needed in BUILDS.items()
+        if level >= needed and importlib.util.find_spec(f"snapspace._core_{name}") is not None
+    ]
 
 
 def _chosen_level() -> str:

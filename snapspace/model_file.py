@@ -76,8 +76,7 @@ def load(path: str | Path) -> ReducedModel:
     if header.get("version") != str(VERSION):
         raise ValueError(
             f"{path}: model version {header.get('version')}, this snapspace reads version "
-            f"{VERSION}; "
-            "install the snapspace that wrote it, or build the model again"
+            f"{VERSION}; install the snapspace that wrote it, or build the model again"
         )
     _check_arrays(path, arrays)
     if header.get("checksum") != _checksum(arrays, header):
@@ -177,8 +176,7 @@ def _check_arrays(path: Path, arrays: Arrays) -> None:
         if arrays[name].dtype != dtype:
             raise ValueError(
                 f"{path}: the array '{name}' is {arrays[name].dtype}, not {np.dtype(dtype)}; "
-                "build the "
-                "model again"
+                "build the model again"
             )
 
 

@@ -15,19 +15,24 @@ METHODS: tuple[Method, ...] = ("random", "sobol", "grid")
 
 
 class Domain(Protocol):
-    """What a parameter domain must offer: the image of the unit cube under a measure-preserving
-    map.
+    """What a parameter domain must offer: an image of the unit cube.
+
+    Uniform points of the cube must become uniform points of the domain.
     """
 
     @property
-    def dimension(self) -> int: ...
+    def dimension(self) -> int:
+        """Number of parameters."""
+        ...
 
     @property
     def free_axes(self) -> NDArray[np.bool_]:
         """Mask of the axes along which the domain has extent."""
         ...
 
-    def from_unit(self, points: FloatArray) -> FloatArray: ...
+    def from_unit(self, points: FloatArray) -> FloatArray:
+        """Maps points of the unit cube, (k, dimension), into the domain."""
+        ...
 
 
 def sample(

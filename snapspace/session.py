@@ -90,8 +90,9 @@ class Session:
 
     @property
     def vertices(self) -> FloatArray:
-        """Vertices of the current shape, (n, 3): tau + U q, carried along by the fixed handle's
-        motion if it has one.
+        """Vertices of the current shape, (n, 3), in the mesh's length unit.
+
+        They are tau + U q, carried along by the first handle's motion if it has one.
         """
         shape = self.model.subspace.shape(self.q).reshape(-1, 3)
         if not np.array_equal(self._maps[0], np.eye(3, 4)):
@@ -161,8 +162,14 @@ class Session:
         return self.solve()
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
-        """Puts all handles at a parameter vector of the problem's domain (dimension,), and
-        solves.
+        """Puts all handles at a parameter vector (dimension,), and solves.
+
+        Parameters outside of the domain's bounds are allowed.
+
+        Raises
+        ------
+        ValueError
+            For another shape, or a parameter that is not finite.
         """
         offsets = self.model.problem.offsets(parameters)
         centers = self.model.problem.centroids

@@ -10,6 +10,7 @@ from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse import csr_array
 
 from . import _core as core
+from .blas import single_threaded_blas
 from .mesh import apply_mass, mass_gram, mass_matrix
 from .snapshots import Snapshots
 
@@ -48,6 +49,7 @@ class AffineSubspace:
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
 
+    @single_threaded_blas
     def coordinates(self, shapes: ArrayLike) -> FloatArray:
         """q = U^T M (x - tau) of the M-projection of shapes (3n,) or (3n, k): (d,) or (d, k)."""
         x = np.asarray(shapes, np.float64)
@@ -68,8 +70,7 @@ def snapshot_pca(
     lumped: bool = False,
     include_unconverged: bool = False,
 ) -> AffineSubspace:
-    """Subspace that best approximates the snapshots in the M-norm, at the rest shape (paper, sec.
-    5).
+    """Subspace through the rest shape that fits the snapshots best in the M-norm (paper, sec. 5).
 
     Parameters
     ----------
@@ -97,8 +98,7 @@ def snapshot_pca(
     if len(usable) == 0:
         raise ValueError(
             f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
-            "iterations, "
-            "a smaller domain, or include_unconverged=True"
+            "iterations, a smaller domain, or include_unconverged=True"
         )
     mesh = snapshots.problem.mesh
     mass = mass_matrix(mesh, lumped=lumped)
@@ -111,6 +111,7 @@ def snapshot_pca(
     )
 
 
+@single_threaded_blas
 def pca(
     shapes: FloatArray,
     tau: FloatArray,
@@ -119,10 +120,15 @@ def pca(
     dimension: int | None = None,
     energy_fraction: float | None = None,
 ) -> AffineSubspace:
-    """Mass-weighted PCA of shapes (3n, k) about tau (3n,) by the method of snapshots (paper, sec.
-    5.2).
+    """Mass-weighted PCA of any shapes by the method of snapshots (paper, sec. 5.2).
 
-    As `snapshot_pca`, for any shapes and any scalar mass matrix (n, n).
+    Parameters
+    ----------
+    shapes : (3n, k), one shape per column
+    tau : (3n,), the shape that the subspace goes through
+    mass : csr_array, (n, n), scalar mass matrix
+    dimension, energy_fraction
+        As for `snapshot_pca`, and so are the result and the errors.
     """
     if (dimension is None) == (energy_fraction is None):
         raise ValueError("pca: give either dimension or energy_fraction")
@@ -157,8 +163,7 @@ def pca(
 
 
 def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
-    """Restores U^T M U = I by two Cholesky-QR passes, which are triangular and keep the bases
-    nested.
+    """Restores U^T M U = I by two Cholesky-QR passes; they are triangular, so bases stay nested.
 
     The Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out
     orthonormal only to eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
@@ -170,8 +175,7 @@ def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
     if error > 1e-10:
         raise ValueError(
             f"pca: the basis is orthonormal only to {error:.1e}; the last directions are noise, "
-            "take a "
-            "smaller dimension"
+            "take a smaller dimension"
         )
     return basis
 

@@ -23,12 +23,10 @@ REFERENCE_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Validation:
-    """Errors and costs on unseen parameters, one entry per sample that the full solver converged
-    on.
+    """Errors and costs on unseen parameters, (k,) for the k samples whose full solve converged.
 
     error : |x_red - x_full|_M / |x_full - rest|_M of the reduced solve from the rest shape
-    projection_error : the same for the M-projection of x_full into the subspace, the least error
-    possible
+    projection_error : the same for the M-projection of x_full into the subspace: the least possible
     energy_ratio : objective of the reduced solution over that of the full one
     iterations : of BFGS
     solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
@@ -64,9 +62,7 @@ class Validation:
 
 
 def unseen_parameters(model: ReducedModel, count: int, *, seed: int) -> FloatArray:
-    """Uniform random parameters (count, p) from a stream of their own: no seed gives those of
-    `sample`.
-    """
+    """Uniform random parameters (count, p) from a stream that `sample` never draws from."""
     if count < 1:
         raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))

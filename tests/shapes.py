@@ -41,7 +41,7 @@ def deformed(mesh: TetMesh, size: float, *, seed: int = 1) -> FloatArray:
 
 
 def random_rotation(seed: int = 2) -> FloatArray:
-    return Rotation.random(rng=np.random.default_rng(seed)).as_matrix()
+    return Rotation.from_quat(np.random.default_rng(seed).normal(size=4)).as_matrix()
 
 
 def moved(x: FloatArray, rotation: FloatArray, shift: FloatArray | float = 0.0) -> FloatArray:

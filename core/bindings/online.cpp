@@ -14,8 +14,8 @@ const double* checked(int dimension, const VectorIn& q) {
   return q.data();
 }
 
-/// A live solver with its current coordinates; the arrays it reads are kept alive by the Python
-/// object.
+/// A live solver with its current coordinates. The Python object keeps the arrays alive that it
+/// reads, or the copies that a conversion made.
 struct PosingLoop {
   int dimension;
   int handles;

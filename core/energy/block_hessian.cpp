@@ -11,8 +11,7 @@ namespace {
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-/// Displacement gradient of the clamped state; leaves G as it is where no singular value is below
-/// the threshold.
+/// Makes G that of the clamped state; leaves it where no singular value is below the threshold.
 void clamp_singular_values(double G[3][3], double threshold) {
   Eigen::Map<Matrix3> gradient(&G[0][0]);
   const Eigen::Matrix3d F = gradient + Eigen::Matrix3d::Identity();
@@ -87,8 +86,7 @@ void BlockHessian::add_element(const StVK& material, const RestTet& tet,
   const Eigen::Matrix<double, 3, 4> Fb = F * b;
   const Eigen::Matrix<double, 3, 4> Sb = S * b;
 
-  // Second derivative of volume * psi by vertices j and k, from dP = dF S + F dS with dF = v (x)
-  // b_k.
+  // Second derivative of volume * psi by vertices j and k: dP = dF S + F dS with dF = v (x) b_k.
   for (int j = 0; j < 4; ++j)
     for (int k = 0; k < 4; ++k) {
       Eigen::Map<Matrix3> block(blocks_[slots[4 * j + k]].data());

@@ -7,8 +7,7 @@
 
 namespace snapspace {
 
-/// Symmetric matrix of 3 x 3 blocks, one per pair of vertices that share a tet; block rows
-/// compressed.
+/// Symmetric matrix of 3 x 3 blocks, one per pair of vertices that share a tet, row by row.
 ///
 /// The pattern and the place of every element's 16 blocks are found once; assembling again only
 /// writes values.
@@ -42,8 +41,8 @@ class BlockHessian {
   std::vector<std::int32_t> row_start_;        // n + 1
   std::vector<std::int32_t> columns_;          // one per block, ascending within a row
   std::vector<std::array<double, 9>> blocks_;  // row-major 3 x 3
-  std::vector<std::array<std::int32_t, 16>>
-      slots_;  // of every tet: block of vertex pair (a, b) at 4 a + b
+  // Of every tet: the block of its vertex pair (a, b) at 4 a + b.
+  std::vector<std::array<std::int32_t, 16>> slots_;
 };
 
 }  // namespace snapspace

@@ -1,12 +1,11 @@
 #pragma once
 #include "mesh/rest_shape.h"
 
-/// St.Venant-Kirchhoff element kernels, for one sample (Real = double) or one sample per lane (Real
-/// = Lanes).
+/// St.Venant-Kirchhoff element kernels. Real is double, or Lanes for one sample per lane.
 ///
-/// Strain E = (F^T F - I) / 2, density psi = mu |E|^2 + lam/2 tr(E)^2, energy = volume * psi [Bonet
-/// & Wood 2007]. The kernels take displacements u, not positions: with the displacement gradient G
-/// = F - I the strain is E = (G + G^T + G^T G) / 2, which keeps full precision for small
+/// Strain E = (F^T F - I) / 2, density psi = mu |E|^2 + lam/2 tr(E)^2, energy = volume * psi
+/// [Bonet & Wood 2007]. The kernels take displacements u, not positions: with the displacement
+/// gradient G = F - I the strain is E = (G + G^T + G^T G) / 2, which keeps full precision for small
 /// deformations and on slivers, where F^T F - I cancels. St.VK cannot tell an inverted element from
 /// its mirror image: psi(F) = psi(-F).
 namespace snapspace {
@@ -16,8 +15,7 @@ struct StVK {
   double mu;
 };
 
-/// G = sum_j (u_j - u_0) (x) (row j of inverse_edges): the displacement gradient, constant in the
-/// element.
+/// Displacement gradient G = sum_j (u_j - u_0) (x) (row j of inverse_edges), constant in the tet.
 template <class Real>
 inline void displacement_gradient(const RestTet& tet, const Real* u, Real G[3][3]) {
   const Real* u0 = u + 3 * tet.vertices[0];
@@ -34,8 +32,7 @@ inline void displacement_gradient(const RestTet& tet, const Real* u, Real G[3][3
   }
 }
 
-/// Second Piola-Kirchhoff stress S = 2 mu E + lam tr(E) I of the displacement gradient G; returns
-/// the density psi.
+/// Second Piola-Kirchhoff stress S = 2 mu E + lam tr(E) I at G; returns the density psi.
 template <class Real>
 inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
   Real E[3][3];
@@ -96,8 +93,7 @@ inline Real stvk_energy_and_gradient(const StVK& material, const RestTet& tet, c
   return density * Real(tet.volume);
 }
 
-/// Differential dP = dF S + F dS of the first Piola-Kirchhoff stress at G (with stress S), in
-/// direction dF.
+/// Differential dP = dF S + F dS of the first Piola-Kirchhoff stress at G with stress S, along dF.
 template <class Real>
 inline void stress_differential(const StVK& material, const Real G[3][3], const Real S[3][3],
                                 const Real dF[3][3], Real dP[3][3]) {

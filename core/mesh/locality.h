@@ -5,9 +5,11 @@
 namespace snapspace {
 
 /// Vertices in the order of a space-filling (Morton) curve through their bounding box, so that
-/// vertices of a tet are near each other in memory: with one sample per lane a vertex fills three
-/// cache lines, and in a file's order most of an element's time would be spent on waiting for them.
-/// Returns the old index of every new one.
+/// vertices of a tet are near each other in memory: with one sample per lane a vertex fills up to
+/// three cache lines, and in a file's order an element would mostly wait for them. Returns the old
+/// index of every new one.
+///
+/// @param vertices  count x 3, finite; count >= 1
 [[nodiscard]] std::vector<std::int32_t> morton_order(const double* vertices, int count);
 
 /// A mesh renumbered by morton_order, its tets sorted by their first vertex along the curve.
@@ -15,8 +17,7 @@ struct LocalMesh {
   std::vector<std::int32_t> order;   ///< old index of every new one
   std::vector<std::int32_t> places;  ///< new index of every old one
   std::vector<double> vertices;      ///< n x 3
-  std::vector<std::int32_t>
-      tets;  ///< m x 4, new indices; corners keep their order, so volumes keep their sign
+  std::vector<std::int32_t> tets;    ///< m x 4; corners keep their order, volumes their sign
 
   LocalMesh(const double* vertices, int vertex_count, const std::int32_t* tets, int tet_count);
 };

@@ -1,6 +1,7 @@
 #include "mesh/rest_shape.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 namespace snapspace {
 

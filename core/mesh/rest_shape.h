@@ -7,8 +7,7 @@ namespace snapspace {
 
 /// What a tetrahedron's energy needs of its rest shape.
 struct RestTet {
-  double inverse_edges[3][3];  ///< inverse of the matrix whose columns are the edges v1-v0, v2-v0,
-                               ///< v3-v0
+  double inverse_edges[3][3];  ///< inverse of the matrix with columns v1 - v0, v2 - v0, v3 - v0
   double volume;
   std::int32_t vertices[4];
 };

@@ -12,8 +12,10 @@ namespace snapspace::online {
 /// cancel.
 class HandleQuadric {
  public:
-  /// @param K  d x d   @param L  handles x d x 12, row-major (D_h row by row)   @param S  handles x
-  /// 4 x 4 All kept alive by the caller.
+  /// Keeps pointers: the arrays must outlive it.
+  /// @param K  d x d
+  /// @param L  handles x d x 12, row-major, D_h row by row
+  /// @param S  handles x 4 x 4
   HandleQuadric(int dimension, int handles, const double* K, const double* L, const double* S)
       : d_(dimension), handles_(handles), K_(K), L_(L), S_(S), linear_(dimension) {}
 

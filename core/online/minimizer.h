@@ -20,8 +20,9 @@ struct Report {
 
 /// The three tests of Gill, Murray & Wright (1981; paper, sec. 6.2) with tolerance eps, all of
 /// which must hold:
-///   F_{k-1} - F_k < eps (1 + |F_k|),  |q_{k-1} - q_k| < sqrt(eps) (1 + |q_k|),  |grad F_k| <
-///   cbrt(eps) (1 + |F_k|).
+///   F_{k-1} - F_k     < eps (1 + |F_k|)
+///   |q_{k-1} - q_k|   < sqrt(eps) (1 + |q_k|)
+///   |grad F_k|        < cbrt(eps) (1 + |F_k|)
 /// The "1 +" presumes a problem scaled to unit size, so values are measured in units of value_scale
 /// and coordinates in units of coordinate_scale.
 struct Termination {

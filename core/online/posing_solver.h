@@ -7,20 +7,17 @@
 
 namespace snapspace::online {
 
-/// Minimises the reduced posing energy frame by frame: elastic quartic + handle quadric in d
-/// coordinates.
+/// Minimises the reduced posing energy, elastic quartic + handle quadric, frame by frame.
 ///
 /// This is the live loop. Its cost depends on the dimension and the number of handles only, and it
 /// takes no memory after construction.
 class PosingSolver {
  public:
-  /// @param quartic_coefficients, K, L, S  as Quartic and HandleQuadric take them, kept alive by
-  /// the caller
+  /// Keeps pointers to the arrays, which are as Quartic and HandleQuadric take them.
   PosingSolver(int dimension, int handles, const double* quartic_coefficients, const double* K,
                const double* L, const double* S);
 
-  /// False if the Hessian at rest is not positive definite, so that there is no minimiser to start
-  /// from.
+  /// False if the Hessian at rest is not positive definite: BFGS then has no matrix to start from.
   [[nodiscard]] bool valid() const { return valid_; }
 
   void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
@@ -35,8 +32,7 @@ class PosingSolver {
     handles_.add_hessian(hessian);
   }
 
-  /// BFGS from q, in place, with the inverse Hessian at rest as the first approximation (paper,
-  /// sec. 6.2).
+  /// BFGS from q, in place, with the inverse Hessian at rest as first approximation (sec. 6.2).
   Report solve(double* q, const Termination& stop) {
     return bfgs_.minimize(*this, q, rest_inverse_.data(), stop);
   }

@@ -11,8 +11,7 @@ constexpr std::size_t quartic_count(std::size_t n) {
   return n * (n + 1) / 2 * (n + 2) / 3 * (n + 3) / 4;
 }
 
-/// A polynomial of degree four in d variables q, as one symmetric form of degree four in x = (1,
-/// q).
+/// A polynomial of degree four in d variables q, as one form of degree four in x = (1, q).
 ///
 /// Coefficients of the monomials x_i x_j x_k x_l, i <= j <= k <= l, are stored with l slowest and i
 /// fastest. The polynomial restricted to the first d' < d variables is therefore a prefix of the

@@ -18,7 +18,7 @@ constexpr int kBlock = 128;
 /// Column of the pair (i, j), i <= j, behind the constant and the d linear columns.
 int pair_column(int dimension, int i, int j) { return 1 + dimension + j * (j + 1) / 2 + i; }
 
-/// Turns strain components into rows whose squares add up to the energy density: the square root of
+/// Square root of the density: turns strains into rows whose squares add up to
 /// mu |E|^2 + lam/2 tr(E)^2.
 struct StrainRoot {
   double shear;  // times each off-diagonal entry
@@ -120,8 +120,8 @@ Eigen::MatrixXd gram_matrix(const ElasticEnergy& energy, const double* modes, in
     for (int I = 0; I <= J; ++I) block_pairs.push_back({I, J});
 
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::MatrixXd panel(columns,
-                        6 * std::min(kPanelTets, tets));  // A^T: columns of it are rows of A
+  // A^T: its columns are rows of A.
+  Eigen::MatrixXd panel(columns, 6 * std::min(kPanelTets, tets));
   for (int begin = 0; begin < tets; begin += kPanelTets) {
     const int count = std::min(kPanelTets, tets - begin);
     constexpr int kSlice = 64;

@@ -13,8 +13,8 @@ namespace snapspace {
 /// column for each of 1, q_i, q_i q_j. A is made and multiplied panel by panel. Cost: 6 m (d^2/2)^2
 /// multiply-adds for m tets. Every entry is summed in the same order for any number of threads.
 ///
-/// @param modes  (d + 1) x 3n row-major: displacements from the rest shape; first the offset, then
-/// the basis
+/// @param modes    (d + 1) x 3n row-major, displacements from rest: the offset, then the basis
+/// @param threads  0: as many as the machine has
 [[nodiscard]] std::vector<double> quartic_coefficients(const ElasticEnergy& energy,
                                                        const double* modes, int dimension,
                                                        int threads);

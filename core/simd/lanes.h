@@ -2,8 +2,8 @@
 /// One sample per SIMD lane.
 ///
 /// A pack holds the same quantity of `Width` independent samples. Every operation is elementwise,
-/// so a lane never sees its neighbours: the result of a sample is bitwise the same in any lane,
-/// beside any other samples, and in packs of any width.
+/// so a lane never sees its neighbours: the result of a sample is bitwise the same in any lane and
+/// beside any other samples. Packs of another width are other code, and may round differently.
 
 namespace snapspace {
 

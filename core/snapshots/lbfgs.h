@@ -8,10 +8,10 @@
 /// where or beside whom it was solved.
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "simd/lanes.h"
@@ -21,8 +21,8 @@
 
 namespace snapspace {
 
-/// @tparam Objective  size(), negligible(), load(lane, sample), value_and_gradient(u, g),
-/// precondition(v, result, scratch)
+/// @tparam Objective  has size(), negligible(), load(lane, sample), value_and_gradient(u, g) and
+///                    precondition(v, result, scratch)
 template <class Objective, int Width>
 class LaneLbfgs {
  public:
@@ -68,7 +68,8 @@ class LaneLbfgs {
 
   struct Lane {
     int sample = -1;
-    bool fresh = false;  // the start itself is evaluated next
+    bool fresh = false;      // the start itself is evaluated next
+    bool restarted = false;  // since the last accepted step
     bool done = false;
     int iterations = 0;
     int evaluations = 0;
@@ -145,6 +146,7 @@ class LaneLbfgs {
     if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope)) {
       lane.decreases[lane.iterations % kWindow] = lane.value - value;
       ++lane.iterations;
+      lane.restarted = false;
       lane.value = value;
       lane.shortenings = 0;
       // Far from the minimum the material stiffens along every direction, and for a while steps of
@@ -174,8 +176,10 @@ class LaneLbfgs {
   }
 
   /// Rounding made an ascent direction: forget the memory and go on along the preconditioned
-  /// gradient.
+  /// gradient. If that ascends as well, the gradient is noise.
   void restart(int index) {
+    if (lanes_[index].restarted) return finish(lanes_[index], SolveStatus::line_search_failed);
+    lanes_[index].restarted = true;
     memory_.forget(index);
     for (int i = 0; i < size_; ++i) direction_[i].set(index, 0.0);
     lanes_[index].fresh = true;

@@ -6,8 +6,7 @@
 
 namespace snapspace {
 
-/// The memory of L-BFGS for all lanes, and the two-loop recursion (Nocedal & Wright 2006, alg. 7.4)
-/// on it.
+/// The memory of L-BFGS for all lanes, with the two-loop recursion (Nocedal & Wright, alg. 7.4).
 ///
 /// The recursion is bound by the time it takes to read its pairs of vectors. So the pairs are kept
 /// in single precision, which perturbs the approximation of the inverse Hessian by 1e-7 and the
@@ -15,8 +14,7 @@ namespace snapspace {
 /// earlier (as in Chen, Wang, Zhou 2014), so that each of its passes combines or multiplies all
 /// pairs at once.
 ///
-/// Every lane has its own slots: an empty one has zero curvature. All lanes share the ring's
-/// position.
+/// Every lane has its own slots; an empty one has zero curvature. The ring's position is shared.
 template <int Width>
 class LbfgsMemory {
  public:
@@ -37,8 +35,7 @@ class LbfgsMemory {
     }
   }
 
-  /// Empties a lane. The pairs themselves are cleared too: zero curvature times a NaN would stay
-  /// NaN.
+  /// Empties a lane. The pairs are cleared too: zero curvature times a NaN would stay NaN.
   void forget(int lane) {
     for (int k = 0; k < kPairs; ++k) {
       curvature_[k].set(lane, 0.0);
@@ -59,8 +56,7 @@ class LbfgsMemory {
   void move(Real accepted, Real remembered, Real length, const Real* trial,
             const Real* trial_gradient, Real* u, Real* gradient);
 
-  /// right_hand_side = gradient - sum of the first loop, in single precision and scaled by 1 /
-  /// |gradient|.
+  /// right_hand_side = (gradient - sum of the first loop) / |gradient|, in single precision.
   void first_loop(const Real* gradient, Single* right_hand_side);
 
   /// direction = -(preconditioned / scale + sum of the second loop) for the lanes of `accepted`;

@@ -15,8 +15,7 @@ inline bool sufficient_decrease(double value0, double slope0, double step, doubl
   return value <= value0 + noise && std::abs(slope) <= 0.8 * std::abs(slope0);
 }
 
-/// Minimiser of the cubic through both ends' values and slopes, kept within [0.1, 0.5] of the
-/// refused step.
+/// Minimiser of the cubic through both ends' values and slopes, within [0.1, 0.5] * refused step.
 inline double shorter_step(double value0, double slope0, double step, double value, double slope) {
   if (!std::isfinite(value) || !std::isfinite(slope)) return 0.1 * step;
   const double d1 = slope0 + slope - 3.0 * (value0 - value) / (-step);

@@ -1,5 +1,6 @@
 #include "snapshots/newton.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>

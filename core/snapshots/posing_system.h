@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "energy/elastic_energy.h"
@@ -11,8 +13,8 @@ namespace snapspace {
 /// What all samples of a posing problem share: F(u) = E(u) + sum_k weight_k |u_k - target_k|^2 over
 /// pinned vertices k. Only the targets differ from sample to sample, so one factor serves them all.
 ///
-/// Inside, vertices are numbered along a space-filling curve; `to_internal` and `to_external`
-/// translate shapes.
+/// Inside, vertices are numbered along a space-filling curve; `to_internal` and `to_external` copy
+/// shapes between the numberings.
 struct PosingSystem {
   std::vector<std::int32_t> order;  ///< the caller's index of every internal vertex
   ElasticEnergy energy;
@@ -113,8 +115,8 @@ class PosingObjective {
     return value;
   }
 
-  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n, of Real or of any
-  /// other precision, may be the same. `scratch` is 3n.
+  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n and of any precision,
+  /// and they may be the same array. `scratch` is 3n.
   template <class Any>
   void precondition(const Any* vector, Any* result, Any* scratch) const {
     system_.factor.solve(vector, result, scratch);

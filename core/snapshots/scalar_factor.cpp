@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <stdexcept>
+#include <string>
 
 namespace snapspace {
 
@@ -11,8 +12,8 @@ ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A) {
   if (llt.info() != Eigen::Success)
     throw std::invalid_argument("ScalarFactor: the matrix of size " + std::to_string(A.rows()) +
                                 " is not positive definite; every connected component needs a "
-                                "handle, and the stiffness and "
-                                "the Lame parameters must be positive");
+                                "handle, and the stiffness and the Lame parameters must be "
+                                "positive");
   const Eigen::SparseMatrix<double>& L = llt.matrixL().nestedExpression();
   const Eigen::Index n = L.rows();
   order_.resize(n);

@@ -20,8 +20,7 @@ class ScalarFactor {
 
   [[nodiscard]] std::size_t nonzeros() const { return values_.size() + inverse_diagonal_.size(); }
 
-  /// solution = (A (x) I3)^{-1} right_hand_side, both 3n; `scratch` is 3n. solution may be
-  /// right_hand_side.
+  /// solution = (A (x) I3)^{-1} right_hand_side, both 3n; they may be the same. `scratch` is 3n.
   template <class Real>
   void solve(const Real* right_hand_side, Real* solution, Real* scratch) const;
 
@@ -46,8 +45,8 @@ class ScalarFactor {
   }
 
   std::vector<std::int32_t> order_;  // row of the factor -> vertex
-  std::vector<std::int64_t>
-      column_start_;  // n + 1, into rows_ and values_: below the diagonal only
+  // The columns below the diagonal; column j is [column_start_[j], column_start_[j + 1]).
+  std::vector<std::int64_t> column_start_;
   std::vector<std::int32_t> rows_;
   std::vector<double> values_;
   std::vector<float> single_values_;  // the same, for right-hand sides in single precision

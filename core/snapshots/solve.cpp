@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <mutex>
+#include <thread>
 
 #include "snapshots/lbfgs.h"
 #include "snapshots/newton.h"

@@ -15,8 +15,7 @@ namespace snapspace {
                                                   SolveControl& control);
 
 /// The same by the paper's Newton method, one sample per thread at a time.
-/// `linear_iterations` receives the number of conjugate gradient iterations of all samples
-/// together.
+/// @param linear_iterations  receives the conjugate gradient iterations of all samples together
 [[nodiscard]] std::vector<SolveReport> solve_newton(const PosingSystem& system,
                                                     const PosingSamples& samples,
                                                     const SolveOptions& options, double clamp,

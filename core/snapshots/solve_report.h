@@ -18,25 +18,22 @@ struct SolveReport {
   int evaluations = 0;
   double value = 0.0;          ///< objective at the returned shape
   double gradient_norm = 0.0;  ///< Euclidean norm of its gradient
-  double decrement =
-      0.0;  ///< -g.d of the last direction d: twice the decrease that the model predicts
-  double seconds = 0.0;  ///< wall time from taking the sample to finishing it
+  double decrement = 0.0;      ///< -g.d of the last direction d: twice the predicted decrease
+  double seconds = 0.0;        ///< wall time from taking the sample to finishing it
   int inverted_tets = 0;
 };
 
 struct SolveOptions {
-  double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value
+  double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value; L-BFGS asks more
   int max_iterations = 500;
-  bool wide =
-      true;  ///< packs of kWideLanes or of kNarrowLanes samples; results agree up to rounding
-  int threads = 0;  ///< 0: as many as the machine has
+  bool wide = true;  ///< packs of kWideLanes, not kNarrowLanes; results agree up to rounding
+  int threads = 0;   ///< 0: as many as the machine has
 };
 
 /// Shared with a running solve by another thread.
 struct SolveControl {
-  std::atomic<bool> cancelled{
-      false};  ///< set: the solve ends soon; samples not finished report `cancelled`
-  std::atomic<int> finished{0};  ///< samples done so far
+  std::atomic<bool> cancelled{false};  ///< set: it ends soon, and what is not done is `cancelled`
+  std::atomic<int> finished{0};        ///< samples done so far
 };
 
 }  // namespace snapspace

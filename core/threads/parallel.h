@@ -3,6 +3,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -12,8 +13,7 @@ namespace snapspace {
 /// machine has).
 ///
 /// Items are handed out in order, to whichever thread is free; an item must not depend on which
-/// thread runs it. The first exception of a work item is rethrown here after all threads have
-/// ended.
+/// thread runs it. The first exception of an item is rethrown here after all threads have ended.
 template <class Work>
 void parallel_for(int count, int threads, Work&& work) {
   if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
@@ -31,7 +31,13 @@ void parallel_for(int count, int threads, Work&& work) {
     }
   };
   std::vector<std::thread> pool;
-  for (int t = 1; t < threads; ++t) pool.emplace_back(run);
+  pool.reserve(std::max(0, threads - 1));
+  try {
+    for (int t = 1; t < threads; ++t) pool.emplace_back(run);
+  } catch (const std::system_error&) {
+    // The system grants no more threads: those there are do the work. Leaving with an exception
+    // would destroy running threads, which ends the process.
+  }
   run();
   for (std::thread& thread : pool) thread.join();
   if (error) std::rethrow_exception(error);

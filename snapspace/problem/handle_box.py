@@ -12,8 +12,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, kw_only=True)
 class HandleBox:
-    """Motions of the moving handles: translations and Euler angles up to given bounds (paper, sec.
-    4.1).
+    """Translations and Euler angles of the moving handles up to given bounds (paper, sec. 4.1).
 
     Parameters
     ----------
@@ -33,7 +32,7 @@ class HandleBox:
     Notes
     -----
     A parameter vector has 6 entries per moving handle: translation x, y, z, then angles alpha,
-    beta, gamma.
+    beta, gamma. The domain is [-bound, bound] along each.
     """
 
     translation: float | tuple[float, float, float]

@@ -13,8 +13,10 @@ IndexArray = NDArray[np.int32]
 
 @dataclass(frozen=True)
 class Handle:
-    """A named set of vertices that follows one motion. `vertices` is sorted and unique, (k,)
-    int32.
+    """A named set of vertices that follows one motion.
+
+    name : str
+    vertices : (k,) int32, sorted and unique
     """
 
     name: str
@@ -37,6 +39,8 @@ class Handles:
         For fewer than two handles, an empty or overlapping handle, a negative or non-integer
         index, names that do not match; the message names the handle.
 
+    Examples
+    --------
     >>> handles = Handles([[0, 1], [7, 8]], names=["foot", "head"])
     >>> handles["head"].vertices
     array([7, 8], dtype=int32)
@@ -54,9 +58,8 @@ class Handles:
         )
         if len(self._handles) < 2:
             raise ValueError(
-                f"Handles: got {len(self._handles)}, but posing needs a fixed handle and at "
-                "least one "
-                "to move"
+                f"Handles: got {len(self._handles)}, but posing needs a fixed handle and "
+                "at least one to move"
             )
         self._check_disjoint()
 
@@ -93,8 +96,7 @@ class Handles:
                 if common.size:
                     raise ValueError(
                         f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, "
-                        "the "
-                        f"first is {common[0]}; a vertex can follow one handle only"
+                        f"the first is {common[0]}; a vertex can follow one handle only"
                     )
 
 

@@ -14,12 +14,15 @@ def rotation_matrix(euler: ArrayLike) -> FloatArray:
 
     (..., 3) angles give (..., 3, 3) matrices.
     """
-    matrices: FloatArray = Rotation.from_euler("xyz", np.asarray(euler, np.float64)).as_matrix()
-    return matrices
+    angles = np.asarray(euler, np.float64)
+    # one row per rotation: SciPy takes more axes only since 1.17
+    rows = angles.reshape(-1, angles.shape[-1])
+    matrices: FloatArray = Rotation.from_euler("xyz", rows).as_matrix()
+    return matrices.reshape(*angles.shape, 3)
 
 
 def rigid_offset(euler: ArrayLike, translation: ArrayLike) -> FloatArray:
-    """(..., 3, 4) offset [R - I | t] of rigid motions about a centroid.
+    """Offsets [R - I | t], (..., 3, 4), of rigid motions about a centroid.
 
     It maps (rest position - centroid, 1) to the displacement that the motion wants:
     target = R (v - c) + c + t. The identity has offset zero.

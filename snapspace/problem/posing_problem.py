@@ -33,8 +33,8 @@ class PosingProblem:
         The first one stays at rest while sampling.
     material : StVK, default StVK(lam=1, mu=1)
     stiffness : float, default 1000
-        Weight of the handles, > 0, in energy per volume and squared length (mu of the paper's eq.
-        2).
+        Weight of the handles, > 0, in energy per volume and squared length (mu of eq. 2 in the
+        paper).
     domain : HandleBox
         Bounds of the motions; `moving` is set to the number of handles less one.
 
@@ -66,16 +66,14 @@ class PosingProblem:
             if handle.vertices[-1] >= len(mesh.vertices):
                 raise ValueError(
                     f"PosingProblem: handle '{handle.name}' has vertex index "
-                    f"{handle.vertices[-1]}, "
-                    f"but the mesh has {len(mesh.vertices)} vertices"
+                    f"{handle.vertices[-1]}, but the mesh has {len(mesh.vertices)} vertices"
                 )
         held = mesh.vertices[self.pinned] - mesh.vertices[self.pinned].mean(axis=0)
         extents = np.linalg.svd(held, compute_uv=False)
         if extents.size < 2 or extents[1] <= 1e-9 * mesh.diagonal:
             raise ValueError(
                 "PosingProblem: the vertices of all handles lie on one line, so the shape could "
-                "turn "
-                "about it; give the handles more vertices"
+                "turn about it; give the handles more vertices"
             )
 
     @property
@@ -124,8 +122,8 @@ class PosingProblem:
         if w.shape != (self.dimension,):
             raise ValueError(
                 f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} "
-                "moving "
-                f"handles need ({self.dimension},): translation, then angles, handle by handle"
+                f"moving handles need ({self.dimension},): translation, then angles, handle by "
+                "handle"
             )
         if not np.isfinite(w).all():
             raise ValueError("PosingProblem: a parameter is not finite")
@@ -146,9 +144,7 @@ class PosingProblem:
         )
 
     def handle_energy(self, x: ArrayLike, offsets: FloatArray) -> float:
-        """The second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4), straight
-        from its definition.
-        """
+        """Second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4)."""
         moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return float(self.pin_weights @ ((moved - wanted) ** 2).sum(axis=1))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blas import single_threaded_blas
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 
@@ -18,10 +19,12 @@ class HandleQuadric:
     """Eq. (2) at the shape rest + U q as a quadratic form in q and the handles' offsets D_h.
 
     value = q^T K q - 2 sum_h (L_h vec D_h) . q + sum_h tr(D_h S_h D_h^T), where D_h (3, 4) maps
-    (rest - centroid, 1) to the wanted displacement, so that any affine motion is exact: [R - I |
-    t] for a rigid one.
+    (rest - centroid, 1) to the wanted displacement, [R - I | t] for a rigid motion. Any affine
+    motion is exact.
 
-    K : (d, d)    L : (h, d, 12), columns are the entries of D_h row by row    S : (h, 4, 4)
+    K : (d, d) float64, symmetric
+    L : (h, d, 12) float64, columns are the entries of D_h row by row
+    S : (h, 4, 4) float64
     """
 
     K: FloatArray
@@ -44,6 +47,7 @@ class HandleQuadric:
         return HandleQuadric(K, np.ascontiguousarray(self.L[:, :dimension]), self.S)
 
 
+@single_threaded_blas
 def handle_quadric(problem: PosingProblem, subspace: AffineSubspace) -> HandleQuadric:
     """The quadratic form of a problem's handles on a subspace attached to the rest shape.
 

@@ -34,8 +34,7 @@ class Quartic:
         if coefficients.shape != (coefficient_count(dimension),):
             raise ValueError(
                 f"Quartic: dimension {dimension} needs {coefficient_count(dimension)} "
-                "coefficients, got "
-                f"an array of shape {coefficients.shape}"
+                f"coefficients, got an array of shape {coefficients.shape}"
             )
         self.dimension = dimension
         self.coefficients = np.ascontiguousarray(coefficients, np.float64)
@@ -70,9 +69,9 @@ def reduced_quartic(
 ) -> Quartic:
     """The elastic energy on a subspace.
 
-    Cost: 6 m multiply-adds per pair of the (d + 1)(d + 2)/2 monomials of degree two, as one matrix
-    product (BLAS-3); the coefficients are bitwise the same for any number of threads (default:
-    all).
+    Cost: 6 m multiply-adds per pair of the (d + 1)(d + 2)/2 monomials of degree up to two, as one
+    matrix product; the coefficients are bitwise the same for any number of threads (default: as
+    many as the machine has).
     """
     offset = subspace.tau - energy.mesh.vertices.reshape(-1)
     modes = np.ascontiguousarray(np.vstack([offset, subspace.basis.T]))

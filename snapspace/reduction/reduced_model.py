@@ -96,8 +96,7 @@ def reduce(
     threads: int | None = None,
     provenance: dict[str, Any] | None = None,
 ) -> ReducedModel:
-    """Restricts a problem to a subspace (paper, sec. 6.1), exactly: reduced and full objective
-    agree at tau + U q.
+    """Restricts a problem to a subspace (paper, sec. 6.1).
 
     Parameters
     ----------
@@ -110,6 +109,11 @@ def reduce(
         Default: all. The result does not depend on it.
     provenance : dict, optional
         Recorded in the model; must be valid JSON.
+
+    Returns
+    -------
+    ReducedModel
+        Exact: its objective equals F at tau + U q for all q and all affine motions of the handles.
 
     Raises
     ------

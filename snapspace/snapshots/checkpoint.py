@@ -45,15 +45,19 @@ class Checkpoint:
 
     @classmethod
     def beside(cls, output: Path, key: str) -> Checkpoint:
-        """The checkpoint of a run that writes `output`: a folder beside it whose name holds the
-        run's key.
-        """
+        """The checkpoint of a run that writes `output`: a folder beside it, named by its key."""
         return cls(output.with_name(f"{output.name}.partial-{key}"))
 
     def save(
         self, indices: Sequence[int], shapes: FloatArray, reports: Sequence[SampleReport]
     ) -> None:
-        """Adds finished samples: their numbers, displacements (j, 3n) and reports."""
+        """Adds finished samples: their numbers, displacements (j, 3n) and reports.
+
+        Raises
+        ------
+        ValueError
+            If the folder or the file cannot be written.
+        """
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -68,8 +72,9 @@ class Checkpoint:
             path.write_bytes(content)
 
     def load(self) -> dict[int, tuple[FloatArray, SampleReport]]:
-        """All finished samples by number. Files that are not readable are skipped: their samples
-        are solved again.
+        """All finished samples by number: displacements (3n,) and report.
+
+        Files that are not readable are skipped: their samples are solved again.
         """
         found: dict[int, tuple[FloatArray, SampleReport]] = {}
         for path in sorted(self.folder.glob("samples-*.safetensors")):

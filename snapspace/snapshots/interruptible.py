@@ -19,7 +19,8 @@ def run_interruptible(
 
     Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of
     finished samples now and then. The solve keeps what it finished: an interrupted one returns
-    early with the rest marked cancelled.
+    early with the rest marked cancelled. What `on_progress` raises ends the solve as well, and is
+    passed on.
     """
     control = core.SolveControl()
     interrupted = False
@@ -34,4 +35,7 @@ def run_interruptible(
             except KeyboardInterrupt:  # also one that arrives while progress is drawn
                 interrupted = True
                 control.cancel()
+            except BaseException:  # of on_progress: leaving the pool would wait for all samples
+                control.cancel()
+                raise
     return future.result(), interrupted

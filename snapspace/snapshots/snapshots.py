@@ -67,9 +67,7 @@ class Snapshots:
         return Snapshots(self.problem, self.parameters[which], self.shapes[:, which], reports)
 
     def summary(self) -> str:
-        """One line: how many converged, how many were left out and why, iterations, inverted
-        tets.
-        """
+        """One line: how many converged, why others did not, iterations, inverted tets."""
         good = int(self.converged.sum())
         parts = [f"{good} of {len(self)} samples converged"]
         for status in sorted({r.status for r in self.reports if not r.converged}):

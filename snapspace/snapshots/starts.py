@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial import cKDTree
 
+from ..blas import single_threaded_blas
+
 FloatArray = NDArray[np.float64]
 
 
@@ -27,12 +29,13 @@ def nearest_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray) -> 
     return np.ascontiguousarray(shapes[index])
 
 
+@single_threaded_blas
 def interpolated_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray) -> FloatArray:
     """Shapes interpolated between all known samples by linear radial basis functions.
 
-    Arguments and result as for `nearest_start`. On the Dragon such starts need a fifth fewer
-    evaluations than the nearest sample and half as many as the rest shape. Falls back on the
-    nearest sample while there are too few samples to fix the interpolant's constant term.
+    Arguments and result as for `nearest_start`. On 32 samples of the Dragon after 48 finished ones
+    such starts need 82 evaluations each, against 105 from the nearest sample and 145 from the rest
+    shape. With fewer than two distinct samples the result is that of `nearest_start`.
     """
     # the interpolant needs distinct points, but a sample may repeat another one or the rest pose
     distinct = np.sort(np.unique(known.round(9), axis=0, return_index=True)[1])

@@ -68,6 +68,15 @@ def test_an_undisturbed_solve_returns_its_result() -> None:
 
 
 @pytest.mark.usefixtures("fake_control")
+def test_a_failing_progress_display_ends_the_solve_at_once() -> None:
+    def broken(finished: int) -> None:
+        raise BrokenPipeError("nobody reads")
+
+    with pytest.raises(BrokenPipeError, match="nobody reads"):
+        run_interruptible(until_cancelled, broken)
+
+
+@pytest.mark.usefixtures("fake_control")
 def test_ctrl_c_cancels_the_solve_and_keeps_its_result() -> None:
     seen: list[int] = []
     timer = threading.Timer(0.05, _thread.interrupt_main)

@@ -115,6 +115,16 @@ def test_the_widest_level_is_chosen(
     monkeypatch: pytest.MonkeyPatch, processor: int, levels: list[str]
 ) -> None:
     monkeypatch.setattr(_core, "cpu_level", lambda: processor)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)  # all builds are installed
     monkeypatch.delenv("SNAPSPACE_LEVEL", raising=False)
     assert _core.available_levels() == levels
     assert _core._chosen_level() == levels[0]  # type: ignore[attr-defined]
+
+
+def test_a_build_that_is_not_installed_is_not_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Universal macOS wheels and old compilers have the plain build only."""
+    monkeypatch.setattr(_core, "cpu_level", lambda: 4)
+    monkeypatch.setattr(
+        "importlib.util.find_spec", lambda name: name if name.endswith("baseline") else None
+    )
+    assert _core.available_levels() == ["baseline"]
