@@ -182,4 +182,7 @@ def _orthonormalised(basis: FloatArray, mass: csr_array) -> FloatArray:
 
 def _check_dimension(dimension: int, largest: int) -> None:
     if not 1 <= dimension <= largest:
-        raise ValueError(f"dimension {dimension} is not between 1 and {largest}")
+        raise ValueError(
+            f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger one "
+            "takes more snapshots"
+        )

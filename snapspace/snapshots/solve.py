@@ -44,7 +44,7 @@ class SolverOptions:
         leaves about 0.3 % of the displacement relative to the tight solution, 1e-7 leaves 0.04 %.
     max_iterations : int, default 1000
         Per sample; one that needs more ends as max_iterations.
-    clamp : float, default 0.6
+    clamp : float, default 0.65
         Newton only: singular values are raised to this in the Hessian; the paper uses 0.5 to 0.8.
     wave : int, optional
         Samples solved together; they start from the samples of earlier waves only, so that results
@@ -59,7 +59,7 @@ class SolverOptions:
     solver: Solver = "fast"
     tolerance: float = 1e-5
     max_iterations: int = 1000
-    clamp: float = 0.6
+    clamp: float = 0.65
     wave: int | None = None
 
     def __post_init__(self) -> None:
