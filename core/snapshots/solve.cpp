@@ -6,6 +6,7 @@
 
 #include "snapshots/lbfgs.h"
 #include "snapshots/newton.h"
+#include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
 namespace snapspace {
@@ -28,6 +29,7 @@ std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const Posing
   // No more groups of lanes than hold the samples.
   const int groups = std::min((samples.count + Width - 1) / Width, thread_count(options.threads));
   parallel_for(groups, groups, [&](int) {
+    const FlushDenormals flush;
     using Objective = PosingObjective<Lanes<Width>>;
     LaneLbfgs<Objective, Width> solver(Objective(system, samples), options);
     const auto take = [&] {
@@ -67,6 +69,7 @@ std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSa
   std::atomic<long> total{0};
   const int workers = std::min(samples.count, thread_count(options.threads));
   parallel_for(workers, workers, [&](int) {
+    const FlushDenormals flush;
     Newton solver(system, samples, options, clamp);
     std::vector<double> start(system.size());
     for (int sample = next++; sample < samples.count && !control.cancelled; sample = next++) {

@@ -1,0 +1,33 @@
+#pragma once
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+namespace snapspace {
+
+/// While it lives, this thread takes numbers too small to be normalised for zero.
+///
+/// Displacements decay away from what moves, in single precision down to such numbers, and each
+/// costs x86 processors a hundred times a normal one: on a local edit of a dog, whose body is held,
+/// a factor of three in all. Other processors are not slowed down by them.
+class FlushDenormals {
+ public:
+#if defined(__SSE2__)
+  FlushDenormals() : saved_(_mm_getcsr()) { _mm_setcsr(saved_ | kFlushToZero | kDenormalsAreZero); }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+
+ private:
+  static constexpr unsigned kFlushToZero = 0x8000;
+  static constexpr unsigned kDenormalsAreZero = 0x0040;
+  unsigned saved_;
+#else
+  FlushDenormals() = default;
+  ~FlushDenormals() {}
+#endif
+
+ public:
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+};
+
+}  // namespace snapspace
