@@ -1,10 +1,9 @@
-"""What the benchmarks share: the meshes' folder, tables, JSON, peak memory."""
+"""What the benchmarks share: the meshes' folder, tables, JSON."""
 
 from __future__ import annotations
 
 import json
 import os
-import resource
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -41,12 +40,6 @@ def creature_problem(tets: int) -> ss.PosingProblem:
     handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
     domain = ss.HandleBox(translation=0.3, angle=np.pi / 4)
     return ss.PosingProblem(mesh, handles, domain=domain)
-
-
-def peak_memory_bytes() -> int:
-    """Largest resident size of this process so far."""
-    scale = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * scale
 
 
 def progress(done: int, total: int) -> None:

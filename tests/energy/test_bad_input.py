@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import ElasticEnergy, StVK
-from snapspace._core import core
+from snapspace import _core as core
 
 from ..shapes import CORNER_TET, irregular_bar
 

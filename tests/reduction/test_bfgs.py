@@ -12,7 +12,7 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import ReducedModel
-from snapspace._core import core
+from snapspace import _core as core
 from snapspace.reduction import coefficient_count
 
 FloatArray = NDArray[np.float64]

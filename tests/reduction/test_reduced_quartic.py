@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import AffineSubspace, ElasticEnergy, StVK, TetMesh
-from snapspace._core import core
+from snapspace import _core as core
 from snapspace.generators import bar
 from snapspace.reduction import coefficient_count, reduced_quartic
 

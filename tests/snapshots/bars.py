@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from snapspace import Handles, PosingProblem, SampleReport, Snapshots, SolverOptions, sample
+from snapspace import _core as core
 from snapspace.generators import bar
 from snapspace.problem import HandleBox
 from snapspace.snapshots.solve import Solver
@@ -34,6 +35,27 @@ def parameters(problem: PosingProblem, count: int, *, seed: int = 3) -> FloatArr
 def tight(solver: Solver = "newton") -> SolverOptions:
     """Converged as far as double precision goes."""
     return SolverOptions(solver=solver, tolerance=1e-14)
+
+
+def core_solve(
+    problem: PosingProblem,
+    solver: Solver,
+    targets: FloatArray,
+    starts: FloatArray,
+    *,
+    tolerance: float,
+    max_iterations: int,
+) -> core.Batch:
+    """One call of the compiled solver, on one thread: targets (k, p, 3), starts (k, 3n)."""
+    options: dict[str, Any] = {
+        "tolerance": tolerance,
+        "max_iterations": max_iterations,
+        "threads": 1,
+        "control": core.SolveControl(),
+    }
+    if solver == "newton":
+        return problem.system.solve_newton(targets, starts, clamp=0.6, **options)
+    return problem.system.solve_fast(targets, starts, **options)
 
 
 def without_seconds(snapshots: Snapshots) -> list[SampleReport]:

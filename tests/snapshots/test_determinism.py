@@ -9,11 +9,10 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import PosingProblem, SolverOptions, solve_snapshots
-from snapspace import _core as core
 from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.solve import Solver
 
-from .bars import assert_same_bits, parameters, posing_bar
+from .bars import assert_same_bits, core_solve, parameters, posing_bar
 
 FloatArray = NDArray[np.float64]
 
@@ -51,16 +50,7 @@ def solve_batch(problem: PosingProblem, solver: Solver, samples: FloatArray) -> 
     """One call of the core from starts that belong to the samples."""
     targets = np.stack([problem.target_displacements(problem.offsets(w)) for w in samples])
     starts = np.outer(samples[:, 0], np.sin(np.arange(problem.mesh.vertices.size))) * 0.1
-    options: dict[str, Any] = {
-        "tolerance": 1e-6,
-        "max_iterations": 500,
-        "threads": 1,
-        "control": core.SolveControl(),
-    }
-    if solver == "newton":
-        batch = problem.system.solve_newton(targets, starts, clamp=0.6, **options)
-    else:
-        batch = problem.system.solve_fast(targets, starts, **options)
+    batch = core_solve(problem, solver, targets, starts, tolerance=1e-6, max_iterations=500)
     return {
         "shapes": batch.shapes,
         "status": [r.status.name for r in batch.reports],

@@ -9,12 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import PosingProblem, SolverOptions, TetMesh, solve_snapshots
-from snapspace import _core as core
 from snapspace.problem import rotation_matrix
 from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.solve import Solver
 
-from .bars import parameters, posing_bar, tight
+from .bars import core_solve, parameters, posing_bar, tight
 
 FloatArray = NDArray[np.float64]
 
@@ -25,16 +24,7 @@ def solve_targets(
     """Vertices (n, 3) that minimise F for pinned vertices asked to be at `positions` (p, 3)."""
     targets = (positions - problem.mesh.vertices[problem.pinned])[None]
     starts = np.zeros((1, problem.mesh.vertices.size))
-    options: dict[str, Any] = {
-        "tolerance": tolerance,
-        "max_iterations": 300,
-        "threads": 1,
-        "control": core.SolveControl(),
-    }
-    if solver == "newton":
-        batch = problem.system.solve_newton(targets, starts, clamp=0.6, **options)
-    else:
-        batch = problem.system.solve_fast(targets, starts, **options)
+    batch = core_solve(problem, solver, targets, starts, tolerance=tolerance, max_iterations=300)
     return problem.mesh.vertices + batch.shapes[0].reshape(-1, 3), batch.reports[0]
 
 
