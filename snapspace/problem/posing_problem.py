@@ -145,19 +145,22 @@ class PosingProblem:
 
     def handle_energy(self, x: ArrayLike, offsets: FloatArray) -> float:
         """Second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4)."""
-        moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
-        wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
-        return float(self.pin_weights @ ((moved - wanted) ** 2).sum(axis=1))
+        return float(self.pin_weights @ (self._misses(x, offsets) ** 2).sum(axis=1))
 
     def value_and_gradient(self, x: ArrayLike, parameters: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) and its gradient (3n,) by x."""
         offsets = self.offsets(parameters)
         elastic, gradient = self.energy.value_and_gradient(x)
-        positions = np.asarray(x, np.float64).reshape(-1, 3)
-        wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
-        pull = 2.0 * self.pin_weights[:, None] * (positions[self.pinned] - wanted)
+        pull = 2.0 * self.pin_weights[:, None] * self._misses(x, offsets)
         np.add.at(gradient.reshape(-1, 3), self.pinned, pull)
         return elastic + self.handle_energy(x, offsets), gradient
+
+    def _misses(self, x: ArrayLike, offsets: FloatArray) -> FloatArray:
+        """How far the pinned vertices are from where the offsets want them, (p, 3)."""
+        moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
+        wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
+        misses: FloatArray = moved - wanted
+        return misses
 
     def __repr__(self) -> str:
         return f"PosingProblem({self.mesh!r}, {self.handles!r}, stiffness {self.stiffness:g})"
