@@ -4,8 +4,10 @@ from importlib.metadata import version as _version
 
 from .energy import ElasticEnergy, StVK
 from .mesh import (
+    EmbeddedSurface,
     MeshNotice,
     TetMesh,
+    embed_surface,
     mass_matrix,
     read_surface,
     read_tets,
@@ -14,10 +16,29 @@ from .mesh import (
     write_tets,
 )
 from .model_file import load, save_model
-from .problem import Handle, HandleBox, Handles, PosingProblem, in_box, in_sphere, read_problem
-from .reduction import HandleQuadric, Quartic, ReducedModel, reduce
+from .problem import (
+    Handle,
+    HandleBox,
+    Handles,
+    InterpolationProblem,
+    Poses,
+    PosingProblem,
+    Simplex,
+    in_box,
+    in_sphere,
+    read_problem,
+)
+from .reduction import (
+    HandleQuadric,
+    InterpolationModel,
+    PosingModel,
+    Quartic,
+    ReducedModel,
+    reduce,
+)
+from .registration import RigidMotion, registered, rigid_registration
 from .sampling import sample
-from .session import FrameReport, Session
+from .session import BlendingSession, FrameReport, PosingSession, Session
 from .snapshots import (
     Checkpoint,
     Interrupted,
@@ -33,25 +54,35 @@ __version__ = _version("snapspace")
 
 __all__ = [
     "AffineSubspace",
+    "BlendingSession",
     "Checkpoint",
     "ElasticEnergy",
+    "EmbeddedSurface",
     "FrameReport",
     "Handle",
     "HandleBox",
     "HandleQuadric",
     "Handles",
+    "InterpolationModel",
+    "InterpolationProblem",
     "Interrupted",
     "MeshNotice",
+    "Poses",
+    "PosingModel",
     "PosingProblem",
+    "PosingSession",
     "Quartic",
     "ReducedModel",
+    "RigidMotion",
     "SampleReport",
     "Session",
+    "Simplex",
     "Snapshots",
     "SolverOptions",
     "StVK",
     "TetMesh",
     "Validation",
+    "embed_surface",
     "in_box",
     "in_sphere",
     "load",
@@ -61,7 +92,9 @@ __all__ = [
     "read_surface",
     "read_tets",
     "reduce",
+    "registered",
     "repair_tets",
+    "rigid_registration",
     "sample",
     "save_model",
     "snapshot_pca",

@@ -105,19 +105,54 @@ class Batch:
         """Conjugate gradient iterations of all samples together (Newton only)."""
 
 class PosingSystem:
-    """What all samples of a posing problem share, with its scalar factor."""
+    """
+    What all samples of a posing problem share, with its scalar factor. Inputs are displacements of the pinned vertices.
+    """
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64]) -> None: ...
 
     @property
     def factor_nonzeros(self) -> int: ...
 
+    @property
+    def input_size(self) -> int: ...
+
     def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Inverse of the scalar matrix, applied to x, y and z."""
 
-    def solve_fast(self, targets: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, wide: bool = True) -> Batch: ...
+    def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+        """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
-    def solve_newton(self, targets: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch: ...
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, wide: bool = True) -> Batch:
+        """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
+
+    def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
+        """Newton's method; the same arguments."""
+
+class InterpolationSystem:
+    """
+    What all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
+    """
+
+    def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
+
+    @property
+    def factor_nonzeros(self) -> int: ...
+
+    @property
+    def input_size(self) -> int: ...
+
+    def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Inverse of the scalar matrix, applied to x, y and z."""
+
+    def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+        """Objective at u (3n,) for inputs (input_size,), and its gradient."""
+
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, wide: bool = True) -> Batch:
+        """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
+
+    def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
+        """Newton's method; the same arguments."""
 
 def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
     """
@@ -169,9 +204,11 @@ class Quartic:
     def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
 
 class PosingLoop:
-    """The live loop: set offsets, solve from the last frame."""
+    """The live loop of posing: set offsets, solve from the last frame."""
 
     def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+
+    def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
     @property
     def q(self) -> NDArray[numpy.float64]: ...
@@ -179,7 +216,24 @@ class PosingLoop:
     @q.setter
     def q(self, arg: NDArray[numpy.float64], /) -> None: ...
 
-    def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+    def solve(self, *, tolerance: float, max_iterations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+class BlendingLoop:
+    """The live loop of blending: set weights, solve from the last frame."""
+
+    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64]) -> None: ...
+
+    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def q(self) -> NDArray[numpy.float64]: ...
+
+    @q.setter
+    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
 
     def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
 

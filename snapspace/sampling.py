@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import Literal, Protocol
 
@@ -22,16 +21,15 @@ class Domain(Protocol):
 
     @property
     def dimension(self) -> int:
-        """Number of parameters."""
-        ...
-
-    @property
-    def free_axes(self) -> NDArray[np.bool_]:
-        """Mask of the axes along which the domain has extent."""
+        """Number of axes of the unit cube."""
         ...
 
     def from_unit(self, points: FloatArray) -> FloatArray:
-        """Maps points of the unit cube, (k, dimension), into the domain."""
+        """Maps points of the unit cube, (k, dimension), into the domain: parameters (k, p)."""
+        ...
+
+    def grid(self, count: int) -> FloatArray:
+        """Centres of equal cells of the domain, as many as there can be up to `count`: (k, p)."""
         ...
 
 
@@ -47,11 +45,12 @@ def sample(
 
     Parameters
     ----------
-    domain : HandleBox or another domain
+    domain : HandleBox, Simplex or another domain
+        The box of the handles' motions, or the simplex of interpolation weights.
     count : int
-        How many, > 0. A grid has the largest number of points up to `count` that a product of
-        nearly equal numbers per axis of non-zero width allows: 300 in six dimensions are
-        3 * 3 * 3 * 2 * 2 * 2 = 216.
+        How many, > 0. A grid has the largest number of points up to `count` that its domain allows:
+        in a box of six dimensions 300 are 3 * 3 * 3 * 2 * 2 * 2 = 216, see `HandleBox.grid`; on the
+        simplex of three weights 30 are 1 + 2 + ... + 7 = 28, see `Simplex.grid`.
     method : "random", "sobol" or "grid", default "random"
         Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
         centres of equal cells.
@@ -59,13 +58,14 @@ def sample(
         For "random" and for the scrambling of "sobol".
     scramble : bool, default True
         Owen's scrambling of the Sobol sequence; without it the first point is the lower corner of
-        the box.
+        the box, or the last corner of the simplex.
 
     Returns
     -------
-    ndarray, (k, dimension)
-        k = count except for a grid. The same arguments give the same points; longer random and
-        Sobol samples begin with the shorter ones.
+    ndarray, (k, p)
+        One row of p parameters per sample: 6 per moving handle, or one weight per corner of the
+        simplex. k = count except for a grid. The same arguments give the same points; longer
+        random and Sobol samples begin with the shorter ones.
 
     Raises
     ------
@@ -77,14 +77,12 @@ def sample(
     if seed < 0:
         raise ValueError(f"sample: the seed is {seed}, but must not be negative")
     if method == "random":
-        points = np.random.default_rng(seed).random((count, domain.dimension))
-    elif method == "sobol":
-        points = _sobol(domain.dimension, count, seed=seed, scramble=scramble)
-    elif method == "grid":
-        points = _grid(domain.free_axes, count)
-    else:
-        raise ValueError(f"sample: unknown method '{method}'; known are {', '.join(METHODS)}")
-    return domain.from_unit(points)
+        return domain.from_unit(np.random.default_rng(seed).random((count, domain.dimension)))
+    if method == "sobol":
+        return domain.from_unit(_sobol(domain.dimension, count, seed=seed, scramble=scramble))
+    if method == "grid":
+        return domain.grid(count)
+    raise ValueError(f"sample: unknown method '{method}'; known are {', '.join(METHODS)}")
 
 
 def _sobol(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArray:
@@ -95,15 +93,3 @@ def _sobol(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArr
     # drawing a power of two and cutting avoids SciPy's warning; every prefix is the same sequence
     points: FloatArray = generator.random_base2(max(0, math.ceil(math.log2(count))))
     return points[:count]
-
-
-def _grid(free_axes: NDArray[np.bool_], count: int) -> FloatArray:
-    dimension = len(free_axes)
-    per_axis = [1] * dimension
-    axes = itertools.cycle(np.flatnonzero(free_axes).tolist())
-    axis = next(axes)
-    while math.prod(per_axis) // per_axis[axis] * (per_axis[axis] + 1) <= count:
-        per_axis[axis] += 1
-        axis = next(axes)
-    centers = [(np.arange(k) + 0.5) / k for k in per_axis]
-    return np.stack(np.meshgrid(*centers, indexing="ij"), axis=-1).reshape(-1, dimension)

@@ -11,7 +11,8 @@ from scipy.sparse import csr_array
 
 from . import _core as core
 from .blas import single_threaded_blas
-from .mesh import apply_mass, mass_gram, mass_matrix
+from .mesh import apply_mass, mass_gram
+from .problem import solutions_beyond_tau
 from .snapshots import Snapshots
 
 FloatArray = NDArray[np.float64]
@@ -37,6 +38,11 @@ class AffineSubspace:
     def dimension(self) -> int:
         """d."""
         return int(self.basis.shape[1])
+
+    @property
+    def lumped(self) -> bool:
+        """Whether the mass matrix is diagonal."""
+        return bool(self.mass.nnz == self.mass.shape[0])
 
     @property
     def energy_fraction(self) -> float:
@@ -70,7 +76,10 @@ def snapshot_pca(
     lumped: bool = False,
     include_unconverged: bool = False,
 ) -> AffineSubspace:
-    """Subspace through the rest shape that fits the snapshots best in the M-norm (paper, sec. 5).
+    """Subspace through tau that fits the snapshots best in the M-norm (paper, sec. 5).
+
+    Solutions that the problem knows without solving, the poses of an interpolation, count as
+    snapshots.
 
     Parameters
     ----------
@@ -100,12 +109,12 @@ def snapshot_pca(
             f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
             "iterations, a smaller domain, or include_unconverged=True"
         )
-    mesh = snapshots.problem.mesh
-    mass = mass_matrix(mesh, lumped=lumped)
+    problem = snapshots.problem
+    _, known = solutions_beyond_tau(problem)
     return pca(
-        usable.shapes,
-        mesh.vertices.reshape(-1),
-        mass,
+        np.hstack([usable.shapes, known.T]),
+        problem.tau,
+        problem.mass(lumped=lumped),
         dimension=dimension,
         energy_fraction=energy_fraction,
     )

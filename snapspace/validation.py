@@ -25,7 +25,8 @@ REFERENCE_TOLERANCE = 1e-9
 class Validation:
     """Errors and costs on unseen parameters, (k,) for the k samples whose full solve converged.
 
-    error : |x_red - x_full|_M / |x_full - rest|_M of the reduced solve from the rest shape
+    error : |x_red - x_full|_M / |x_full - tau|_M of the reduced solve from tau, the rest or mean
+    shape; of interpolations after rigid registration
     projection_error : the same for the M-projection of x_full into the subspace: the least possible
     energy_ratio : objective of the reduced solution over that of the full one
     iterations : of BFGS
@@ -114,16 +115,19 @@ def validate(
     for w in reference.parameters:
         session.reset()
         begin = time.perf_counter()
-        report = session.pose(w)
+        report = session.set_parameters(w)
         shapes.append(session.vertices.reshape(-1))
         frames.append((report, 1e3 * (time.perf_counter() - begin)))
-    reduced = np.array(shapes).T
-    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(reference.shapes)
-    size = mass_norms(subspace.mass, reference.shapes - subspace.tau[:, None])
+    full = reference.shapes
+    reduced = np.array(
+        [model.problem.aligned(shape, onto) for shape, onto in zip(shapes, full.T, strict=True)]
+    ).T
+    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(full)
+    size = mass_norms(subspace.mass, full - subspace.tau[:, None])
     full_values = np.array([report.value for report in reference.reports])
     return Validation(
-        error=mass_norms(subspace.mass, reduced - reference.shapes) / size,
-        projection_error=mass_norms(subspace.mass, projected - reference.shapes) / size,
+        error=mass_norms(subspace.mass, reduced - full) / size,
+        projection_error=mass_norms(subspace.mass, projected - full) / size,
         energy_ratio=np.array([report.value for report, _ in frames]) / full_values,
         iterations=np.array([report.iterations for report, _ in frames]),
         solve_ms=np.array([1e3 * report.seconds for report, _ in frames]),

@@ -63,7 +63,7 @@ void bind_energy(nb::module_& m) {
           "hessian_blocks",
           [](const ElasticEnergy& self, VectorIn u) {
             BlockHessian hessian(self.rest);
-            hessian.assemble(self, checked(self, u));
+            hessian.add(self, checked(self, u));
             return blocks_of(hessian);
           },
           nb::arg("u"),
@@ -72,7 +72,7 @@ void bind_energy(nb::module_& m) {
           "clamped_hessian_blocks",
           [](const ElasticEnergy& self, VectorIn u, double threshold) {
             BlockHessian hessian(self.rest);
-            hessian.assemble_clamped(self, checked(self, u), threshold);
+            hessian.add(self, checked(self, u), threshold);
             return blocks_of(hessian);
           },
           nb::arg("u"), nb::arg("threshold"),

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "online/blending_solver.h"
 #include "online/posing_solver.h"
 #include "online/reconstruct.h"
 
@@ -6,6 +7,7 @@ namespace snapspace {
 
 namespace {
 
+using online::BlendingSolver;
 using online::PosingSolver;
 using online::Quartic;
 
@@ -16,12 +18,58 @@ const double* checked(int dimension, const VectorIn& q) {
 
 /// A live solver with its current coordinates. The Python object keeps the arrays alive that it
 /// reads, or the copies that a conversion made.
-struct PosingLoop {
+template <class Solver>
+struct Loop {
   int dimension;
-  int handles;
-  PosingSolver solver;
+  Solver solver;
   std::vector<double> q;
 };
+using PosingLoop = Loop<PosingSolver>;
+using BlendingLoop = Loop<BlendingSolver>;
+
+template <class Solver>
+void require_valid(const Solver& solver, const char* message) {
+  if (!solver.valid()) throw std::invalid_argument(message);
+}
+
+/// What the loops of all problems have in common.
+template <class Solver>
+void bind_loop(nb::class_<Loop<Solver>>& loop) {
+  using Self = Loop<Solver>;
+  loop.def_prop_rw(
+          "q", [](const Self& self) { return copy_to_array(self.q.data(), {self.q.size()}); },
+          [](Self& self, VectorIn q) {
+            const double* from = checked(self.dimension, q);
+            self.q.assign(from, from + self.dimension);
+          },
+          nb::for_getter(nb::rv_policy::automatic))
+      .def(
+          "value_and_gradient",
+          [](Self& self, VectorIn q) {
+            DoublesOut gradient = new_array<double>({q.size()});
+            const double value =
+                self.solver.value_and_gradient(checked(self.dimension, q), gradient.data());
+            return std::make_pair(value, gradient);
+          },
+          nb::arg("q"))
+      .def(
+          "hessian",
+          [](Self& self, VectorIn q) {
+            DoublesOut hessian = new_array<double>({q.size(), q.size()});
+            self.solver.hessian(checked(self.dimension, q), hessian.data());
+            return hessian;
+          },
+          nb::arg("q"))
+      .def(
+          "solve",
+          [](Self& self, double tolerance, int max_iterations, double value_scale,
+             double coordinate_scale) {
+            return self.solver.solve(self.q.data(),
+                                     {tolerance, value_scale, coordinate_scale, max_iterations});
+          },
+          nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("value_scale"),
+          nb::arg("coordinate_scale"));
+}
 
 }  // namespace
 
@@ -81,7 +129,9 @@ void bind_online(nb::module_& m) {
           },
           nb::arg("q"));
 
-  nb::class_<PosingLoop>(m, "PosingLoop", "The live loop: set offsets, solve from the last frame.")
+  nb::class_<PosingLoop> posing(m, "PosingLoop",
+                                "The live loop of posing: set offsets, solve from the last frame.");
+  posing
       .def(
           "__init__",
           [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S) {
@@ -91,59 +141,54 @@ void bind_online(nb::module_& m) {
                         L.shape(2) == 12 && S.shape(0) == L.shape(0) && S.shape(1) == 4 &&
                         S.shape(2) == 4,
                     "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
-            new (self) PosingLoop{static_cast<int>(d), static_cast<int>(L.shape(0)),
-                                  PosingSolver(static_cast<int>(d), static_cast<int>(L.shape(0)),
-                                               coefficients.data(), K.data(), L.data(), S.data()),
-                                  std::vector<double>(d, 0.0)};
-            if (!self->solver.valid())
-              throw std::invalid_argument(
-                  "the reduced Hessian at rest is not positive definite; the model is damaged or "
-                  "its handles do not hold the shape");
+            const auto dimension = static_cast<int>(d);
+            PosingSolver solver(dimension, static_cast<int>(L.shape(0)), coefficients.data(),
+                                K.data(), L.data(), S.data());
+            require_valid(solver,
+                          "the reduced Hessian at rest is not positive definite; the model is "
+                          "damaged or its handles do not hold the shape");
+            new (self) PosingLoop{dimension, std::move(solver), std::vector<double>(d, 0.0)};
           },
           nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::keep_alive<1, 2>(),
           nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>())
-      .def_prop_rw(
-          "q", [](const PosingLoop& self) { return copy_to_array(self.q.data(), {self.q.size()}); },
-          [](PosingLoop& self, VectorIn q) {
-            const double* from = checked(self.dimension, q);
-            self.q.assign(from, from + self.dimension);
-          },
-          nb::for_getter(nb::rv_policy::automatic))
       .def(
           "set_offsets",
           [](PosingLoop& self, TensorIn offsets) {
-            require(offsets.shape(0) == static_cast<std::size_t>(self.handles) &&
+            require(offsets.shape(0) == static_cast<std::size_t>(self.solver.handles()) &&
                         offsets.shape(1) == 3 && offsets.shape(2) == 4,
                     "offsets must be (handles, 3, 4)");
             self.solver.set_offsets(offsets.data());
           },
-          nb::arg("offsets"))
+          nb::arg("offsets"));
+  bind_loop(posing);
+
+  nb::class_<BlendingLoop> blending(
+      m, "BlendingLoop", "The live loop of blending: set weights, solve from the last frame.");
+  blending
       .def(
-          "value_and_gradient",
-          [](PosingLoop& self, VectorIn q) {
-            DoublesOut gradient = new_array<double>({q.size()});
-            const double value =
-                self.solver.value_and_gradient(checked(self.dimension, q), gradient.data());
-            return std::make_pair(value, gradient);
+          "__init__",
+          [](BlendingLoop* self, int dimension, MatrixIn coefficients) {
+            require(dimension >= 1 && coefficients.shape(0) >= 1 &&
+                        coefficients.shape(1) == online::quartic_count(dimension + 1),
+                    "coefficients must be (poses, C(dimension + 4, 4))");
+            BlendingSolver solver(dimension, static_cast<int>(coefficients.shape(0)),
+                                  coefficients.data());
+            require_valid(solver,
+                          "the reduced Hessian at the mean shape is not positive definite; the "
+                          "model is damaged or its mean shape is not a minimum");
+            const auto d = static_cast<std::size_t>(dimension);
+            new (self) BlendingLoop{dimension, std::move(solver), std::vector<double>(d, 0.0)};
           },
-          nb::arg("q"))
+          nb::arg("dimension"), nb::arg("coefficients"), nb::keep_alive<1, 3>())
       .def(
-          "hessian",
-          [](PosingLoop& self, VectorIn q) {
-            DoublesOut hessian = new_array<double>({q.size(), q.size()});
-            self.solver.hessian(checked(self.dimension, q), hessian.data());
-            return hessian;
+          "set_weights",
+          [](BlendingLoop& self, VectorIn weights) {
+            require(weights.size() == static_cast<std::size_t>(self.solver.poses()),
+                    "weights must have one entry per pose");
+            self.solver.set_weights(weights.data());
           },
-          nb::arg("q"))
-      .def(
-          "solve",
-          [](PosingLoop& self, double tolerance, int max_iterations, double value_scale,
-             double coordinate_scale) {
-            return self.solver.solve(self.q.data(),
-                                     {tolerance, value_scale, coordinate_scale, max_iterations});
-          },
-          nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("value_scale"),
-          nb::arg("coordinate_scale"));
+          nb::arg("weights"));
+  bind_loop(blending);
 }
 
 }  // namespace snapspace

@@ -11,14 +11,88 @@ struct Batch {
   long linear_iterations = 0;
 };
 
-PosingSamples posing_samples(const PosingSystem& system, const TensorIn& targets,
-                             const MatrixIn& starts, double* shapes) {
-  require(targets.shape(1) == system.pinned.size() && targets.shape(2) == 3,
-          "targets must be (samples, pinned, 3)");
-  require(starts.shape(0) == targets.shape(0) &&
+template <class System>
+Samples checked_samples(const System& system, const MatrixIn& inputs, const MatrixIn& starts,
+                        double* shapes) {
+  require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
+          "inputs must be (samples, input_size)");
+  require(starts.shape(0) == inputs.shape(0) &&
               starts.shape(1) == static_cast<std::size_t>(system.size()),
           "starts must be (samples, 3n)");
-  return {static_cast<int>(targets.shape(0)), targets.data(), starts.data(), shapes};
+  return {static_cast<int>(inputs.shape(0)), inputs.data(), starts.data(), shapes};
+}
+
+LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
+  require(tets.shape(1) == 4, "tets must be (m, 4)");
+  const auto n = static_cast<std::int32_t>(count);
+  for (std::size_t i = 0; i < tets.size(); ++i)
+    require(tets.data()[i] >= 0 && tets.data()[i] < n, "a tet has a vertex index out of range");
+  return {vertices, n, tets.data(), static_cast<int>(tets.shape(0))};
+}
+
+/// What the systems of all problems have in common.
+template <class System>
+void bind_solves(nb::class_<System>& system) {
+  system.def_prop_ro("factor_nonzeros", [](const System& self) { return self.factor.nonzeros(); })
+      .def_prop_ro("input_size", &System::input_size)
+      .def(
+          "precondition",
+          [](const System& self, VectorIn vector) {
+            require(vector.size() == static_cast<std::size_t>(self.size()), "needs a (3n,) vector");
+            DoublesOut result = new_array<double>({vector.size()});
+            std::vector<double> shape(vector.size()), scratch(vector.size());
+            self.numbering.to_internal(vector.data(), shape.data());
+            self.factor.solve(shape.data(), shape.data(), scratch.data());
+            self.numbering.to_external(shape.data(), result.data());
+            return result;
+          },
+          nb::arg("vector"), "Inverse of the scalar matrix, applied to x, y and z.")
+      .def(
+          "value_and_gradient",
+          [](const System& self, VectorIn u, VectorIn inputs) {
+            require(u.size() == static_cast<std::size_t>(self.size()) &&
+                        inputs.size() == static_cast<std::size_t>(self.input_size()),
+                    "needs a (3n,) vector and (input_size,) inputs");
+            const Samples samples{1, inputs.data(), nullptr, nullptr};
+            typename System::template Objective<double> objective(self, samples);
+            objective.load(0, 0);
+            std::vector<double> shape(u.size()), gradient(u.size());
+            self.numbering.to_internal(u.data(), shape.data());
+            const double value = objective.value_and_gradient(shape.data(), gradient.data());
+            DoublesOut result = new_array<double>({u.size()});
+            self.numbering.to_external(gradient.data(), result.data());
+            return std::make_pair(value, result);
+          },
+          nb::arg("u"), nb::arg("inputs"),
+          "Objective at u (3n,) for inputs (input_size,), and its gradient.")
+      .def(
+          "solve_fast",
+          [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
+             int max_iterations, int threads, SolveControl& control, bool wide) {
+            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
+            const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
+            nb::gil_scoped_release release;
+            batch.reports =
+                solve_fast(self, samples, {tolerance, max_iterations, wide, threads}, control);
+            return batch;
+          },
+          nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("wide") = true,
+          "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
+      .def(
+          "solve_newton",
+          [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
+             int max_iterations, int threads, double clamp, SolveControl& control) {
+            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
+            const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
+            nb::gil_scoped_release release;
+            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, true, threads},
+                                         clamp, control, &batch.linear_iterations);
+            return batch;
+          },
+          nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
+          "Newton's method; the same arguments.");
 }
 
 }  // namespace
@@ -56,71 +130,45 @@ void bind_snapshots(nb::module_& m) {
       .def_ro("linear_iterations", &Batch::linear_iterations,
               "Conjugate gradient iterations of all samples together (Newton only).");
 
-  nb::class_<PosingSystem>(m, "PosingSystem",
-                           "What all samples of a posing problem share, with its scalar factor.")
-      .def(
-          "__init__",
-          [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, double lam, double mu,
-             IndexVectorIn pinned, VectorIn weights) {
-            require(vertices.shape(1) == 3, "vertices must be (n, 3)");
-            require(tets.shape(1) == 4, "tets must be (m, 4)");
-            require(pinned.size() == weights.size(), "one weight per pinned vertex is needed");
-            const auto n = static_cast<std::int32_t>(vertices.shape(0));
-            for (std::size_t i = 0; i < pinned.size(); ++i)
-              require(pinned.data()[i] >= 0 && pinned.data()[i] < n,
-                      "a pinned vertex is out of range");
-            for (std::size_t i = 0; i < tets.size(); ++i)
-              require(tets.data()[i] >= 0 && tets.data()[i] < n,
-                      "a tet has a vertex index out of range");
-            const LocalMesh mesh(vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0)));
-            new (self)
-                PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
-                             {weights.data(), weights.data() + weights.size()});
-          },
-          nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
-          nb::arg("pinned").noconvert(), nb::arg("weights"))
-      .def_prop_ro("factor_nonzeros",
-                   [](const PosingSystem& self) { return self.factor.nonzeros(); })
-      .def(
-          "precondition",
-          [](const PosingSystem& self, VectorIn vector) {
-            require(vector.size() == static_cast<std::size_t>(self.size()), "needs a (3n,) vector");
-            DoublesOut result = new_array<double>({vector.size()});
-            std::vector<double> shape(vector.size()), scratch(vector.size());
-            self.to_internal(vector.data(), shape.data());
-            self.factor.solve(shape.data(), shape.data(), scratch.data());
-            self.to_external(shape.data(), result.data());
-            return result;
-          },
-          nb::arg("vector"), "Inverse of the scalar matrix, applied to x, y and z.")
-      .def(
-          "solve_fast",
-          [](const PosingSystem& self, TensorIn targets, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, SolveControl& control, bool wide) {
-            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
-            const PosingSamples samples =
-                posing_samples(self, targets, starts, batch.shapes.data());
-            nb::gil_scoped_release release;
-            batch.reports =
-                solve_fast(self, samples, {tolerance, max_iterations, wide, threads}, control);
-            return batch;
-          },
-          nb::arg("targets"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("wide") = true)
-      .def(
-          "solve_newton",
-          [](const PosingSystem& self, TensorIn targets, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, double clamp, SolveControl& control) {
-            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
-            const PosingSamples samples =
-                posing_samples(self, targets, starts, batch.shapes.data());
-            nb::gil_scoped_release release;
-            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, true, threads},
-                                         clamp, control, &batch.linear_iterations);
-            return batch;
-          },
-          nb::arg("targets"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"));
+  nb::class_<PosingSystem> posing(m, "PosingSystem",
+                                  "What all samples of a posing problem share, with its scalar "
+                                  "factor. Inputs are displacements of the pinned vertices.");
+  posing.def(
+      "__init__",
+      [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, double lam, double mu,
+         IndexVectorIn pinned, VectorIn weights) {
+        require(vertices.shape(1) == 3, "vertices must be (n, 3)");
+        require(pinned.size() == weights.size(), "one weight per pinned vertex is needed");
+        const auto n = static_cast<std::int32_t>(vertices.shape(0));
+        for (std::size_t i = 0; i < pinned.size(); ++i)
+          require(pinned.data()[i] >= 0 && pinned.data()[i] < n, "a pinned vertex is out of range");
+        const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
+        new (self) PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
+                                {weights.data(), weights.data() + weights.size()});
+      },
+      nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
+      nb::arg("pinned").noconvert(), nb::arg("weights"));
+  bind_solves(posing);
+
+  nb::class_<InterpolationSystem> interpolation(
+      m, "InterpolationSystem",
+      "What all samples of an interpolation problem share, with its scalar factor. Inputs are the "
+      "weights; displacements are from pose 0.");
+  interpolation.def(
+      "__init__",
+      [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets, double lam, double mu) {
+        require(poses.shape(0) >= 1 && poses.shape(2) == 3, "poses must be (k, n, 3)");
+        const LocalMesh mesh = local_mesh(poses.data(), poses.shape(1), tets);
+        const Numbering numbering(mesh.order);
+        const std::size_t size = 3 * poses.shape(1);
+        std::vector<double> renumbered(poses.size());
+        for (std::size_t k = 0; k < poses.shape(0); ++k)
+          numbering.to_internal(poses.data() + k * size, renumbered.data() + k * size);
+        new (self)
+            InterpolationSystem(mesh, renumbered, static_cast<int>(poses.shape(0)), StVK{lam, mu});
+      },
+      nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"));
+  bind_solves(interpolation);
 }
 
 }  // namespace snapspace

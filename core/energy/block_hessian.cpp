@@ -52,27 +52,19 @@ BlockHessian::BlockHessian(const RestShape& rest) : slots_(rest.tets.size()) {
       }
 }
 
-void BlockHessian::assemble(const ElasticEnergy& energy, const double* u) {
-  std::fill(blocks_.begin(), blocks_.end(), std::array<double, 9>{});
+void BlockHessian::clear() { std::fill(blocks_.begin(), blocks_.end(), std::array<double, 9>{}); }
+
+void BlockHessian::add(const ElasticEnergy& energy, const double* u, double clamp, double weight) {
   for (std::size_t t = 0; t < slots_.size(); ++t) {
+    const RestTet& tet = energy.rest.tets[t];
     double G[3][3];
-    displacement_gradient(energy.rest.tets[t], u, G);
-    add_element(energy.material, energy.rest.tets[t], slots_[t], G);
+    displacement_gradient(tet, u, G);
+    if (clamp > kUnclamped) clamp_singular_values(G, clamp);
+    add_element(energy.material, tet, weight * tet.volume, slots_[t], G);
   }
 }
 
-void BlockHessian::assemble_clamped(const ElasticEnergy& energy, const double* u,
-                                    double threshold) {
-  std::fill(blocks_.begin(), blocks_.end(), std::array<double, 9>{});
-  for (std::size_t t = 0; t < slots_.size(); ++t) {
-    double G[3][3];
-    displacement_gradient(energy.rest.tets[t], u, G);
-    clamp_singular_values(G, threshold);
-    add_element(energy.material, energy.rest.tets[t], slots_[t], G);
-  }
-}
-
-void BlockHessian::add_element(const StVK& material, const RestTet& tet,
+void BlockHessian::add_element(const StVK& material, const RestTet& tet, double volume,
                                const std::array<std::int32_t, 16>& slots, const double G[3][3]) {
   double S_array[3][3];
   stress(material, G, S_array);
@@ -90,10 +82,10 @@ void BlockHessian::add_element(const StVK& material, const RestTet& tet,
   for (int j = 0; j < 4; ++j)
     for (int k = 0; k < 4; ++k) {
       Eigen::Map<Matrix3> block(blocks_[slots[4 * j + k]].data());
-      block += tet.volume * (material.mu * b.col(j).dot(b.col(k)) * left_cauchy_green +
-                             material.mu * Fb.col(k) * Fb.col(j).transpose() +
-                             material.lam * Fb.col(j) * Fb.col(k).transpose());
-      block.diagonal().array() += tet.volume * b.col(j).dot(Sb.col(k));
+      block += volume * (material.mu * b.col(j).dot(b.col(k)) * left_cauchy_green +
+                         material.mu * Fb.col(k) * Fb.col(j).transpose() +
+                         material.lam * Fb.col(j) * Fb.col(k).transpose());
+      block.diagonal().array() += volume * b.col(j).dot(Sb.col(k));
     }
 }
 

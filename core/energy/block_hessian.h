@@ -1,11 +1,15 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "energy/elastic_energy.h"
 
 namespace snapspace {
+
+/// As a lower bound of singular values: none.
+inline constexpr double kUnclamped = -std::numeric_limits<double>::infinity();
 
 /// Symmetric matrix of 3 x 3 blocks, one per pair of vertices that share a tet, row by row.
 ///
@@ -15,14 +19,14 @@ class BlockHessian {
  public:
   explicit BlockHessian(const RestShape& rest);
 
-  /// Hessian of the elastic energy at displacements u.
-  void assemble(const ElasticEnergy& energy, const double* u);
+  void clear();
 
-  /// The same with every element evaluated at its clamped state: of F = U diag(s) V^T, with U and V
-  /// proper rotations and the sign of an inversion in the smallest s, each singular value is raised
-  /// to at least `threshold` [Irving, Teran, Fedkiw 2004; paper, sec. 4.2]. Not always positive
-  /// definite; at threshold 1 it is.
-  void assemble_clamped(const ElasticEnergy& energy, const double* u, double threshold);
+  /// Adds weight * the Hessian of the elastic energy at displacements u, every element evaluated at
+  /// its clamped state: of F = U diag(s) V^T, with U and V proper rotations and the sign of an
+  /// inversion in the smallest s, each singular value is raised to at least `clamp` [Irving, Teran,
+  /// Fedkiw 2004; paper, sec. 4.2]. Not always positive definite; with a clamp of 1 it is.
+  void add(const ElasticEnergy& energy, const double* u, double clamp = kUnclamped,
+           double weight = 1.0);
 
   /// Adds `value` to the three diagonal entries of a vertex.
   void add_to_diagonal(int vertex, double value);
@@ -35,7 +39,7 @@ class BlockHessian {
   [[nodiscard]] const std::vector<std::array<double, 9>>& blocks() const { return blocks_; }
 
  private:
-  void add_element(const StVK& material, const RestTet& tet,
+  void add_element(const StVK& material, const RestTet& tet, double volume,
                    const std::array<std::int32_t, 16>& slots, const double G[3][3]);
 
   std::vector<std::int32_t> row_start_;        // n + 1

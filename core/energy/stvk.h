@@ -15,21 +15,31 @@ struct StVK {
   double mu;
 };
 
+/// Displacements of vertices 1, 2, 3 of a tet against vertex 0, as columns. Differences of nodal
+/// values come first: sums over all four vertices would lose digits on slivers.
+template <class Real>
+inline void edge_displacements(const RestTet& tet, const Real* u, Real D[3][3]) {
+  const Real* u0 = u + 3 * tet.vertices[0];
+  for (int j = 0; j < 3; ++j) {
+    const Real* uj = u + 3 * tet.vertices[j + 1];
+    for (int r = 0; r < 3; ++r) D[r][j] = uj[r] - u0[r];
+  }
+}
+
+/// G = D * inverse_edges.
+template <class Real>
+inline void gradient_of_edges(const RestTet& tet, const Real D[3][3], Real G[3][3]) {
+  const double (*B)[3] = tet.inverse_edges;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) G[r][c] = D[r][0] * B[0][c] + D[r][1] * B[1][c] + D[r][2] * B[2][c];
+}
+
 /// Displacement gradient G = sum_j (u_j - u_0) (x) (row j of inverse_edges), constant in the tet.
 template <class Real>
 inline void displacement_gradient(const RestTet& tet, const Real* u, Real G[3][3]) {
-  const Real* u0 = u + 3 * tet.vertices[0];
-  const Real* u1 = u + 3 * tet.vertices[1];
-  const Real* u2 = u + 3 * tet.vertices[2];
-  const Real* u3 = u + 3 * tet.vertices[3];
-  for (int r = 0; r < 3; ++r) {
-    const Real d1 = u1[r] - u0[r];
-    const Real d2 = u2[r] - u0[r];
-    const Real d3 = u3[r] - u0[r];
-    for (int c = 0; c < 3; ++c)
-      G[r][c] = d1 * tet.inverse_edges[0][c] + d2 * tet.inverse_edges[1][c] +
-                d3 * tet.inverse_edges[2][c];
-  }
+  Real D[3][3];
+  edge_displacements(tet, u, D);
+  gradient_of_edges(tet, D, G);
 }
 
 /// Second Piola-Kirchhoff stress S = 2 mu E + lam tr(E) I at G; returns the density psi.
@@ -54,29 +64,51 @@ inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
          trace * pressure * Real(0.5);
 }
 
-/// Adds volume * P : grad(phi_j) to the entries of the element's vertices: the gradient of the
-/// energy when P is the first Piola-Kirchhoff stress, a Hessian-vector product when P is its
-/// differential.
+/// Adds volume * P * inverse_edges^T to `forces`, whose columns belong to vertices 1, 2, 3: P :
+/// grad(phi_j) over the tet. With the first Piola-Kirchhoff stress P that is the energy's gradient,
+/// with its differential a Hessian-vector product.
 template <class Real>
-inline void scatter_stress(const RestTet& tet, const Real P[3][3], Real* gradient) {
-  Real* g0 = gradient + 3 * tet.vertices[0];
-  Real* g1 = gradient + 3 * tet.vertices[1];
-  Real* g2 = gradient + 3 * tet.vertices[2];
-  Real* g3 = gradient + 3 * tet.vertices[3];
+inline void add_vertex_forces(const RestTet& tet, Real volume, const Real P[3][3],
+                              Real forces[3][3]) {
   const double (*B)[3] = tet.inverse_edges;
-  const Real volume(tet.volume);
   for (int r = 0; r < 3; ++r) {
     const Real p0 = P[r][0] * volume;
     const Real p1 = P[r][1] * volume;
     const Real p2 = P[r][2] * volume;
-    const Real f1 = p0 * B[0][0] + p1 * B[0][1] + p2 * B[0][2];
-    const Real f2 = p0 * B[1][0] + p1 * B[1][1] + p2 * B[1][2];
-    const Real f3 = p0 * B[2][0] + p1 * B[2][1] + p2 * B[2][2];
-    g0[r] -= f1 + f2 + f3;
-    g1[r] += f1;
-    g2[r] += f2;
-    g3[r] += f3;
+    for (int j = 0; j < 3; ++j) forces[r][j] += p0 * B[j][0] + p1 * B[j][1] + p2 * B[j][2];
   }
+}
+
+/// Adds the forces of a tet's vertices 1, 2, 3, and their negative sum at vertex 0, to a gradient.
+template <class Real>
+inline void scatter_forces(const RestTet& tet, const Real forces[3][3], Real* gradient) {
+  Real* g0 = gradient + 3 * tet.vertices[0];
+  Real* g1 = gradient + 3 * tet.vertices[1];
+  Real* g2 = gradient + 3 * tet.vertices[2];
+  Real* g3 = gradient + 3 * tet.vertices[3];
+  for (int r = 0; r < 3; ++r) {
+    g0[r] -= forces[r][0] + forces[r][1] + forces[r][2];
+    g1[r] += forces[r][0];
+    g2[r] += forces[r][1];
+    g3[r] += forces[r][2];
+  }
+}
+
+template <class Real>
+inline void scatter_stress(const RestTet& tet, const Real P[3][3], Real* gradient) {
+  Real forces[3][3];
+  for (auto& row : forces)
+    for (Real& force : row) force = Real(0.0);
+  add_vertex_forces(tet, Real(tet.volume), P, forces);
+  scatter_forces(tet, forces, gradient);
+}
+
+/// First Piola-Kirchhoff stress P = F S at G with second stress S.
+template <class Real>
+inline void first_stress(const Real G[3][3], const Real S[3][3], Real P[3][3]) {
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      P[r][c] = S[r][c] + G[r][0] * S[0][c] + G[r][1] * S[1][c] + G[r][2] * S[2][c];
 }
 
 /// Energy of one element at displacements u; adds its gradient to `gradient`.
@@ -86,9 +118,7 @@ inline Real stvk_energy_and_gradient(const StVK& material, const RestTet& tet, c
   Real G[3][3], S[3][3], P[3][3];
   displacement_gradient(tet, u, G);
   const Real density = stress(material, G, S);
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      P[r][c] = S[r][c] + G[r][0] * S[0][c] + G[r][1] * S[1][c] + G[r][2] * S[2][c];  // F S
+  first_stress(G, S, P);
   scatter_stress(tet, P, gradient);
   return density * Real(tet.volume);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 
 namespace snapspace {
 
@@ -14,7 +15,7 @@ RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
     Eigen::Matrix3d edges;
     for (int j = 0; j < 3; ++j)
       edges.col(j) = Eigen::Vector3d(v + 3 * tet.vertices[j + 1]) - origin;
-    tet.volume = edges.determinant() / 6.0;
+    tet.volume = std::abs(edges.determinant()) / 6.0;
     const Eigen::Matrix3d inverse = edges.inverse();
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) tet.inverse_edges[r][c] = inverse(r, c);

@@ -20,6 +20,8 @@ class PosingSolver {
   /// False if the Hessian at rest is not positive definite: BFGS then has no matrix to start from.
   [[nodiscard]] bool valid() const { return valid_; }
 
+  [[nodiscard]] int handles() const { return handles_.handles(); }
+
   void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
 
   double value_and_gradient(const double* q, double* gradient) {

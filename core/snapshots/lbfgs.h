@@ -84,7 +84,7 @@ class LaneLbfgs {
     /// A single small predicted decrease may be luck: the mean of the last actual ones must be
     /// small as well.
     [[nodiscard]] bool converged(double tolerance, double negligible) const {
-      const double enough = std::max(tolerance * value, negligible);
+      const double enough = std::max(tolerance * std::abs(value), negligible);
       if (-slope > enough) return false;
       const double recent = std::accumulate(decreases, decreases + kWindow, 0.0);
       return recent <= enough * kWindow;

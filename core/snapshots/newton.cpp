@@ -5,8 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "snapshots/interpolation_system.h"
 #include "snapshots/line_search.h"
+#include "snapshots/posing_system.h"
 
 namespace snapspace {
 
@@ -26,28 +29,19 @@ constexpr double kNearMinimum = 1e-2;
 
 }  // namespace
 
-Newton::Newton(const PosingSystem& system, const PosingSamples& samples,
-               const SolveOptions& options, double clamp)
-    : system_(system),
-      objective_(system, samples),
+template <class Objective>
+Newton<Objective>::Newton(Objective objective, const SolveOptions& options, double clamp)
+    : objective_(std::move(objective)),
       options_(options),
       clamp_(clamp),
-      hessian_(system.energy.rest) {
+      hessian_(objective_.hessian_pattern()) {
   for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_, &residual_,
                   &preconditioned_, &search_, &product_})
-    v->resize(system.size());
+    v->resize(objective_.size());
 }
 
-void Newton::assemble(bool exact) {
-  if (exact)
-    hessian_.assemble(system_.energy, u_.data());
-  else
-    hessian_.assemble_clamped(system_.energy, u_.data(), clamp_);
-  for (std::size_t k = 0; k < system_.pinned.size(); ++k)
-    hessian_.add_to_diagonal(system_.pinned[k], 2.0 * system_.weights[k]);
-}
-
-SolveReport Newton::solve(int sample, const double* start, const SolveControl& control) {
+template <class Objective>
+SolveReport Newton<Objective>::solve(int sample, const double* start, const SolveControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   SolveReport report;
   objective_.load(0, sample);
@@ -63,16 +57,17 @@ SolveReport Newton::solve(int sample, const double* start, const SolveControl& c
     // Elements that stay below the clamping threshold at the minimum make the clamped Hessian a
     // wrong one, with linear and often very slow convergence. Once the minimum is near, the Hessian
     // itself is used.
-    assemble(previous_decrement < kNearMinimum * report.value);
+    const bool near = previous_decrement < kNearMinimum * std::abs(report.value);
+    objective_.assemble(u_.data(), near ? kUnclamped : clamp_, hessian_);
     // Loose systems far from the minimum, tight ones near it (Eisenstat & Walker 1996): the
     // relative decrement of the last step tells which.
-    const double scale = std::max(report.value, 1e-300);
+    const double scale = std::max(std::abs(report.value), 1e-300);
     const double forcing =
         report.iterations == 0 ? 0.1 : std::clamp(std::sqrt(previous_decrement / scale), 1e-3, 0.1);
     const double slope = -find_direction(forcing, control);
     if (control.cancelled) break;  // the direction may be half done
     report.decrement = previous_decrement = -slope;
-    if (-slope <= std::max(options_.tolerance * report.value, objective_.negligible())) {
+    if (-slope <= std::max(options_.tolerance * std::abs(report.value), objective_.negligible())) {
       report.status = SolveStatus::converged;
       break;
     }
@@ -87,7 +82,6 @@ SolveReport Newton::solve(int sample, const double* start, const SolveControl& c
     ++report.iterations;
   }
   report.gradient_norm = std::sqrt(dot(gradient_, gradient_));
-  report.inverted_tets = system_.energy.inverted_tets(u_.data());
   report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
@@ -96,7 +90,8 @@ SolveReport Newton::solve(int sample, const double* start, const SolveControl& c
 /// has fallen by the given ratio. The clamped Hessian may still have negative curvature: the
 /// iterate before such a direction is a descent direction and is kept (Nocedal & Wright 2006,
 /// alg. 7.1). Returns -g.d.
-double Newton::find_direction(double relative_residual, const SolveControl& control) {
+template <class Objective>
+double Newton<Objective>::find_direction(double relative_residual, const SolveControl& control) {
   constexpr int kMaxIterations = 1000;
   std::fill(direction_.begin(), direction_.end(), 0.0);
   for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
@@ -126,7 +121,8 @@ double Newton::find_direction(double relative_residual, const SolveControl& cont
   return -dot(gradient_, direction_);
 }
 
-bool Newton::line_search(SolveReport& report, double slope) {
+template <class Objective>
+bool Newton<Objective>::line_search(SolveReport& report, double slope) {
   constexpr int kMaxShortenings = 30;
   double step = 1.0;
   for (int shortening = 0; shortening <= kMaxShortenings; ++shortening) {
@@ -144,5 +140,8 @@ bool Newton::line_search(SolveReport& report, double slope) {
   }
   return false;
 }
+
+template class Newton<PosingObjective<double>>;
+template class Newton<InterpolationObjective<double>>;
 
 }  // namespace snapspace

@@ -2,19 +2,21 @@
 #include <vector>
 
 #include "energy/block_hessian.h"
-#include "snapshots/posing_system.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
 /// The paper's snapshot solver (sec. 4.2): Newton's method with the Hessian assembled from elements
 /// at their clamped signed SVD, and a line search. The linear systems are solved by conjugate
-/// gradients on the system's scalar factor.
+/// gradients on the objective's preconditioner.
+///
+/// @tparam Objective  of one lane; has what LaneLbfgs needs, hessian_pattern() and
+///                    assemble(u, clamp, hessian)
+template <class Objective>
 class Newton {
  public:
   /// @param clamp  singular values are raised to at least this; the paper uses 0.5 to 0.8
-  Newton(const PosingSystem& system, const PosingSamples& samples, const SolveOptions& options,
-         double clamp);
+  Newton(Objective objective, const SolveOptions& options, double clamp);
 
   /// Solves one sample; its shape is left in shape().
   SolveReport solve(int sample, const double* start, const SolveControl& control);
@@ -23,12 +25,10 @@ class Newton {
   [[nodiscard]] long linear_iterations() const { return linear_iterations_; }
 
  private:
-  void assemble(bool exact);
   double find_direction(double relative_residual, const SolveControl& control);
   bool line_search(SolveReport& report, double slope);
 
-  const PosingSystem& system_;
-  PosingObjective<double> objective_;
+  Objective objective_;
   SolveOptions options_;
   double clamp_;
   BlockHessian hessian_;

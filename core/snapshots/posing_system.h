@@ -1,22 +1,26 @@
 #pragma once
-#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
-#include "mesh/locality.h"
+#include "snapshots/numbering.h"
+#include "snapshots/samples.h"
 #include "snapshots/scalar_factor.h"
 
 namespace snapspace {
 
+template <class Real>
+class PosingObjective;
+
 /// What all samples of a posing problem share: F(u) = E(u) + sum_k weight_k |u_k - target_k|^2 over
 /// pinned vertices k. Only the targets differ from sample to sample, so one factor serves them all.
-///
-/// Inside, vertices are numbered along a space-filling curve; `to_internal` and `to_external` copy
-/// shapes between the numberings.
 struct PosingSystem {
-  std::vector<std::int32_t> order;  ///< the caller's index of every internal vertex
+  template <class Real>
+  using Objective = PosingObjective<Real>;
+
+  Numbering numbering;
   ElasticEnergy energy;
   std::vector<std::int32_t> pinned;  ///< vertices of the handles, internal
   std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
@@ -24,7 +28,7 @@ struct PosingSystem {
 
   PosingSystem(const LocalMesh& mesh, StVK material, std::vector<std::int32_t> pinned_vertices,
                std::vector<double> pin_weights)
-      : order(mesh.order),
+      : numbering(mesh.order),
         energy{RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()),
                          mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4)),
                material},
@@ -33,23 +37,10 @@ struct PosingSystem {
         factor(scalar_matrix()) {}
 
   [[nodiscard]] int size() const { return 3 * energy.rest.vertex_count; }
-
-  /// Energy of a strain of 1e-12 everywhere. Where the minimum of F is zero, no share of F is ever
-  /// reached: a decrease below this is none.
-  [[nodiscard]] double negligible() const {
-    double volume = 0.0;
-    for (const RestTet& tet : energy.rest.tets) volume += tet.volume;
-    return 1e-24 * energy.material.mu * volume;
-  }
-
-  /// Copies a shape vector from the caller's numbering into the internal one.
-  void to_internal(const double* from, double* to) const {
-    for (std::size_t v = 0; v < order.size(); ++v) std::copy_n(from + 3 * order[v], 3, to + 3 * v);
-  }
-  /// And back.
-  void to_external(const double* from, double* to) const {
-    for (std::size_t v = 0; v < order.size(); ++v) std::copy_n(from + 3 * v, 3, to + 3 * order[v]);
-  }
+  /// Of the displacements that one sample asks of the pinned vertices.
+  [[nodiscard]] int input_size() const { return 3 * static_cast<int>(pinned.size()); }
+  [[nodiscard]] double negligible() const { return energy.negligible(); }
+  [[nodiscard]] int inverted_tets(const double* u) const { return energy.inverted_tets(u); }
 
  private:
   static std::vector<std::int32_t> renumbered(std::vector<std::int32_t> vertices,
@@ -67,37 +58,24 @@ struct PosingSystem {
   }
 };
 
-/// The samples of one call: where each starts, what its handles ask for, where its shape goes.
-struct PosingSamples {
-  int count = 0;
-  const double* targets = nullptr;  ///< count x pinned x 3, displacements
-  const double* starts = nullptr;   ///< count x 3n, displacements
-  double* shapes = nullptr;         ///< count x 3n, displacements; written as samples finish
-};
-
 /// The objective of the samples that are in the lanes now. Real is double (one lane) or Lanes.
 ///
 /// This is all that a solver knows of a problem: size, negligible, load, value_and_gradient,
-/// precondition.
+/// precondition, and for Newton's method hessian_pattern and assemble.
 template <class Real>
 class PosingObjective {
  public:
-  PosingObjective(const PosingSystem& system, const PosingSamples& samples)
-      : system_(system), samples_(samples), targets_(3 * system.pinned.size(), Real(0.0)) {}
+  PosingObjective(const PosingSystem& system, const Samples& samples)
+      : system_(system), samples_(samples), targets_(system.input_size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }
-
-  [[nodiscard]] const double* target_of(int sample) const {
-    return samples_.targets + static_cast<std::size_t>(sample) * targets_.size();
-  }
+  [[nodiscard]] double negligible() const { return negligible_; }
 
   /// The lane's targets become those of `sample`.
   void load(int lane, int sample) {
-    const double* target = target_of(sample);
+    const double* target = samples_.inputs + static_cast<std::size_t>(sample) * targets_.size();
     for (std::size_t k = 0; k < targets_.size(); ++k) set_lane(targets_[k], lane, target[k]);
   }
-
-  [[nodiscard]] double negligible() const { return negligible_; }
 
   /// F at u (3n); its gradient overwrites `gradient`.
   Real value_and_gradient(const Real* u, Real* gradient) const {
@@ -122,15 +100,19 @@ class PosingObjective {
     system_.factor.solve(vector, result, scratch);
   }
 
- private:
-  static void set_lane(double& x, int, double value) { x = value; }
-  template <class L>
-  static void set_lane(L& x, int lane, double value) {
-    x.set(lane, value);
+  [[nodiscard]] BlockHessian hessian_pattern() const { return BlockHessian(system_.energy.rest); }
+
+  /// One lane only: the Hessian at u, clamped as BlockHessian::add does it.
+  void assemble(const double* u, double clamp, BlockHessian& hessian) const {
+    hessian.clear();
+    hessian.add(system_.energy, u, clamp);
+    for (std::size_t k = 0; k < system_.pinned.size(); ++k)
+      hessian.add_to_diagonal(system_.pinned[k], 2.0 * system_.weights[k]);
   }
 
+ private:
   const PosingSystem& system_;
-  const PosingSamples& samples_;
+  const Samples& samples_;
   std::vector<Real> targets_;
   double negligible_ = system_.negligible();
 };

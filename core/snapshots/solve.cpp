@@ -13,7 +13,8 @@ namespace snapspace {
 
 namespace {
 
-std::size_t offset(const PosingSystem& system, int sample) {
+template <class System>
+std::size_t offset(const System& system, int sample) {
   return static_cast<std::size_t>(sample) * system.size();
 }
 
@@ -21,8 +22,8 @@ int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-template <int Width>
-std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const PosingSamples& samples,
+template <int Width, class System>
+std::vector<SolveReport> solve_in_lanes(const System& system, const Samples& samples,
                                         const SolveOptions& options, SolveControl& control) {
   std::vector<SolveReport> reports(samples.count);
   std::atomic<int> next{0};
@@ -30,7 +31,7 @@ std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const Posing
   const int groups = std::min((samples.count + Width - 1) / Width, thread_count(options.threads));
   parallel_for(groups, groups, [&](int) {
     const FlushDenormals flush;
-    using Objective = PosingObjective<Lanes<Width>>;
+    using Objective = typename System::template Objective<Lanes<Width>>;
     LaneLbfgs<Objective, Width> solver(Objective(system, samples), options);
     const auto take = [&] {
       const int sample = next++;
@@ -38,13 +39,13 @@ std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const Posing
     };
     std::vector<double> shape(system.size());
     const auto start = [&](int sample) {
-      system.to_internal(samples.starts + offset(system, sample), shape.data());
+      system.numbering.to_internal(samples.starts + offset(system, sample), shape.data());
       return shape.data();
     };
     const auto finish = [&](int sample, SolveReport report, const auto& write) {
       write(shape.data());
-      report.inverted_tets = system.energy.inverted_tets(shape.data());
-      system.to_external(shape.data(), samples.shapes + offset(system, sample));
+      report.inverted_tets = system.inverted_tets(shape.data());
+      system.numbering.to_external(shape.data(), samples.shapes + offset(system, sample));
       reports[sample] = report;
       ++control.finished;
     };
@@ -55,13 +56,15 @@ std::vector<SolveReport> solve_in_lanes(const PosingSystem& system, const Posing
 
 }  // namespace
 
-std::vector<SolveReport> solve_fast(const PosingSystem& system, const PosingSamples& samples,
+template <class System>
+std::vector<SolveReport> solve_fast(const System& system, const Samples& samples,
                                     const SolveOptions& options, SolveControl& control) {
   return options.wide ? solve_in_lanes<kWideLanes>(system, samples, options, control)
                       : solve_in_lanes<kNarrowLanes>(system, samples, options, control);
 }
 
-std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSamples& samples,
+template <class System>
+std::vector<SolveReport> solve_newton(const System& system, const Samples& samples,
                                       const SolveOptions& options, double clamp,
                                       SolveControl& control, long* linear_iterations) {
   std::vector<SolveReport> reports(samples.count);
@@ -70,13 +73,15 @@ std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSa
   const int workers = std::min(samples.count, thread_count(options.threads));
   parallel_for(workers, workers, [&](int) {
     const FlushDenormals flush;
-    Newton solver(system, samples, options, clamp);
+    using Objective = typename System::template Objective<double>;
+    Newton<Objective> solver(Objective(system, samples), options, clamp);
     std::vector<double> start(system.size());
     for (int sample = next++; sample < samples.count && !control.cancelled; sample = next++) {
-      system.to_internal(samples.starts + offset(system, sample), start.data());
-      const SolveReport report = solver.solve(sample, start.data(), control);
+      system.numbering.to_internal(samples.starts + offset(system, sample), start.data());
+      SolveReport report = solver.solve(sample, start.data(), control);
       if (report.status == SolveStatus::cancelled) break;
-      system.to_external(solver.shape().data(), samples.shapes + offset(system, sample));
+      report.inverted_tets = system.inverted_tets(solver.shape().data());
+      system.numbering.to_external(solver.shape().data(), samples.shapes + offset(system, sample));
       reports[sample] = report;
       ++control.finished;
     }
@@ -85,5 +90,14 @@ std::vector<SolveReport> solve_newton(const PosingSystem& system, const PosingSa
   if (linear_iterations) *linear_iterations = total;
   return reports;
 }
+
+template std::vector<SolveReport> solve_fast(const PosingSystem&, const Samples&,
+                                             const SolveOptions&, SolveControl&);
+template std::vector<SolveReport> solve_fast(const InterpolationSystem&, const Samples&,
+                                             const SolveOptions&, SolveControl&);
+template std::vector<SolveReport> solve_newton(const PosingSystem&, const Samples&,
+                                               const SolveOptions&, double, SolveControl&, long*);
+template std::vector<SolveReport> solve_newton(const InterpolationSystem&, const Samples&,
+                                               const SolveOptions&, double, SolveControl&, long*);
 
 }  // namespace snapspace

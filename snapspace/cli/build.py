@@ -12,13 +12,10 @@ import click
 from ..mesh import TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem
-from ..sampling import METHODS, Method, sample
-from ..snapshots import SOLVERS, SolverOptions
-from ..snapshots.solve import Solver
-from .console import notice, print_json, print_next
+from .choices import Choices, choice_options
+from .console import print_json, print_next
 from .options import FILE, json_option, threads_option
 from .pipeline import build_model
-from .recipe import Recipe
 from .summary import print_summary
 
 DIMENSION = 40
@@ -32,64 +29,7 @@ DIMENSION = 40
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
-@click.option(
-    "--samples",
-    type=click.IntRange(min=1),
-    default=300,
-    show_default=True,
-    help="Number of snapshots. A grid takes the most that fill its axes evenly.",
-)
-@click.option(
-    "--dimension",
-    type=click.IntRange(min=1),
-    help=f"Modes of the subspace [default: {DIMENSION}].",
-)
-@click.option(
-    "--energy-fraction",
-    type=float,
-    help="Instead of --dimension: the fewest modes that hold this share, such as 0.9999.",
-)
-@click.option(
-    "--sampling", type=click.Choice(METHODS), default="random", show_default=True, help="Method."
-)
-@click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence.")
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    help="Of random and of scrambled Sobol samples.",
-)
-@click.option(
-    "--solver",
-    type=click.Choice(SOLVERS),
-    default="fast",
-    show_default=True,
-    help="fast: L-BFGS on one factor for all samples. newton: the paper's method, as a reference.",
-)
-@click.option(
-    "--tolerance",
-    type=float,
-    default=SolverOptions.tolerance,
-    show_default=True,
-    help="Converged: the decrease still expected is below this share of the energy.",
-)
-@click.option(
-    "--max-iterations",
-    type=click.IntRange(min=1),
-    default=SolverOptions.max_iterations,
-    show_default=True,
-    help="Per sample.",
-)
-@click.option(
-    "--clamp",
-    type=float,
-    default=SolverOptions.clamp,
-    show_default=True,
-    help="Newton: least singular value in the Hessian, in (0, 1].",
-)
-@click.option("--lumped", is_flag=True, help="Diagonal mass matrix.")
-@click.option("--include-unconverged", is_flag=True, help="Also use samples that stopped early.")
+@choice_options(samples=300, dimension=DIMENSION, sampling="random")
 @click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
 @threads_option
 @json_option
@@ -97,19 +37,8 @@ def build(
     mesh: Path | None,
     problem_file: Path,
     output: Path,
-    samples: int,
-    dimension: int | None,
-    energy_fraction: float | None,
-    sampling: Method,
-    no_scramble: bool,
-    seed: int,
-    solver: Solver,
-    tolerance: float,
-    max_iterations: int,
-    clamp: float,
-    lumped: bool,
-    include_unconverged: bool,
     repair: bool,
+    choices: Choices,
     threads: int | None,
     as_json: bool,
 ) -> None:
@@ -125,32 +54,11 @@ def build(
       snapspace build --problem dragon.json finer.msh --energy-fraction 0.9999 -o finer.snapspace
     """
     begin = time.perf_counter()
-    options = SolverOptions(
-        solver=solver, tolerance=tolerance, max_iterations=max_iterations, clamp=clamp
-    )
     check_output(output)
     problem, source = _read(problem_file, mesh, repair=repair)
-    recipe = Recipe(
-        parameters=sample(
-            problem.domain, samples, method=sampling, seed=seed, scramble=not no_scramble
-        ),
-        sampling={
-            "method": sampling,
-            "samples": samples,
-            "seed": seed,
-            "scramble": not no_scramble,
-        },
-        solver=options,
-        dimension=DIMENSION if dimension is None and energy_fraction is None else dimension,
-        energy_fraction=energy_fraction,
-        lumped=lumped,
-        include_unconverged=include_unconverged,
-        threads=threads,
-    )
-    if len(recipe.parameters) < samples:
-        notice(f"notice: the grid has {len(recipe.parameters)} samples, not {samples}")
+    recipe = choices.recipe(problem, dimension=DIMENSION, threads=threads)
     built = build_model(problem, recipe, output, source=source, begin=begin)
-    print_summary(built, include_unconverged=include_unconverged)
+    print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     print_next(
         [

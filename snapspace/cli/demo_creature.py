@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..generators import CREATURE_REGIONS, creature_paint
 from ..pictures import render_row
-from ..reduction import ReducedModel
+from ..reduction import PosingModel
 from .motions import Motion, as_parameters
 
 # Translations up to a tenth of the animal's length.
@@ -38,7 +38,7 @@ POSES: dict[str, dict[str, Motion]] = {
 POSE_OF_OBJ = "look round"
 
 
-def posed_shapes(model: ReducedModel) -> dict[str, NDArray[np.float64]]:
+def posed_shapes(model: PosingModel) -> dict[str, NDArray[np.float64]]:
     """The vertices (n, 3) of every pose of POSES, each solved from rest."""
     session = model.session()
     shapes = {}
@@ -50,7 +50,7 @@ def posed_shapes(model: ReducedModel) -> dict[str, NDArray[np.float64]]:
     return shapes
 
 
-def contact_sheet(model: ReducedModel, shapes: dict[str, NDArray[np.float64]]) -> NDArray[np.uint8]:
+def contact_sheet(model: PosingModel, shapes: dict[str, NDArray[np.float64]]) -> NDArray[np.uint8]:
     """The poses in two rows with their names."""
     mesh = model.problem.mesh
     return render_row(

@@ -15,17 +15,23 @@ Vector = tuple[float, float, float]
 FILE = click.Path(path_type=Path)
 
 
-def parse_vector(text: str) -> Vector:
-    """Three finite numbers with commas or spaces between them, such as -10,0,0; else ValueError."""
+def parse_numbers(text: str, *, example: str = "numbers such as 0.2,0.8") -> list[float]:
+    """Finite numbers with commas or spaces between them, such as 0.2,0.8; else ValueError."""
     words = text.split(",") if "," in text else text.split()
     try:
         numbers = [float(word) for word in words]
     except ValueError:
-        raise ValueError(f"'{text}' is not three numbers such as 0,0,30") from None
+        raise ValueError(f"'{text}' is not {example}") from None
+    if not numbers or not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"'{text}' is not finite")
+    return numbers
+
+
+def parse_vector(text: str) -> Vector:
+    """Three finite numbers with commas or spaces between them, such as -10,0,0; else ValueError."""
+    numbers = parse_numbers(text, example="three numbers such as 0,0,30")
     if len(numbers) != 3:
         raise ValueError(f"'{text}' has {len(numbers)} of three numbers, such as 0,0,30")
-    if not all(math.isfinite(number) for number in numbers):
-        raise ValueError(f"'{text}' is not finite")
     return numbers[0], numbers[1], numbers[2]
 
 
@@ -68,4 +74,15 @@ def leading_option(command: Command) -> Command:
         type=click.IntRange(min=1),
         metavar="D",
         help="Use only the first D modes of the model [default: all].",
+    )(command)
+
+
+def up_option(command: Command) -> Command:
+    """--up of pictures."""
+    return click.option(
+        "--up",
+        type=click.Choice(["x", "y", "z"]),
+        default="z",
+        show_default=True,
+        help="Axis that points up in the picture.",
     )(command)

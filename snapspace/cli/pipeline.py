@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ..problem import PosingProblem
-from ..reduction import ReducedModel, reduce
+from ..mesh import EmbeddedSurface
+from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import (
     Checkpoint,
     Snapshots,
@@ -31,7 +32,7 @@ from .recipe import Recipe, provenance
 class Built:
     """A model, the snapshots it comes from, its file, and seconds by stage."""
 
-    model: ReducedModel
+    model: PosingModel | InterpolationModel
     snapshots: Snapshots
     path: Path
     seconds: dict[str, float]
@@ -42,7 +43,7 @@ class Built:
         return {
             "vertices": len(problem.mesh.vertices),
             "tets": len(problem.mesh.tets),
-            "parameters": problem.dimension,
+            "parameters": problem.parameter_count,
             "samples": len(self.snapshots),
             "dimension": self.model.dimension,
             "energy_fraction": self.model.subspace.energy_fraction,
@@ -58,11 +59,12 @@ class Built:
 
 
 def build_model(
-    problem: PosingProblem,
+    problem: PosingProblem | InterpolationProblem,
     recipe: Recipe,
     output: Path,
     *,
     source: dict[str, Any],
+    surface: EmbeddedSurface | None = None,
     begin: float | None = None,
 ) -> Built:
     """Solves the samples, makes subspace and reduced model, and writes the model file.
@@ -76,7 +78,9 @@ def build_model(
     output : Path
         Checked by the caller, since this takes long.
     source : dict
-        Names of the problem's and the mesh's file, for the record.
+        Names of the files it comes from, for the record.
+    surface : EmbeddedSurface, optional
+        Interpolation: the user's surface in the tets.
     begin : float, optional
         `time.perf_counter()` when the work began, for the total. Default: now.
 
@@ -88,10 +92,13 @@ def build_model(
         On Ctrl-C, with a line that says what is kept.
     """
     begin = time.perf_counter() if begin is None else begin
-    key = run_key(problem, recipe.parameters, solver_key(recipe.solver))
+    key = run_key(problem, recipe.parameters, solver_key(recipe.solver, problem))
     checkpoint = Checkpoint.beside(output, key)
     seconds: dict[str, float] = {}
     try:
+        if isinstance(problem, InterpolationProblem):
+            with _stage(seconds, "mean shape"), console().status("mean shape"):
+                _ = problem.mean_shape
         with _stage(seconds, "snapshots"):
             snapshots = _solved(problem, recipe, checkpoint)
         with _stage(seconds, "basis"), console().status("basis"):
@@ -100,9 +107,8 @@ def build_model(
             usable = np.ones(len(snapshots), bool)
             if not recipe.include_unconverged:
                 usable = snapshots.converged
-            model = reduce(
-                problem, subspace, snapshots=snapshots.select(usable), threads=recipe.threads
-            )
+            used = snapshots.select(usable)
+            model = _reduced(problem, subspace, used, surface, threads=recipe.threads)
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
         model = replace(model, provenance=record)
         model.save(output)
@@ -114,7 +120,9 @@ def build_model(
     return Built(model, snapshots, output, seconds)
 
 
-def _solved(problem: PosingProblem, recipe: Recipe, checkpoint: Checkpoint) -> Snapshots:
+def _solved(
+    problem: PosingProblem | InterpolationProblem, recipe: Recipe, checkpoint: Checkpoint
+) -> Snapshots:
     total, found = len(recipe.parameters), len(checkpoint.load())
     if found:
         notice(f"resuming: {found} of {total} samples were finished before")
@@ -131,6 +139,19 @@ def _solved(problem: PosingProblem, recipe: Recipe, checkpoint: Checkpoint) -> S
             progress=progress,
             checkpoint=checkpoint,
         )
+
+
+def _reduced(
+    problem: PosingProblem | InterpolationProblem,
+    subspace: AffineSubspace,
+    snapshots: Snapshots,
+    surface: EmbeddedSurface | None,
+    *,
+    threads: int | None,
+) -> PosingModel | InterpolationModel:
+    if isinstance(problem, PosingProblem):
+        return reduce(problem, subspace, snapshots=snapshots, threads=threads)
+    return reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=threads)
 
 
 def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from ..mesh import TetMesh, write_surface, write_tets
 from ..mesh.input_path import writable_path
 from ..pictures import render, save_png, tint
-from ..reduction import ReducedModel
+from ..reduction import PosingModel
 from .console import notice, print_facts, print_json
 from .files import SURFACE_OUTPUTS, TET_OUTPUTS
-from .loading import load_leading
+from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
-from .options import FILE, json_option, leading_option, vector_option
+from .options import FILE, json_option, leading_option, up_option, vector_option
 
 
 @click.command(cls=MotionCommand, short_help="Move handles and write the shape.")
@@ -37,13 +37,7 @@ from .options import FILE, json_option, leading_option, vector_option
     help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh.",
 )
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
-@click.option(
-    "--up",
-    type=click.Choice(["x", "y", "z"]),
-    default="z",
-    show_default=True,
-    help="Axis that points up in the picture.",
-)
+@up_option
 @leading_option
 @json_option
 @click.pass_context
@@ -71,7 +65,7 @@ def pose(
     """
     motions = motions_in_order(ctx)
     _check_outputs(output, png)
-    model = load_leading(model_file, dimension)
+    model = load_posing(model_file, dimension)
     problem = model.problem
     parameters, carrier = as_parameters(problem, motions)
     for name in beyond_domain(problem, parameters):
@@ -122,7 +116,7 @@ def _check_outputs(output: Path | None, png: Path | None) -> None:
         writable_path(png, known=(".png",))
 
 
-def _picture(model: ReducedModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
+def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
     problem = model.problem
     colors = tint(len(vertices), [handle.vertices for handle in problem.handles])
     return render(vertices, problem.mesh.surface, colors=colors, up=up)

@@ -30,7 +30,7 @@ def problem_figures(problem: PosingProblem) -> dict[str, Any]:
             {"name": handle.name, "vertices": len(handle.vertices), "moves": number > 0}
             for number, handle in enumerate(problem.handles)
         ],
-        "parameters": problem.dimension,
+        "parameters": problem.parameter_count,
         "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
         "stiffness": problem.stiffness,
         "domain": {

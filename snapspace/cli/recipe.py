@@ -64,7 +64,7 @@ def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
             "core": _core.level,
         },
         "sampling": recipe.sampling,
-        "solver": solver_key(recipe.solver),
+        "solver": solver_key(recipe.solver, snapshots.problem),
         "basis": {
             "dimension": recipe.dimension,
             "energy_fraction": recipe.energy_fraction,

@@ -1,6 +1,15 @@
 """Tetrahedral meshes: the mesh itself, its mass, repair, reading and writing."""
 
-from .mass import apply_mass, mass_gram, mass_inner, mass_matrix, mass_norm, mass_norms
+from .embedded_surface import EmbeddedSurface, boundary_surface, embed_surface
+from .mass import (
+    apply_mass,
+    mass_gram,
+    mass_inner,
+    mass_matrix,
+    mass_norm,
+    mass_norms,
+    mass_of_tets,
+)
 from .quality import dihedral_angles, tet_volumes
 from .read import MeshNotice, read_tets
 from .read_surface import read_surface
@@ -10,17 +19,21 @@ from .tet_mesh import TetMesh
 from .write import write_surface, write_tets
 
 __all__ = [
+    "EmbeddedSurface",
     "MeshNotice",
     "TetMesh",
     "apply_mass",
     "boundary_faces",
+    "boundary_surface",
     "compact_surface",
     "dihedral_angles",
+    "embed_surface",
     "mass_gram",
     "mass_inner",
     "mass_matrix",
     "mass_norm",
     "mass_norms",
+    "mass_of_tets",
     "read_surface",
     "read_tets",
     "repair_tets",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IndexArray
 from .tet_mesh import TetMesh
 
 
@@ -29,11 +29,17 @@ def mass_matrix(mesh: TetMesh, *, lumped: bool = False) -> csr_array:
         volume / 20 * (1 + delta_ij) per tet (Zienkiewicz & Taylor, The Finite Element Method), so
         that x^T M y is the exact integral of the product of two piecewise linear functions.
     """
+    return mass_of_tets(mesh.tets, mesh.volumes, lumped=lumped)
+
+
+def mass_of_tets(tets: IndexArray, volumes: FloatArray, *, lumped: bool = False) -> csr_array:
+    """`mass_matrix` for tets (m, 4) of given volumes (m,), all positive."""
+    n = int(tets.max()) + 1
     if lumped:
-        return csr_array(diags_array(mesh.vertex_masses))
-    n = len(mesh.vertices)
-    rows, columns = np.repeat(mesh.tets, 4, axis=1), np.tile(mesh.tets, (1, 4))
-    values = mesh.volumes[:, None] / 20.0 * (1.0 + np.eye(4)).ravel()
+        quarter = np.repeat(volumes / 4.0, 4)
+        return csr_array(diags_array(np.bincount(tets.ravel(), quarter, minlength=n)))
+    rows, columns = np.repeat(tets, 4, axis=1), np.tile(tets, (1, 4))
+    values = volumes[:, None] / 20.0 * (1.0 + np.eye(4)).ravel()
     matrix = csr_array(coo_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n)))
     # ij and ji sum the same numbers, perhaps in another order: their mean is exactly symmetric
     return csr_array((matrix + matrix.T) / 2.0)

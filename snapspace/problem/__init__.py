@@ -2,16 +2,24 @@
 
 from .handle_box import HandleBox
 from .handles import Handle, Handles
+from .interpolation_problem import InterpolationProblem
 from .motion import affine_offset, rigid_offset, rotation_matrix
+from .poses import Poses
 from .posing_problem import PosingProblem
+from .problem import Problem, solutions_beyond_tau
 from .problem_file import problem_content, read_problem
 from .region import in_box, in_sphere
+from .simplex import Simplex
 
 __all__ = [
     "Handle",
     "HandleBox",
     "Handles",
+    "InterpolationProblem",
+    "Poses",
     "PosingProblem",
+    "Problem",
+    "Simplex",
     "affine_offset",
     "in_box",
     "in_sphere",
@@ -19,4 +27,5 @@ __all__ = [
     "read_problem",
     "rigid_offset",
     "rotation_matrix",
+    "solutions_beyond_tau",
 ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,3 +91,23 @@ class HandleBox:
             parameters, widths, out=np.zeros_like(parameters, dtype=np.float64), where=widths > 0
         )
         return (scaled + 1.0) / 2.0
+
+    def grid(self, count: int) -> FloatArray:
+        """Centres of equal cells of the box, the last parameter varying fastest: (k, dimension).
+
+        k is the largest product up to `count` (at least 1) of nearly equal numbers per free axis;
+        earlier axes are divided first.
+        """
+        per_axis = [1] * self.dimension
+        axes = itertools.cycle(np.flatnonzero(self.free_axes).tolist())
+        axis = next(axes)
+        while math.prod(per_axis) // per_axis[axis] * (per_axis[axis] + 1) <= count:
+            per_axis[axis] += 1
+            axis = next(axes)
+        centers = [(np.arange(k) + 0.5) / k for k in per_axis]
+        points = np.stack(np.meshgrid(*centers, indexing="ij"), axis=-1)
+        return self.from_unit(points.reshape(-1, self.dimension))
+
+    def scaled(self, parameters: FloatArray) -> FloatArray:
+        """Coordinates in which distances between parameters compare: those of the unit cube."""
+        return self.to_unit(parameters)

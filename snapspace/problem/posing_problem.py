@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 import math
 from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..energy import ElasticEnergy, StVK
-from ..mesh import TetMesh
+from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
 from .handles import Handles
 from .motion import rigid_offset
@@ -77,9 +80,41 @@ class PosingProblem:
             )
 
     @property
-    def dimension(self) -> int:
+    def snapshot_tolerance(self) -> float:
+        """Default tolerance; on the Dragon it leaves about 0.3 % of the displacement."""
+        return 1e-5
+
+    @property
+    def parameter_count(self) -> int:
         """Number of parameters w."""
         return self.domain.dimension
+
+    @cached_property
+    def base(self) -> FloatArray:
+        """The rest shape (3n,): solvers work with displacements from it."""
+        return self.mesh.vertices.reshape(-1)
+
+    @property
+    def tau(self) -> FloatArray:
+        """The rest shape (3n,): subspaces go through it (paper, sec. 5)."""
+        return self.base
+
+    def mass(self, *, lumped: bool = False) -> csr_array:
+        """Mass matrix (n, n) of the rest shape."""
+        return mass_matrix(self.mesh, lumped=lumped)
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """SHA-256 of all that solutions depend on, 64 hex digits."""
+        content = {
+            "kind": "posing",
+            "mesh": self.mesh.fingerprint,
+            "material": [self.material.lam, self.material.mu],
+            "stiffness": self.stiffness,
+            "domain": self.domain.half_widths.tolist(),
+            "handles": [[handle.name, handle.vertices.tolist()] for handle in self.handles],
+        }
+        return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     @cached_property
     def energy(self) -> ElasticEnergy:
@@ -117,13 +152,13 @@ class PosingProblem:
         )
 
     def offsets(self, parameters: ArrayLike) -> FloatArray:
-        """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (dimension,)."""
+        """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (p,)."""
         w = np.asarray(parameters, np.float64)
-        if w.shape != (self.dimension,):
+        if w.shape != (self.parameter_count,):
             raise ValueError(
                 f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} "
-                f"moving handles need ({self.dimension},): translation, then angles, handle by "
-                "handle"
+                f"moving handles need ({self.parameter_count},): translation, then angles, handle "
+                "by handle"
             )
         if not np.isfinite(w).all():
             raise ValueError("PosingProblem: a parameter is not finite")
@@ -142,6 +177,24 @@ class PosingProblem:
                 )
             ]
         )
+
+    def inputs(self, parameters: FloatArray) -> FloatArray:
+        """What the system takes for samples (k, p): pinned displacements, (k, 3 pins)."""
+        return np.stack(
+            [self.target_displacements(self.offsets(w)).reshape(-1) for w in parameters]
+        )
+
+    def known_solutions(self) -> tuple[FloatArray, FloatArray]:
+        """Parameters (1, p) and shapes (1, 3n) that need no solving: the rest shape, at zero."""
+        return np.zeros((1, self.parameter_count)), self.base[None, :]
+
+    def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:
+        """The shape (3n,) itself: handles hold it in its place."""
+        return shape
+
+    def registered(self, displacements: FloatArray) -> FloatArray:
+        """The displacements (k, 3n) themselves: handles hold the shapes in their place."""
+        return displacements
 
     def handle_energy(self, x: ArrayLike, offsets: FloatArray) -> float:
         """Second term of F (paper, eq. 2) at positions x (3n,) for offsets (h, 3, 4)."""

@@ -1,15 +1,21 @@
 """Reduced energies and models."""
 
 from .handle_quadric import HandleQuadric, handle_quadric
-from .quartic import Quartic, coefficient_count, reduced_quartic
-from .reduced_model import ReducedModel, reduce
+from .interpolation_model import InterpolationModel
+from .posing_model import PosingModel
+from .quartic import Quartic, coefficient_count, pose_quartics, reduced_quartic
+from .reduce import reduce
+from .reduced_model import ReducedModel
 
 __all__ = [
     "HandleQuadric",
+    "InterpolationModel",
+    "PosingModel",
     "Quartic",
     "ReducedModel",
     "coefficient_count",
     "handle_quadric",
+    "pose_quartics",
     "reduce",
     "reduced_quartic",
 ]

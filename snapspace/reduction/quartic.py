@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..energy import ElasticEnergy
+from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
@@ -73,7 +74,27 @@ def reduced_quartic(
     matrix product; the coefficients are bitwise the same for any number of threads (default: as
     many as the machine has).
     """
-    offset = subspace.tau - energy.mesh.vertices.reshape(-1)
-    modes = np.ascontiguousarray(np.vstack([offset, subspace.basis.T]))
-    coefficients = core.quartic_coefficients(energy.core, modes, threads=threads or 0)
+    coefficients = _coefficients(
+        energy.core, energy.mesh.vertices.reshape(-1), subspace, threads=threads
+    )
     return Quartic(subspace.dimension, coefficients)
+
+
+def pose_quartics(
+    problem: InterpolationProblem, subspace: AffineSubspace, *, threads: int | None = None
+) -> FloatArray:
+    """Coefficients of every pose's elastic energy on a subspace, (poses, C(d + 4, 4))."""
+    return np.stack(
+        [
+            _coefficients(problem.pose_energy(k), pose, subspace, threads=threads)
+            for k, pose in enumerate(problem.pose_shapes)
+        ]
+    )
+
+
+def _coefficients(
+    energy: core.ElasticEnergy, rest: FloatArray, subspace: AffineSubspace, *, threads: int | None
+) -> FloatArray:
+    modes = np.ascontiguousarray(np.vstack([subspace.tau - rest, subspace.basis.T]))
+    coefficients: FloatArray = core.quartic_coefficients(energy, modes, threads=threads or 0)
+    return coefficients

@@ -16,15 +16,15 @@ from safetensors import SafetensorError
 from safetensors.numpy import load_file, save
 
 from ..mesh.atomic_file import atomic_file
-from ..problem import PosingProblem, problem_content
+from ..problem import Problem
 from .snapshots import SampleReport
 
 FloatArray = NDArray[np.float64]
 
 
-def run_key(problem: PosingProblem, parameters: FloatArray, options: dict[str, Any]) -> str:
+def run_key(problem: Problem, parameters: FloatArray, options: dict[str, Any]) -> str:
     """Hash of everything that the solutions depend on, 16 hex digits."""
-    content = {"problem": problem_content(problem), "mesh": problem.mesh.fingerprint, **options}
+    content = {"problem": problem.fingerprint, **options}
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
     digest.update(np.ascontiguousarray(parameters, dtype="<f8").tobytes())
     return digest.hexdigest()[:16]

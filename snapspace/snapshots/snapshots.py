@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..problem import PosingProblem
+from ..problem import Problem
 
 FloatArray = NDArray[np.float64]
 
@@ -42,13 +42,13 @@ class SampleReport:
 class Snapshots:
     """Solutions of a problem at sampled parameters.
 
-    problem : PosingProblem
+    problem : Problem
     parameters : (k, p), one sample per row
     shapes : (3n, k), one shape per column, positions x0 y0 z0 x1 ...
     reports : one SampleReport per sample
     """
 
-    problem: PosingProblem
+    problem: Problem
     parameters: FloatArray
     shapes: FloatArray
     reports: Sequence[SampleReport]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from typing import Any, Literal
 
@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..problem import PosingProblem
+from ..interruptible import run_interruptible
+from ..problem import Problem
 from .checkpoint import Checkpoint
-from .interruptible import run_interruptible
 from .snapshots import SampleReport, Snapshots
-from .starts import interpolated_start, nearest_start
+from .starts import interpolated_start, lower_start, nearest_start
 
 FloatArray = NDArray[np.float64]
 Solver = Literal["fast", "newton"]
@@ -38,10 +38,10 @@ class SolverOptions:
     ----------
     solver : "fast" or "newton", default "fast"
         L-BFGS on a scalar factor that all samples share, or the paper's Newton method (sec. 4.2).
-    tolerance : float, default 1e-5
+    tolerance : float, optional
         Converged when twice the decrease that the solver's model predicts is below tolerance * F,
-        and for "fast" the mean decrease of the last 8 iterations is as well. On the Dragon 1e-5
-        leaves about 0.3 % of the displacement relative to the tight solution, 1e-7 leaves 0.04 %.
+        and for "fast" the mean decrease of the last 8 iterations is as well. Default: the
+        problem's `snapshot_tolerance`.
     max_iterations : int, default 1000
         Per sample; one that needs more ends as max_iterations.
     clamp : float, default 0.65
@@ -57,7 +57,7 @@ class SolverOptions:
     """
 
     solver: Solver = "fast"
-    tolerance: float = 1e-5
+    tolerance: float | None = None
     max_iterations: int = 1000
     clamp: float = 0.65
     wave: int | None = None
@@ -65,7 +65,7 @@ class SolverOptions:
     def __post_init__(self) -> None:
         if self.solver not in SOLVERS:
             raise ValueError(f"unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}")
-        if not (np.isfinite(self.tolerance) and self.tolerance > 0):
+        if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
             raise ValueError(f"tolerance is {self.tolerance}, but it must be positive")
         if self.max_iterations < 1:
             raise ValueError(f"max_iterations is {self.max_iterations}, but must be at least 1")
@@ -74,6 +74,14 @@ class SolverOptions:
         if self.wave is not None and self.wave < 1:
             raise ValueError(f"wave is {self.wave}, but must be at least 1")
 
+    def resolved(self, problem: Problem) -> SolverOptions:
+        """The options with the problem's tolerance and the solver's wave where none are given."""
+        return replace(
+            self,
+            tolerance=problem.snapshot_tolerance if self.tolerance is None else self.tolerance,
+            wave=self.wave_size,
+        )
+
     @property
     def wave_size(self) -> int:
         """Samples per wave."""
@@ -81,7 +89,7 @@ class SolverOptions:
 
 
 def solve_snapshots(
-    problem: PosingProblem,
+    problem: Problem,
     parameters: ArrayLike,
     *,
     options: SolverOptions | None = None,
@@ -93,8 +101,8 @@ def solve_snapshots(
 
     Parameters
     ----------
-    problem : PosingProblem
-    parameters : array_like, (k, problem.dimension)
+    problem : Problem
+    parameters : array_like, (k, problem.parameter_count)
         For example from `sample`.
     options : SolverOptions, optional
     threads : int, optional
@@ -119,17 +127,17 @@ def solve_snapshots(
         On Ctrl-C, after the finished samples were saved.
     """
     samples = _checked(problem, parameters)
-    run = _Run(problem, samples, options or SolverOptions(), threads or 0, progress, checkpoint)
+    chosen = (options or SolverOptions()).resolved(problem)
+    run = _Run(problem, samples, chosen, threads or 0, progress, checkpoint)
     for begin in range(0, len(samples), run.options.wave_size):
         run.solve_wave(range(begin, min(begin + run.options.wave_size, len(samples))))
-    rest = problem.mesh.vertices.reshape(-1)
     reports = [run.reports[i] for i in range(len(samples))]
-    return Snapshots(problem, samples, (run.displacements + rest).T, reports)
+    return Snapshots(problem, samples, (run.displacements + problem.base).T, reports)
 
 
-def solver_key(options: SolverOptions) -> dict[str, Any]:
-    """What of the options the solutions depend on."""
-    return {**asdict(options), "wave": options.wave_size}
+def solver_key(options: SolverOptions, problem: Problem) -> dict[str, Any]:
+    """What of the options the solutions of a problem depend on."""
+    return asdict(options.resolved(problem))
 
 
 class _Run:
@@ -137,7 +145,7 @@ class _Run:
 
     def __init__(
         self,
-        problem: PosingProblem,
+        problem: Problem,
         samples: FloatArray,
         options: SolverOptions,
         threads: int,
@@ -164,20 +172,17 @@ class _Run:
         # for the whole wave: products with fewer rows round differently, and which samples are
         # missing depends on where an earlier run was interrupted
         starts = self._starts(wave)[np.subtract(missing, wave.start)]
-        targets = np.stack(
-            [
-                self.problem.target_displacements(self.problem.offsets(self.samples[i]))
-                for i in missing
-            ]
-        )
+        inputs = self.problem.inputs(self.samples[missing])
         already, total = len(self.reports), len(self.samples)
         batch, interrupted = run_interruptible(
-            lambda control: self._solve(targets, starts, control, wide=len(wave) >= WIDE_FROM),
+            lambda control: self._solve(inputs, starts, control, wide=len(wave) >= WIDE_FROM),
             lambda finished: self.progress(already + finished, total),
         )
         done = [k for k, report in enumerate(batch.reports) if report.status.name != "cancelled"]
+        if done:
+            solved = self.problem.registered(batch.shapes[done])
+            self.displacements[[missing[k] for k in done]] = solved
         for k in done:
-            self.displacements[missing[k]] = batch.shapes[k]
             self.reports[missing[k]] = _report(batch.reports[k])
         if self.checkpoint and done:
             indices = [missing[k] for k in done]
@@ -187,16 +192,22 @@ class _Run:
             raise Interrupted(f"{len(self.reports)} of {total} samples are finished")
 
     def _starts(self, wave: range) -> FloatArray:
-        """Guesses from the converged samples before the wave, and from rest at parameters 0."""
+        """Guesses from the converged samples before the wave, and from what is known anyway."""
         known = [i for i in range(wave.start) if self.reports[i].converged]
-        to_unit = self.problem.domain.to_unit
-        parameters = to_unit(np.vstack([np.zeros(self.samples.shape[1]), self.samples[known]]))
-        shapes = np.vstack([np.zeros(self.displacements.shape[1]), self.displacements[known]])
-        guess = interpolated_start if self.options.solver == "fast" else nearest_start
-        return guess(parameters, shapes, to_unit(self.samples[wave]))
+        given, shapes = self.problem.known_solutions()
+        scaled = self.problem.domain.scaled
+        parameters = scaled(np.vstack([given, self.samples[known]]))
+        displacements = np.vstack([shapes - self.problem.base, self.displacements[known]])
+        wanted = scaled(self.samples[wave])
+        nearest = nearest_start(parameters, displacements, wanted)
+        if self.options.solver == "newton":
+            return nearest
+        interpolated = interpolated_start(parameters, displacements, wanted)
+        inputs = self.problem.inputs(self.samples[wave])
+        return lower_start(self.problem.system, inputs, interpolated, nearest)
 
     def _solve(
-        self, targets: FloatArray, starts: FloatArray, control: core.SolveControl, *, wide: bool
+        self, inputs: FloatArray, starts: FloatArray, control: core.SolveControl, *, wide: bool
     ) -> core.Batch:
         options = self.options
         solve = (
@@ -204,14 +215,15 @@ class _Run:
             if options.solver == "newton"
             else partial(self.problem.system.solve_fast, wide=wide)
         )
-        return solve(
-            targets,
+        batch: core.Batch = solve(
+            inputs,
             starts,
             tolerance=options.tolerance,
             max_iterations=options.max_iterations,
             threads=self.threads,
             control=control,
         )
+        return batch
 
 
 def _report(report: Any) -> SampleReport:
@@ -227,12 +239,12 @@ def _report(report: Any) -> SampleReport:
     )
 
 
-def _checked(problem: PosingProblem, parameters: ArrayLike) -> FloatArray:
+def _checked(problem: Problem, parameters: ArrayLike) -> FloatArray:
     samples = np.ascontiguousarray(parameters, dtype=np.float64)
-    if samples.ndim != 2 or samples.shape[1] != problem.dimension or len(samples) == 0:
+    if samples.ndim != 2 or samples.shape[1] != problem.parameter_count or len(samples) == 0:
         raise ValueError(
             f"solve_snapshots: parameters have shape {samples.shape}, but the problem needs "
-            f"(samples, {problem.dimension})"
+            f"(samples, {problem.parameter_count})"
         )
     bad = np.flatnonzero(~np.isfinite(samples).all(axis=1))
     if bad.size:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
@@ -46,3 +48,18 @@ def interpolated_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray
     interpolant = RBFInterpolator(known[distinct], np.eye(len(distinct)), kernel="linear")
     weights[:, distinct] = interpolant(wanted)
     return np.ascontiguousarray(weights @ shapes)
+
+
+def lower_start(
+    system: Any, inputs: FloatArray, first: FloatArray, second: FloatArray
+) -> FloatArray:
+    """Of two guesses (j, 3n) for inputs (j, input_size), sample by sample, the one of lower energy.
+
+    Between distant poses an interpolated shape shrinks and turns inside out, and a solve from there
+    may end in a minimum that is far from the others.
+    """
+    chosen = first.copy()
+    for k, w in enumerate(inputs):
+        if system.value_and_gradient(second[k], w)[0] < system.value_and_gradient(first[k], w)[0]:
+            chosen[k] = second[k]
+    return chosen

@@ -14,7 +14,7 @@ from safetensors import safe_open
 from safetensors.numpy import load_file, save_file
 
 from snapspace import load
-from snapspace.model_file import _checksum
+from snapspace.model_file.container import checksum
 
 Change = Callable[[dict[str, Any], dict[str, str]], None]
 
@@ -37,7 +37,7 @@ def rewrite(path: Path, change: Change, *, sign: bool = True) -> None:
         header = dict(file.metadata())
     change(arrays, header)
     if sign:
-        header["checksum"] = _checksum(arrays, header)
+        header["checksum"] = checksum(arrays, header)
     save_file(arrays, path, header)
 
 

@@ -130,8 +130,9 @@ def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> No
     np.testing.assert_array_equal(arrays["basis"].T, model.subspace.basis)
     with safe_open(saved, framework="np") as file:
         header = file.metadata()
-    assert set(header) == {"format", "version", "problem", "provenance", "checksum"}
+    assert set(header) == {"format", "version", "kind", "problem", "provenance", "checksum"}
     assert (header["format"], header["version"]) == ("snapspace-model", "1")
+    assert header["kind"] == "posing"
     assert json.loads(header["problem"])["handles"] == ["foot", "tip"]
     assert json.loads(header["provenance"]) == model.provenance
 

@@ -46,6 +46,18 @@ def test_a_parameter_without_width_stays_in_the_middle() -> None:
     assert (back[:, [1, 3, 4, 5]] == 0.5).all()
 
 
+def test_scaled_coordinates_are_those_of_the_unit_cube() -> None:
+    """So that a bound's length unit or angle does not weigh in distances between parameters."""
+    points = np.random.default_rng(0).random((5, 6))
+    for size in (1e-3, 1.0, 1e3):
+        box = HandleBox(translation=size, angle=0.1)
+        assert box.scaled(box.from_unit(points)) == pytest.approx(points, abs=1e-13)
+
+
+def test_a_grid_has_one_point_at_least() -> None:
+    assert not HandleBox(translation=1.0, angle=0.5).grid(1).any()
+
+
 def test_angles_of_half_a_turn_are_allowed() -> None:
     assert HandleBox(translation=0.0, angle=np.deg2rad(180)).half_widths[3] == np.pi
 

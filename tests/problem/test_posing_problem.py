@@ -18,7 +18,7 @@ BOX = HandleBox(translation=1.0, angle=1.0)
 
 
 def random_parameters(seed: int = 0) -> np.ndarray:
-    return np.random.default_rng(seed).uniform(-0.8, 0.8, PROBLEM.dimension)
+    return np.random.default_rng(seed).uniform(-0.8, 0.8, PROBLEM.parameter_count)
 
 
 def world_map(offset: np.ndarray, center: np.ndarray) -> np.ndarray:
@@ -101,10 +101,10 @@ def test_taylor_of_the_objective(size: float) -> None:
 
 
 def test_the_domain_has_six_parameters_per_moving_handle() -> None:
-    assert PROBLEM.dimension == 12
+    assert PROBLEM.parameter_count == 12
     assert PROBLEM.domain.moving == 2
     two = PosingProblem(MESH, Handles([[0, 1, 2], [9]]), domain=HandleBox(translation=1, angle=0))
-    assert two.dimension == 6
+    assert two.parameter_count == 6
     assert (two.material.lam, two.material.mu, two.stiffness) == (1.0, 1.0, 1000.0)
 
 

@@ -70,7 +70,7 @@ def test_without_snapshots_nothing_is_recorded(posing_model: ReducedModel) -> No
 
 
 def test_a_subspace_of_another_shape_is_refused(posing_model: ReducedModel) -> None:
-    message = "reduce: the subspace is not attached to the rest shape of the problem's mesh"
+    message = "reduce: the subspace is not attached to the problem's reference shape"
     with pytest.raises(ValueError, match=re.escape(message)):
         reduce(posing_model.problem, random_subspace(irregular_bar(), 4))
     tau = posing_model.subspace.tau.copy()

@@ -54,8 +54,10 @@ def core_solve(
         "control": core.SolveControl(),
     }
     if solver == "newton":
-        return problem.system.solve_newton(targets, starts, clamp=0.6, **options)
-    return problem.system.solve_fast(targets, starts, **options)
+        return problem.system.solve_newton(
+            targets.reshape(len(targets), -1), starts, clamp=0.6, **options
+        )
+    return problem.system.solve_fast(targets.reshape(len(targets), -1), starts, **options)
 
 
 def without_seconds(snapshots: Snapshots) -> list[SampleReport]:

@@ -183,7 +183,7 @@ def key(**changes: Any) -> str:
         stiffness=run["stiffness"],
         domain=run["domain"],
     )
-    return run_key(problem, run["samples"], solver_key(run["options"]))
+    return run_key(problem, run["samples"], solver_key(run["options"], problem))
 
 
 def test_the_key_is_the_same_for_the_same_run() -> None:
@@ -231,4 +231,4 @@ def test_the_key_changes_with_all_that_matters(change: dict[str, Any]) -> None:
 
 def test_the_key_knows_nothing_of_threads() -> None:
     assert "threads" not in asdict(SolverOptions())
-    assert set(solver_key(SolverOptions())) == set(asdict(SolverOptions()))
+    assert set(solver_key(SolverOptions(), posing_bar())) == set(asdict(SolverOptions()))

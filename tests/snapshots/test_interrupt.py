@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import Checkpoint, Interrupted, SolverOptions, solve_snapshots
+from snapspace import Checkpoint, Interrupted, SolverOptions, interruptible, solve_snapshots
 from snapspace import _core as core
-from snapspace.snapshots import SOLVERS, interruptible
-from snapspace.snapshots.interruptible import run_interruptible
+from snapspace.interruptible import run_interruptible
+from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.solve import Solver
 
 from .bars import assert_same_bits, parameters, posing_bar
@@ -182,14 +182,14 @@ def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> No
     """Wherever it falls: the sample is reported as cancelled, or ended where it always ends."""
     problem = posing_bar(12, 4, 4, bound=1.0)
     w = parameters(problem, 1)[0]
-    targets = problem.target_displacements(problem.offsets(w))[None]
+    inputs = problem.inputs(w[None])
     starts = np.zeros((1, problem.mesh.vertices.size))
     options: dict[str, Any] = {"tolerance": 1e-10, "max_iterations": 1000, "threads": 1}
     if solver == "newton":
         options["clamp"] = 0.6
     solve = getattr(problem.system, f"solve_{solver}")
     begin = time.monotonic()
-    end = solve(targets, starts, control=core.SolveControl(), **options)
+    end = solve(inputs, starts, control=core.SolveControl(), **options)
     duration = time.monotonic() - begin
     assert end.reports[0].status.name == "converged"
     statuses = []
@@ -197,7 +197,7 @@ def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> No
         control = core.SolveControl()
         timer = threading.Timer(delay, control.cancel)
         timer.start()
-        batch = solve(targets, starts, control=control, **options)
+        batch = solve(inputs, starts, control=control, **options)
         timer.join()
         statuses.append(batch.reports[0].status.name)
         if statuses[-1] != "cancelled":

@@ -1,63 +1,25 @@
-"""Session: a reduced model that is posed live (paper, sec. 6.2)."""
+"""PosingSession: a reduced model that is posed live (paper, sec. 6.2)."""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _core as core
-from .problem import affine_offset, rigid_offset
-from .reduction import ReducedModel
+from .. import _core as core
+from ..problem import affine_offset, rigid_offset
+from ..reduction import PosingModel
+from .frame_report import FrameReport
+from .session import Session
 
 FloatArray = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class FrameReport:
-    """How one frame was solved.
-
-    status : converged, max_iterations, line_search_failed or not_finite
-    iterations, evaluations : of BFGS
-    value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
-    seconds : of the solve, without the vertices
-    """
-
-    status: str
-    iterations: int
-    evaluations: int
-    value: float
-    gradient_norm: float
-    seconds: float
-
-    @property
-    def converged(self) -> bool:
-        """Whether all three termination tests were met."""
-        return self.status == "converged"
-
-
-class Session:
+class PosingSession(Session[PosingModel]):
     """Poses of a reduced model: move handles, read vertices.
 
-    Each move solves the reduced problem by BFGS from the last frame's shape, with the inverse
-    Hessian at rest as the first approximation.
-
-    Parameters
-    ----------
-    model : ReducedModel
-    tolerance : float, default 1e-7
-        eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and
-        a displacement of a tenth of the diagonal.
-    max_iterations : int, default 300
-        Bound on the work of one frame.
-
-    Raises
-    ------
-    ValueError
-        For a tolerance or bound that is not positive.
+    Parameters and errors as for `Session`.
 
     Examples
     --------
@@ -66,27 +28,7 @@ class Session:
     session.vertices
     """
 
-    def __init__(
-        self, model: ReducedModel, *, tolerance: float = 1e-7, max_iterations: int = 300
-    ) -> None:
-        if not tolerance > 0 or max_iterations < 1:
-            raise ValueError(
-                f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be "
-                "positive"
-            )
-        self.model = model
-        self.tolerance = tolerance
-        self.max_iterations = max_iterations
-        handles = model.handles
-        self._loop = core.PosingLoop(model.elastic.coefficients, handles.K, handles.L, handles.S)
-        self._maps: FloatArray
-        self.reset()
-
-    @property
-    def q(self) -> FloatArray:
-        """Reduced coordinates of the current shape, (d,)."""
-        q: FloatArray = self._loop.q
-        return q
+    _maps: FloatArray  # (h, 3, 4), of world positions
 
     @property
     def vertices(self) -> FloatArray:
@@ -94,7 +36,7 @@ class Session:
 
         They are tau + U q, carried along by the first handle's motion if it has one.
         """
-        shape = self.model.subspace.shape(self.q).reshape(-1, 3)
+        shape = super().vertices
         if not np.array_equal(self._maps[0], np.eye(3, 4)):
             shape = shape @ self._maps[0, :, :3].T + self._maps[0, :, 3]
         return shape
@@ -185,23 +127,13 @@ class Session:
         self._loop.set_offsets(np.zeros((handles, 3, 4)))
         self._loop.q = np.zeros(self.model.dimension)
 
-    def solve(self) -> FrameReport:
-        """Solves for the handles as they are, from the current shape."""
-        begin = time.perf_counter()
-        report = self._loop.solve(
-            tolerance=self.tolerance,
-            max_iterations=self.max_iterations,
-            value_scale=self.model.value_scale,
-            coordinate_scale=self.model.coordinate_scale,
-        )
-        return FrameReport(
-            report.status.name,
-            report.iterations,
-            report.evaluations,
-            report.value,
-            report.gradient_norm,
-            time.perf_counter() - begin,
-        )
+    def set_parameters(self, parameters: ArrayLike) -> FrameReport:
+        """`pose`."""
+        return self.pose(parameters)
+
+    def _make_loop(self) -> core.PosingLoop:
+        elastic, handles = self.model.elastic, self.model.handles
+        return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S)
 
     def _center(self, handle: str) -> FloatArray:
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
 from typing import Any
 
-from .. import _core as core
+from . import _core as core
 
 POLL_SECONDS = 0.1
 

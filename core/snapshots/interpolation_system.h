@@ -1,0 +1,108 @@
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "energy/blended_energy.h"
+#include "energy/block_hessian.h"
+#include "snapshots/numbering.h"
+#include "snapshots/samples.h"
+#include "snapshots/scalar_factor.h"
+
+namespace snapspace {
+
+template <class Real>
+class InterpolationObjective;
+
+/// What all samples of an interpolation problem share: F(u) = sum_k w_k E_k, with u the
+/// displacement from pose 0. Only the weights differ from sample to sample; one factor, that of the
+/// mean of the poses' scalar matrices, preconditions them all.
+///
+/// F does not change under rigid motions. Its gradient is orthogonal to translations and rotations
+/// of the shape, so the iterates only drift along them by rounding, and callers register the
+/// results. The scalar matrix has the translations as its null space. It is made regular at one
+/// vertex: for right-hand sides that sum to zero, as gradients do, that changes its inverse by
+/// translations only.
+struct InterpolationSystem {
+  template <class Real>
+  using Objective = InterpolationObjective<Real>;
+
+  Numbering numbering;
+  BlendedEnergy energy;
+  ScalarFactor factor;
+
+  /// @param mesh   pose 0, renumbered
+  /// @param poses  count x n x 3 in the internal numbering
+  InterpolationSystem(const LocalMesh& mesh, const std::vector<double>& poses, int count,
+                      StVK material)
+      : numbering(mesh.order),
+        energy(poses.data(), count, static_cast<int>(mesh.order.size()), mesh.tets.data(),
+               static_cast<int>(mesh.tets.size() / 4), material),
+        factor(scalar_matrix(material)) {}
+
+  [[nodiscard]] int size() const { return energy.size(); }
+  [[nodiscard]] int input_size() const { return energy.poses(); }
+
+  [[nodiscard]] double negligible() const { return energy.energy(0).negligible(); }
+
+  /// Tets whose orientation differs from the one in pose 0.
+  [[nodiscard]] int inverted_tets(const double* u) const {
+    return energy.energy(0).inverted_tets(u);
+  }
+
+ private:
+  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix(StVK material) const {
+    Eigen::SparseMatrix<double> A = energy.energy(0).rest.laplacian();
+    for (int k = 1; k < energy.poses(); ++k) A += energy.energy(k).rest.laplacian();
+    A *= (2.0 * material.mu + material.lam) / energy.poses();
+    A.coeffRef(0, 0) *= 2.0;
+    return A;
+  }
+};
+
+/// The objective of the samples that are in the lanes now; see PosingObjective.
+template <class Real>
+class InterpolationObjective {
+ public:
+  InterpolationObjective(const InterpolationSystem& system, const Samples& samples)
+      : system_(system), samples_(samples), weights_(system.input_size(), Real(0.0)) {}
+
+  [[nodiscard]] int size() const { return system_.size(); }
+  [[nodiscard]] double negligible() const { return negligible_; }
+
+  void load(int lane, int sample) {
+    const double* weights = samples_.inputs + static_cast<std::size_t>(sample) * weights_.size();
+    for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
+  }
+
+  Real value_and_gradient(const Real* u, Real* gradient) const {
+    return system_.energy.value_and_gradient(weights_.data(), u, gradient);
+  }
+
+  template <class Any>
+  void precondition(const Any* vector, Any* result, Any* scratch) const {
+    system_.factor.solve(vector, result, scratch);
+  }
+
+  [[nodiscard]] BlockHessian hessian_pattern() const {
+    return BlockHessian(system_.energy.energy(0).rest);
+  }
+
+  /// One lane only: the Hessian at u, clamped as BlockHessian::add does it.
+  void assemble(const double* u, double clamp, BlockHessian& hessian) const {
+    hessian.clear();
+    std::vector<double> shifted(size());
+    for (int k = 0; k < system_.energy.poses(); ++k) {
+      const std::vector<double>& offset = system_.energy.offset(k);
+      for (int i = 0; i < size(); ++i) shifted[i] = u[i] + offset[i];
+      hessian.add(system_.energy.energy(k), shifted.data(), clamp, weights_[k]);
+    }
+  }
+
+ private:
+  const InterpolationSystem& system_;
+  const Samples& samples_;
+  std::vector<Real> weights_;
+  double negligible_ = system_.negligible();
+};
+
+}  // namespace snapspace

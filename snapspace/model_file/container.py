@@ -1,0 +1,78 @@
+"""The container of model files: safetensors layout, a JSON header and raw arrays, a checksum."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save
+
+from ..mesh.atomic_file import atomic_file
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
+    """Writes arrays and header with their checksum; the file is complete or not there."""
+    arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
+    header = {**header, "checksum": checksum(arrays, header)}
+    with atomic_file(path) as temporary:
+        temporary.write_bytes(_sorted_header(save(arrays, header)))
+
+
+def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
+    """Arrays and header of a file; ValueError if it is not a complete container."""
+    try:
+        with safe_open(path, framework="np") as file:
+            arrays = {name: file.get_tensor(name) for name in file.keys()}
+            return arrays, dict(file.metadata() or {})
+    except (SafetensorError, OSError, ValueError) as error:
+        raise ValueError(
+            f"{path}: not a complete snapspace model ({error}); copy or build it again"
+        ) from None
+
+
+def check_dtypes(path: Path, arrays: Arrays, dtypes: Mapping[str, type]) -> None:
+    """ValueError unless every array is there and has its type."""
+    for name, dtype in dtypes.items():
+        if name not in arrays:
+            raise ValueError(f"{path}: the array '{name}' is missing; build the model again")
+        if arrays[name].dtype != dtype:
+            raise ValueError(
+                f"{path}: the array '{name}' is {arrays[name].dtype}, not {np.dtype(dtype)}; "
+                "build the model again"
+            )
+
+
+def check_shapes(arrays: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> None:
+    """ValueError, to which the caller adds the path, unless every array has its shape."""
+    for name, shape in shapes.items():
+        if arrays[name].shape != shape:
+            raise ValueError(f"'{name}' has shape {arrays[name].shape} and not {shape}")
+
+
+def checksum(arrays: Arrays, header: dict[str, str]) -> str:
+    """SHA-256 of header and arrays, 64 hex digits."""
+    digest = hashlib.sha256()
+    for key in sorted(header):
+        if key != "checksum":
+            digest.update(f"{key}={header[key]}\n".encode())
+    for name in sorted(arrays):
+        array = arrays[name]
+        digest.update(f"{name} {array.dtype.str} {array.shape}\n".encode())
+        digest.update(array.tobytes())
+    return digest.hexdigest()
+
+
+def _sorted_header(content: bytes) -> bytes:
+    """The same safetensors file with its header in order: the library writes it in a random one."""
+    size = int.from_bytes(content[:8], "little")
+    header = json.dumps(json.loads(content[8 : 8 + size]), sort_keys=True).encode()
+    header += b" " * (-len(header) % 8)  # the arrays stay aligned
+    return len(header).to_bytes(8, "little") + header + content[8 + size :]

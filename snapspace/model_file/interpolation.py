@@ -1,0 +1,114 @@
+"""Interpolation models as arrays and content."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..energy import StVK
+from ..mesh import EmbeddedSurface
+from ..problem import InterpolationProblem, Poses
+from ..reduction import InterpolationModel, coefficient_count
+from ..subspace import AffineSubspace
+from .container import Arrays, check_shapes
+
+DTYPES: dict[str, type] = {
+    "poses": np.float64,
+    "tets": np.int32,
+    "mean_shape": np.float64,
+    "surface_faces": np.int32,
+    "surface_corners": np.int32,
+    "surface_weights": np.float64,
+    "basis": np.float64,
+    "eigenvalues": np.float64,
+    "quartics": np.float64,
+    "training_parameters": np.float64,
+    "training_coordinates": np.float64,
+}
+
+
+def interpolation_arrays(model: InterpolationModel) -> Arrays:
+    """The arrays of a model; the names are those of DTYPES."""
+    return {
+        "poses": model.problem.poses.shapes,
+        "tets": model.problem.poses.tets,
+        "mean_shape": model.subspace.tau,
+        "surface_faces": model.surface.faces,
+        "surface_corners": model.surface.corners,
+        "surface_weights": model.surface.weights,
+        # (d, 3n): a mode is contiguous, and fewer modes are a prefix
+        "basis": model.subspace.basis.T,
+        "eigenvalues": model.subspace.eigenvalues,
+        "quartics": model.coefficients,
+        "training_parameters": model.training_parameters,
+        "training_coordinates": model.training_coordinates,
+    }
+
+
+def interpolation_content(model: InterpolationModel) -> dict[str, Any]:
+    """What of the problem is not an array, as JSON."""
+    problem = model.problem
+    return {
+        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "extrapolation": problem.domain.extrapolation,
+        "poses": list(problem.poses.names),
+        "accept_inverted": bool(problem.poses.inverted_tets.any()),
+        "lumped_mass": model.subspace.lumped,
+    }
+
+
+def interpolation_model(
+    arrays: Arrays, content: dict[str, Any], provenance: dict[str, Any]
+) -> InterpolationModel:
+    """The model of arrays and content; KeyError, TypeError or ValueError if they do not fit."""
+    poses = Poses(
+        arrays["poses"],
+        arrays["tets"],
+        names=content["poses"],
+        accept_inverted=content["accept_inverted"],
+    )
+    problem = InterpolationProblem(
+        poses,
+        material=StVK(lam=content["material"]["lam"], mu=content["material"]["mu"]),
+        extrapolation=content["extrapolation"],
+        mean_shape=arrays["mean_shape"],
+    )
+    n = len(problem.mesh.vertices)
+    d, k = len(arrays["basis"]), len(arrays["training_parameters"])
+    s = len(arrays["surface_corners"])
+    check_shapes(
+        arrays,
+        {
+            "mean_shape": (3 * n,),
+            "basis": (d, 3 * n),
+            "quartics": (len(poses), coefficient_count(d)),
+            "surface_corners": (s, 4),
+            "surface_weights": (s, 4),
+            "training_parameters": (k, problem.parameter_count),
+            "training_coordinates": (k, d),
+        },
+    )
+    _check_surface(arrays, n)
+    mass = problem.mass(lumped=content["lumped_mass"])
+    return InterpolationModel(
+        problem=problem,
+        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"]),
+        coefficients=arrays["quartics"],
+        surface=EmbeddedSurface(
+            arrays["surface_faces"], arrays["surface_corners"], arrays["surface_weights"]
+        ),
+        training_parameters=arrays["training_parameters"],
+        training_coordinates=arrays["training_coordinates"],
+        provenance=provenance,
+    )
+
+
+def _check_surface(arrays: Arrays, vertices: int) -> None:
+    for name, count in (
+        ("surface_faces", len(arrays["surface_corners"])),
+        ("surface_corners", vertices),
+    ):
+        indices = arrays[name]
+        if indices.size and (indices.min() < 0 or indices.max() >= count):
+            raise ValueError(f"'{name}' has an index that is not between 0 and {count - 1}")

@@ -1,0 +1,96 @@
+"""Model files: one .snapspace file, a JSON header and raw arrays in safetensors layout."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from ..reduction import InterpolationModel, PosingModel, ReducedModel
+from . import interpolation, posing
+from .container import check_dtypes, checksum, read_container, write_container
+
+FORMAT = "snapspace-model"
+VERSION = 1
+SUFFIX = ".snapspace"
+POSING, INTERPOLATION = "posing", "interpolation"
+_DTYPES = {POSING: posing.DTYPES, INTERPOLATION: interpolation.DTYPES}
+
+
+def save_model(model: ReducedModel, path: str | Path) -> Path:
+    """Writes a model; a file that is there is replaced only when the new one is complete.
+
+    Raises
+    ------
+    ValueError
+        If the name does not end in .snapspace or the file cannot be written.
+    TypeError
+        For a model that is neither a PosingModel nor an InterpolationModel.
+    """
+    path = Path(path)
+    check_model_path(path)
+    if isinstance(model, PosingModel):
+        kind, arrays, content = POSING, posing.posing_arrays(model), posing.posing_content(model)
+    elif isinstance(model, InterpolationModel):
+        kind = INTERPOLATION
+        arrays = interpolation.interpolation_arrays(model)
+        content = interpolation.interpolation_content(model)
+    else:
+        raise TypeError(f"save_model: {type(model).__name__} has no file format")
+    header = {
+        "format": FORMAT,
+        "version": str(VERSION),
+        "kind": kind,
+        "problem": json.dumps(content, sort_keys=True),
+        "provenance": json.dumps(model.provenance, sort_keys=True),
+    }
+    write_container(path, arrays, header)
+    return path
+
+
+def load(path: str | Path) -> PosingModel | InterpolationModel:
+    """Reads a model file. Nothing in it is executed.
+
+    Raises
+    ------
+    ValueError
+        If the file is missing, truncated, altered (checksum), of another kind or of a newer
+        version, or if an array is missing or has the wrong type or size. The message names the
+        file and the cure.
+    """
+    path = Path(path)
+    if not path.is_file():
+        raise ValueError(f"{path}: there is no such model file; `snapspace build` makes one")
+    arrays, header = read_container(path)
+    if header.get("format") != FORMAT:
+        raise ValueError(f"{path}: not a snapspace model; `snapspace build` makes one")
+    if header.get("version") != str(VERSION):
+        raise ValueError(
+            f"{path}: model version {header.get('version')}, this snapspace reads version "
+            f"{VERSION}; install the snapspace that wrote it, or build the model again"
+        )
+    kind = header.get("kind", POSING)  # the first files had only one
+    if kind not in _DTYPES:
+        raise ValueError(
+            f"{path}: a model of kind '{kind}', this snapspace knows {' and '.join(_DTYPES)}; "
+            "install the snapspace that wrote it"
+        )
+    check_dtypes(path, arrays, _DTYPES[kind])
+    if header.get("checksum") != checksum(arrays, header):
+        raise ValueError(
+            f"{path}: the checksum does not match, the file was altered; build it again"
+        )
+    make = posing.posing_model if kind == POSING else interpolation.interpolation_model
+    try:
+        return make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(
+            f"{path}: the model does not fit together ({error}); build it again"
+        ) from None
+
+
+def check_model_path(path: Path) -> None:
+    """Refuses a name that does not end in .snapspace, or a folder that does not exist."""
+    if path.suffix != SUFFIX:
+        raise ValueError(f"{path}: a model file ends in {SUFFIX}")
+    if not path.parent.is_dir():
+        raise ValueError(f"{path}: the folder {path.parent} does not exist")

@@ -1,0 +1,107 @@
+"""Posing models as arrays and content."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..energy import StVK
+from ..mesh import TetMesh, mass_matrix
+from ..problem import HandleBox, Handles, PosingProblem
+from ..reduction import HandleQuadric, PosingModel, Quartic, coefficient_count
+from ..subspace import AffineSubspace
+from .container import Arrays, check_shapes
+
+DTYPES: dict[str, type] = {
+    "vertices": np.float64,
+    "tets": np.int32,
+    "handle_vertices": np.int32,
+    "handle_sizes": np.int32,
+    "basis": np.float64,
+    "eigenvalues": np.float64,
+    "quartic": np.float64,
+    "handle_K": np.float64,
+    "handle_L": np.float64,
+    "handle_S": np.float64,
+    "training_parameters": np.float64,
+    "training_coordinates": np.float64,
+}
+
+
+def posing_arrays(model: PosingModel) -> Arrays:
+    """The arrays of a model; the names are those of DTYPES."""
+    problem = model.problem
+    sizes = [len(handle.vertices) for handle in problem.handles]
+    return {
+        "vertices": problem.mesh.vertices,
+        "tets": problem.mesh.tets,
+        "handle_vertices": problem.pinned,
+        "handle_sizes": np.array(sizes, np.int32),
+        # (d, 3n): a mode is contiguous, and fewer modes are a prefix
+        "basis": model.subspace.basis.T,
+        "eigenvalues": model.subspace.eigenvalues,
+        "quartic": model.elastic.coefficients,
+        "handle_K": model.handles.K,
+        "handle_L": model.handles.L,
+        "handle_S": model.handles.S,
+        "training_parameters": model.training_parameters,
+        "training_coordinates": model.training_coordinates,
+    }
+
+
+def posing_content(model: PosingModel) -> dict[str, Any]:
+    """What of the problem is not an array, as JSON."""
+    problem = model.problem
+    bounds = problem.domain.half_widths[:6].tolist()
+    return {
+        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "stiffness": problem.stiffness,
+        "domain": {"translation": bounds[:3], "angle": bounds[3:]},
+        "handles": list(problem.handles.names),
+        "lumped_mass": model.subspace.lumped,
+    }
+
+
+def posing_model(
+    arrays: Arrays, content: dict[str, Any], provenance: dict[str, Any]
+) -> PosingModel:
+    """The model of arrays and content; KeyError, TypeError or ValueError if they do not fit."""
+    problem = _problem(arrays, content)
+    n, h = len(problem.mesh.vertices), len(problem.handles)
+    d, k = len(arrays["basis"]), len(arrays["training_parameters"])
+    check_shapes(
+        arrays,
+        {
+            "basis": (d, 3 * n),
+            "quartic": (coefficient_count(d),),
+            "handle_K": (d, d),
+            "handle_L": (h, d, 12),
+            "handle_S": (h, 4, 4),
+            "training_parameters": (k, problem.parameter_count),
+            "training_coordinates": (k, d),
+        },
+    )
+    mass = mass_matrix(problem.mesh, lumped=content["lumped_mass"])
+    return PosingModel(
+        problem=problem,
+        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"]),
+        elastic=Quartic(d, arrays["quartic"]),
+        handles=HandleQuadric(arrays["handle_K"], arrays["handle_L"], arrays["handle_S"]),
+        training_parameters=arrays["training_parameters"],
+        training_coordinates=arrays["training_coordinates"],
+        provenance=provenance,
+    )
+
+
+def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:
+    ends = np.cumsum(arrays["handle_sizes"])[:-1]
+    handles = Handles(np.split(arrays["handle_vertices"], ends), names=content["handles"])
+    domain = content["domain"]
+    return PosingProblem(
+        TetMesh(arrays["vertices"], arrays["tets"]),
+        handles,
+        material=StVK(lam=content["material"]["lam"], mu=content["material"]["mu"]),
+        stiffness=content["stiffness"],
+        domain=HandleBox(translation=tuple(domain["translation"]), angle=tuple(domain["angle"])),
+    )

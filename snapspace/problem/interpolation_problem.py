@@ -1,0 +1,242 @@
+"""InterpolationProblem: elastic shapes between several poses."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from .. import _core as core
+from ..energy import StVK
+from ..interruptible import run_interruptible
+from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
+from ..registration import registered
+from .poses import Poses
+from .simplex import Simplex
+
+FloatArray = NDArray[np.float64]
+
+#: The mean shape is solved until twice the predicted decrease is below this share of its energy.
+MEAN_TOLERANCE = 1e-10
+_MEAN_ITERATIONS = 20_000
+
+
+class InterpolationProblem:
+    """Shape interpolation as a parametrised minimisation (paper, sec. 3.3).
+
+    F(x, w) = sum_k w_k E_k(x), where E_k is the elastic energy with pose k as its rest shape. The
+    weights w are not negative and sum to one. F does not change under rigid motions of x: all
+    solutions are registered rigidly to the mean shape, the one with equal weights, which lies in
+    the frame of the first pose.
+
+    Parameters
+    ----------
+    poses : Poses, or a sequence of TetMesh
+        Two or more; each may be in a frame of its own.
+    material : StVK, default StVK(lam=1, mu=1)
+    extrapolation : float, default 0
+        Samples also come from outside of the simplex, which is enlarged by this share about its
+        centre. Negative weights may have no minimum; such samples are reported as not converged.
+    mean_shape : array_like, (3n,), optional
+        Where it is known, as from a model file. Default: solved for when it is first needed.
+
+    Raises
+    ------
+    ValueError
+        As `Poses.of`, for a negative extrapolation, or a mean shape of another size.
+
+    Notes
+    -----
+    A parameter vector holds one weight per pose.
+    """
+
+    def __init__(
+        self,
+        poses: Poses | Sequence[TetMesh],
+        *,
+        material: StVK | None = None,
+        extrapolation: float = 0.0,
+        mean_shape: ArrayLike | None = None,
+    ) -> None:
+        self.poses = poses if isinstance(poses, Poses) else Poses.of(poses)
+        self.material = material or StVK()
+        self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
+        if mean_shape is not None:
+            known = np.asarray(mean_shape, np.float64).reshape(-1)
+            if known.shape != self.base.shape or not np.isfinite(known).all():
+                raise ValueError(
+                    f"InterpolationProblem: mean_shape needs {self.base.size} finite coordinates, "
+                    f"got {known.size}"
+                )
+            self.mean_shape = known
+
+    @property
+    def mesh(self) -> TetMesh:
+        """The first pose."""
+        return self.poses.reference
+
+    @property
+    def snapshot_tolerance(self) -> float:
+        """Default tolerance: without handles soft modes need a tight one."""
+        return 1e-9
+
+    @property
+    def parameter_count(self) -> int:
+        """Number of weights, one per pose."""
+        return len(self.poses)
+
+    @property
+    def base(self) -> FloatArray:
+        """The first pose (3n,): solvers work with displacements from it."""
+        base: FloatArray = self.poses.shapes[0].reshape(-1)
+        return base
+
+    @property
+    def tau(self) -> FloatArray:
+        """The mean shape (3n,): subspaces go through it (paper, sec. 5)."""
+        return self.mean_shape
+
+    @cached_property
+    def system(self) -> core.InterpolationSystem:
+        """The compiled problem with its scalar factor, shared by all samples."""
+        # energies do not depend on the poses' frames, but far apart the differences lose digits
+        shapes = self._near_poses.reshape(self.poses.shapes.shape)
+        return core.InterpolationSystem(
+            shapes, self.poses.tets, self.material.lam, self.material.mu
+        )
+
+    @cached_property
+    def mean_shape(self) -> FloatArray:
+        """The solution for equal weights (3n,), registered to the first pose (paper, sec. 4.3).
+
+        Solved for from every pose, and the one with the least energy is kept.
+
+        Raises
+        ------
+        ValueError
+            If no solve converges.
+        KeyboardInterrupt
+            On Ctrl-C.
+        """
+        starts = self._near_poses - self.base
+        weights = np.tile(self.domain.center, (len(starts), 1))
+        batch, interrupted = run_interruptible(
+            lambda control: self.system.solve_fast(
+                weights,
+                starts,
+                tolerance=MEAN_TOLERANCE,
+                max_iterations=_MEAN_ITERATIONS,
+                threads=0,
+                control=control,
+                wide=len(starts) > 4,
+            ),
+            lambda finished: None,
+        )
+        if interrupted:
+            raise KeyboardInterrupt("the mean shape was not finished")
+        values = [
+            report.value if report.status.name == "converged" else np.inf
+            for report in batch.reports
+        ]
+        best = int(np.argmin(values))
+        if not np.isfinite(values[best]):
+            raise ValueError(
+                "InterpolationProblem: the mean shape of the poses was not found "
+                f"({batch.reports[0].status.name}); look for poses with very flat tets"
+            )
+        mean = self.base + batch.shapes[best]
+        return registered(mean, self.base, self._mass_of(mean))
+
+    @cached_property
+    def pose_shapes(self) -> FloatArray:
+        """The poses registered to the mean shape, (k, 3n): the solutions for one-hot weights."""
+        flat = self.poses.shapes.reshape(len(self.poses), -1)
+        return np.ascontiguousarray(registered(flat.T, self.tau, self._mean_mass).T)
+
+    @cached_property
+    def fingerprint(self) -> str:
+        """SHA-256 of all that solutions depend on, 64 hex digits."""
+        content = {
+            "kind": "interpolation",
+            "mesh": self.mesh.fingerprint,
+            "material": [self.material.lam, self.material.mu],
+            "extrapolation": self.domain.extrapolation,
+        }
+        digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
+        digest.update(self.poses.shapes.astype("<f8", copy=False).tobytes())
+        return digest.hexdigest()
+
+    def mass(self, *, lumped: bool = False) -> csr_array:
+        """Mass matrix (n, n) of the mean shape; a tet that is inverted there counts as it is."""
+        return self._mass_of(self.tau, lumped=True) if lumped else self._mean_mass
+
+    def inputs(self, parameters: FloatArray) -> FloatArray:
+        """What the system takes for samples (k, p): the weights themselves, checked."""
+        return np.stack([self.weights(w) for w in parameters])
+
+    def weights(self, parameters: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
+        """The weights (p,), if they are in the domain or `extrapolate` is set; else ValueError."""
+        return self.domain.check(parameters, extrapolate=extrapolate, who="InterpolationProblem")
+
+    def known_solutions(self) -> tuple[FloatArray, FloatArray]:
+        """Weights (p + 1, p) and shapes (p + 1, 3n) of the mean shape and of all poses."""
+        weights = np.vstack([self.domain.center, np.eye(len(self.poses))])
+        return weights, np.vstack([self.tau, self.pose_shapes])
+
+    def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:
+        """A shape (3n,) after rigid registration onto another one, in the M-norm."""
+        return registered(shape, onto, self._mean_mass)
+
+    def registered(self, displacements: FloatArray) -> FloatArray:
+        """Displacements (k, 3n) of the same shapes after registration to the mean shape."""
+        shapes = (displacements + self.base).T
+        moved: FloatArray = registered(shapes, self.tau, self._mean_mass).T - self.base
+        return moved
+
+    def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
+        """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
+        w = np.asarray(weights, np.float64)
+        positions = np.asarray(x, np.float64).reshape(-1)
+        if positions.shape != self.base.shape or w.shape != (self.parameter_count,):
+            raise ValueError(
+                f"InterpolationProblem: needs {self.base.size} coordinates and "
+                f"{self.parameter_count} weights, got {positions.size} and {w.shape}"
+            )
+        value, gradient = self.system.value_and_gradient(positions - self.base, w)
+        return value, gradient
+
+    def pose_energy(self, pose: int) -> core.ElasticEnergy:
+        """E_k of a pose registered to the mean shape; it takes displacements from there."""
+        rest = self.pose_shapes[pose].reshape(-1, 3)
+        return core.ElasticEnergy(rest, self.poses.tets, self.material.lam, self.material.mu)
+
+    def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
+        """Vertices (n, 3) of sum_k w_k pose_k, the straight path, of the registered poses."""
+        w = self.weights(weights, extrapolate=extrapolate)
+        blend: FloatArray = np.einsum("k,ki->i", w, self.pose_shapes).reshape(-1, 3)
+        return blend
+
+    @cached_property
+    def _mean_mass(self) -> csr_array:
+        return self._mass_of(self.tau)
+
+    @cached_property
+    def _near_poses(self) -> FloatArray:
+        """The poses registered to the first one, (k, 3n); the first is itself."""
+        flat = self.poses.shapes.reshape(len(self.poses), -1)
+        near = np.ascontiguousarray(registered(flat.T, self.base, mass_matrix(self.mesh)).T)
+        near[0] = self.base
+        return near
+
+    def _mass_of(self, shape: FloatArray, *, lumped: bool = False) -> csr_array:
+        tets = self.poses.tets
+        volumes = np.abs(tet_volumes(shape.reshape(-1, 3), tets))
+        return mass_of_tets(tets, volumes, lumped=lumped)
+
+    def __repr__(self) -> str:
+        return f"InterpolationProblem({self.poses!r})"

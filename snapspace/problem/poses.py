@@ -1,0 +1,201 @@
+"""Poses: several shapes of one tet mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh import TetMesh, tet_volumes
+from ..mesh.correspondence import check_same_tets
+from ..mesh.quality import flat_tets
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int32]
+
+
+class Poses:
+    """Two or more shapes of one tet mesh, vertex i at vertex i; their arrays are read-only.
+
+    Parameters
+    ----------
+    shapes : array_like, (k, n, 3)
+        Vertices of each pose, in one unit of length; each pose may be in a frame of its own.
+    tets : array_like of int, (m, 4)
+        0-based vertex indices; the tets of the first pose have positive volumes.
+    names : sequence of str, optional
+        One per pose, unique. Default: pose 0, pose 1, ...
+    accept_inverted : bool, default False
+        Accepts inverted tets in all poses but the first. Their energy is that of the mirrored tet,
+        so interpolated shapes may have such tets as well.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two poses, wrong array shapes, names that do not match, coordinates that are
+        not finite, a first pose that is no valid `TetMesh`, a tet without volume in any pose, or
+        an inverted tet unless accepted. The message names the pose.
+    """
+
+    def __init__(
+        self,
+        shapes: ArrayLike,
+        tets: ArrayLike,
+        *,
+        names: Sequence[str] | None = None,
+        accept_inverted: bool = False,
+    ) -> None:
+        self._shapes = _as_shapes(shapes)
+        self._names = _as_names(names, len(self._shapes))
+        _check_finite(self._shapes, self._names)
+        self._reference = _reference(self._shapes[0], tets, self._names[0])
+        self._volumes = np.stack([self._volumes_of(pose) for pose in range(len(self))])
+        inverted: NDArray[np.int64] = (self._volumes < 0).sum(axis=1)
+        self._inverted_tets = inverted
+        if not accept_inverted:
+            self._check_inverted()
+        for array in (self._shapes, self._volumes, self._inverted_tets):
+            array.setflags(write=False)
+
+    @classmethod
+    def of(
+        cls,
+        meshes: Sequence[TetMesh],
+        *,
+        names: Sequence[str] | None = None,
+        accept_inverted: bool = False,
+    ) -> Poses:
+        """Poses from meshes with the same tets; ValueError names the first difference."""
+        if len(meshes) < 2:
+            raise ValueError(f"Poses: got {_poses(len(meshes))}, but two are needed at least")
+        names = _as_names(names, len(meshes))
+        try:
+            check_same_tets([(mesh.vertices, mesh.tets) for mesh in meshes], names)
+        except ValueError as error:
+            raise ValueError(f"Poses: {error}") from None
+        shapes = np.stack([mesh.vertices for mesh in meshes])
+        return cls(shapes, meshes[0].tets, names=names, accept_inverted=accept_inverted)
+
+    @property
+    def shapes(self) -> FloatArray:
+        """Vertices of each pose, (k, n, 3) float64."""
+        return self._shapes
+
+    @property
+    def tets(self) -> IndexArray:
+        """Vertex indices of the tets, (m, 4) int32."""
+        return self._reference.tets
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names in order."""
+        return self._names
+
+    @property
+    def reference(self) -> TetMesh:
+        """The first pose."""
+        return self._reference
+
+    @property
+    def volumes(self) -> FloatArray:
+        """Signed volumes of the tets in each pose, (k, m); negative if inverted, never zero."""
+        return self._volumes
+
+    @property
+    def inverted_tets(self) -> NDArray[np.int64]:
+        """How many tets are inverted in each pose, (k,); zero unless they were accepted."""
+        return self._inverted_tets
+
+    def __len__(self) -> int:
+        return len(self._shapes)
+
+    def __repr__(self) -> str:
+        inverted = self._inverted_tets.sum()
+        note = f", {inverted} tets inverted" if inverted else ""
+        n, m = self._shapes.shape[1], len(self.tets)
+        return f"Poses({', '.join(self._names)}: {n} vertices, {m} tets{note})"
+
+    def _volumes_of(self, pose: int) -> FloatArray:
+        """Signed volumes (m,) of a pose, none of them zero."""
+        vertices = self._shapes[pose]
+        with np.errstate(over="ignore", invalid="ignore"):
+            volumes = tet_volumes(vertices, self.tets)
+        if not np.isfinite(volumes).all():
+            raise ValueError(
+                f"Poses: {self._names[pose]}: coordinates up to {np.abs(vertices).max():g} are too "
+                "large for the volumes to be computed: choose another unit of length"
+            )
+        flat = np.flatnonzero(flat_tets(vertices, self.tets, volumes))
+        if flat.size:
+            raise ValueError(
+                f"Poses: {self._names[pose]}: {flat.size} of {len(volumes)} tets have no volume, "
+                f"the first is tet {flat[0]} ({', '.join(map(str, self.tets[flat[0]]))}); move "
+                "their vertices apart, or fit the pose from its surface"
+            )
+        return volumes
+
+    def _check_inverted(self) -> None:
+        for name, count, volumes in zip(
+            self._names, self._inverted_tets, self._volumes, strict=True
+        ):
+            if count:
+                first = np.flatnonzero(volumes < 0)[0]
+                raise ValueError(
+                    f"Poses: {name}: {count} of {len(volumes)} tets are inverted, the first is tet "
+                    f"{first} (volume {volumes[first]:g}); fit the pose from its surface with a "
+                    "softer target, repair it, or pass accept_inverted=True"
+                )
+
+
+def _poses(count: int) -> str:
+    return f"{count} pose{'' if count == 1 else 's'}"
+
+
+def _as_shapes(shapes: ArrayLike) -> FloatArray:
+    """A fresh (k, n, 3) float64 copy of two or more shapes; ValueError for anything else."""
+    try:
+        array = np.asarray(shapes)
+    except ValueError:
+        raise ValueError(
+            "Poses: shapes must be one array (k, n, 3); the poses have different vertex counts"
+        ) from None
+    if array.ndim != 3 or array.shape[2] != 3 or array.dtype.kind not in "fiu":
+        raise ValueError(
+            f"Poses: shapes must be real numbers (k, n, 3), got {array.dtype} of shape "
+            f"{array.shape}"
+        )
+    if len(array) < 2:
+        raise ValueError(f"Poses: got {_poses(len(array))}, but two are needed at least")
+    return np.array(array, dtype=np.float64, order="C")
+
+
+def _as_names(names: Sequence[str] | None, count: int) -> tuple[str, ...]:
+    if names is None:
+        return tuple(f"pose {i}" for i in range(count))
+    if len(names) != count:
+        raise ValueError(f"Poses: got {len(names)} names for {_poses(count)}")
+    for name in names:
+        if not isinstance(name, str) or not name.strip():
+            raise ValueError(f"Poses: a name must be a non-empty string, got {name!r}")
+        if list(names).count(name) > 1:
+            raise ValueError(f"Poses: the name '{name}' is used twice")
+    return tuple(names)
+
+
+def _check_finite(shapes: FloatArray, names: tuple[str, ...]) -> None:
+    bad = np.argwhere(~np.isfinite(shapes).all(axis=2))
+    if len(bad):
+        pose, vertex = bad[0]
+        x, y, z = shapes[pose, vertex]
+        raise ValueError(
+            f"Poses: {names[pose]}: vertex {vertex} is not finite ({x:g}, {y:g}, {z:g}); mend the "
+            "coordinates where they come from"
+        )
+
+
+def _reference(vertices: FloatArray, tets: ArrayLike, name: str) -> TetMesh:
+    try:
+        return TetMesh(vertices, tets)
+    except ValueError as error:
+        raise ValueError(f"Poses: {name}: {str(error).removeprefix('TetMesh: ')}") from None

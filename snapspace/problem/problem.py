@@ -1,0 +1,108 @@
+"""Problem: what a parametrised shape problem offers to the stages after it."""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from ..mesh import TetMesh
+
+FloatArray = NDArray[np.float64]
+
+
+class ProblemDomain(Protocol):
+    """A parameter domain that can be sampled and in which distances mean something."""
+
+    @property
+    def dimension(self) -> int:
+        """Axes of the unit cube that is mapped onto the domain."""
+        ...
+
+    def from_unit(self, points: FloatArray) -> FloatArray:
+        """Points (k, dimension) of the unit cube as parameters (k, p)."""
+        ...
+
+    def grid(self, count: int) -> FloatArray:
+        """At most `count` parameters at the centres of equal cells."""
+        ...
+
+    def scaled(self, parameters: FloatArray) -> FloatArray:
+        """Coordinates of parameters (k, p) in which their distances are comparable."""
+        ...
+
+
+class Problem(Protocol):
+    """Minimise F(x, w) over shapes x, for parameters w of a domain (paper, eq. 1).
+
+    `PosingProblem` and `InterpolationProblem` are problems.
+    """
+
+    @property
+    def mesh(self) -> TetMesh:
+        """The mesh whose tets all shapes share."""
+        ...
+
+    @property
+    def domain(self) -> ProblemDomain:
+        """Where the parameters come from."""
+        ...
+
+    @property
+    def parameter_count(self) -> int:
+        """Number of entries p of a parameter vector."""
+        ...
+
+    @property
+    def snapshot_tolerance(self) -> float:
+        """Tolerance that snapshots of this kind of problem need, unless the user gives one."""
+        ...
+
+    @property
+    def base(self) -> FloatArray:
+        """Shape (3n,) from which the solvers' displacements count."""
+        ...
+
+    @property
+    def tau(self) -> FloatArray:
+        """Shape (3n,) that subspaces go through."""
+        ...
+
+    @property
+    def system(self) -> Any:
+        """The compiled problem: solve_fast and solve_newton."""
+        ...
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of all that solutions depend on."""
+        ...
+
+    def mass(self, *, lumped: bool = False) -> csr_array:
+        """Mass matrix (n, n) of tau, in whose norm shapes are compared."""
+        ...
+
+    def inputs(self, parameters: FloatArray) -> FloatArray:
+        """What the system takes for parameters (k, p)."""
+        ...
+
+    def known_solutions(self) -> tuple[FloatArray, FloatArray]:
+        """Parameters (j, p) and shapes (j, 3n) of solutions that are known beforehand."""
+        ...
+
+    def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:
+        """A shape (3n,) moved, as far as solutions are free to move, onto another one."""
+        ...
+
+    def registered(self, displacements: FloatArray) -> FloatArray:
+        """Solutions (k, 3n), as displacements from `base`, moved to where they can be compared."""
+        ...
+
+
+def solutions_beyond_tau(problem: Problem) -> tuple[FloatArray, FloatArray]:
+    """The known solutions that are not tau itself: parameters (j, p) and shapes (j, 3n)."""
+    parameters, shapes = problem.known_solutions()
+    differs = (shapes != problem.tau).any(axis=1)
+    return parameters[differs], shapes[differs]

@@ -1,0 +1,171 @@
+"""Simplex: the parameter domain of shape interpolation."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+# How far a sum of weights may be from one, and a weight beyond a face of the domain.
+_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True, kw_only=True)
+class Simplex:
+    """Interpolation weights: none is negative and they sum to one (paper, sec. 4.1).
+
+    Parameters
+    ----------
+    corners : int
+        Number of weights, one per pose; two or more.
+    extrapolation : float, default 0
+        Enlarges the simplex by 1 + extrapolation about its centre: weights go down to
+        -extrapolation / corners.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two corners, or an extrapolation that is negative or not finite.
+
+    Notes
+    -----
+    A parameter vector has one weight per corner, though the domain has one dimension less.
+    """
+
+    corners: int
+    extrapolation: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.corners < 2:
+            raise ValueError(
+                f"Simplex: corners is {self.corners}, but weights need two poses or more"
+            )
+        if not (math.isfinite(self.extrapolation) and self.extrapolation >= 0):
+            raise ValueError(
+                f"Simplex: extrapolation is {self.extrapolation}, but it must be zero or positive"
+            )
+
+    @property
+    def dimension(self) -> int:
+        """Number of axes of the unit cube, one less than corners."""
+        return self.corners - 1
+
+    @property
+    def free_axes(self) -> NDArray[np.bool_]:
+        """Mask (dimension,) of the axes along which the domain has extent: all of them."""
+        return np.ones(self.dimension, dtype=np.bool_)
+
+    @property
+    def center(self) -> FloatArray:
+        """Equal weights, (corners,)."""
+        return np.full(self.corners, 1.0 / self.corners)
+
+    @property
+    def lowest(self) -> float:
+        """The least weight of the domain, -extrapolation / corners."""
+        return -self.extrapolation / self.corners if self.extrapolation else 0.0
+
+    def from_unit(self, points: FloatArray) -> FloatArray:
+        """Maps points of the unit cube, (k, dimension) in [0, 1], onto weights, (k, corners).
+
+        One to one up to the cube's boundary, and uniform points become uniform weights. With c
+        corners the first weight is distributed as Beta(1, c - 1), the next one as Beta(1, c - 2)
+        in what the first has left, and so on (stick-breaking: Devroye 1986, Non-Uniform Random
+        Variate Generation); each is the inverse distribution function of its coordinate. Rows sum
+        to one up to rounding.
+        """
+        kept = (1.0 - points) ** (1.0 / np.arange(self.dimension, 0, -1))
+        left = np.cumprod(kept, axis=1)
+        before = np.concatenate([np.ones((len(points), 1)), left[:, :-1]], axis=1)
+        # the last weight is what is left, and not 1 - sum, which rounding can make negative
+        return self._enlarged(np.concatenate([before * (1.0 - kept), left[:, -1:]], axis=1))
+
+    def grid(self, count: int) -> FloatArray:
+        """Centres of equal cells, (k, corners), symmetric in the corners.
+
+        The cells are the simplex scaled by 1 / (N + 1), at the places where all weights of their
+        lowest corners are whole multiples i of 1 / (N + 1): weights (i + 1 / corners) / (N + 1)
+        with integers i >= 0 that sum to N. N is the largest number with
+        k = C(N + corners - 1, corners - 1) <= count (at least 1). Ordered by the first weight,
+        then by the second, and so on, each increasing.
+        """
+        level = 0
+        while math.comb(level + self.corners, self.dimension) <= count:
+            level += 1
+        # stars and bars: the gaps between `dimension` bars among level + dimension places
+        places = range(level + self.dimension)
+        bars = np.array(list(combinations(places, self.dimension)), dtype=np.int64)
+        steps = np.diff(bars, axis=1, prepend=-1, append=level + self.dimension) - 1
+        return self._enlarged((steps + 1.0 / self.corners) / (level + 1))
+
+    def scaled(self, parameters: FloatArray) -> FloatArray:
+        """Coordinates in which distances between parameters compare: the weights themselves."""
+        return parameters
+
+    def contains(self, weights: ArrayLike) -> bool:
+        """Whether these are weights of the domain, as `check` decides."""
+        try:
+            self.check(weights)
+        except ValueError:
+            return False
+        return True
+
+    def check(
+        self, weights: ArrayLike, *, extrapolate: bool = False, who: str = "Simplex"
+    ) -> FloatArray:
+        """Weights at the door.
+
+        Parameters
+        ----------
+        weights : array_like, (corners,)
+        extrapolate : bool, default False
+            Accepts any weights that sum to one, however negative.
+        who : str
+            Begins the error message.
+
+        Returns
+        -------
+        ndarray, (corners,) float64
+            The weights as they are. They may miss the sum, or a face of the domain, by 1e-9.
+
+        Raises
+        ------
+        ValueError
+            For a wrong number of weights, a weight that is not finite, a sum that is not one, or
+            a weight outside of the domain.
+        """
+        try:
+            w = np.asarray(weights, np.float64)
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"{who}: weights must be {self.corners} numbers, one per pose"
+            ) from None
+        if w.shape != (self.corners,):
+            raise ValueError(
+                f"{who}: {self.corners} poses need {self.corners} weights, got "
+                f"{w.size if w.ndim == 1 else w.shape}"
+            )
+        if not np.isfinite(w).all():
+            bad = np.flatnonzero(~np.isfinite(w))[0]
+            raise ValueError(f"{who}: weight {bad} is {w[bad]}, but it must be finite")
+        if abs(w.sum() - 1.0) > _TOLERANCE:
+            raise ValueError(
+                f"{who}: the weights sum to {w.sum():.10g}, but they must sum to 1; "
+                "divide them by their sum"
+            )
+        outside = np.flatnonzero(w < self.lowest - _TOLERANCE)
+        if outside.size and not extrapolate:
+            raise ValueError(
+                f"{who}: weight {outside[0]} is {w[outside[0]]:g}, but none may be below "
+                f"{self.lowest:g}; pass extrapolate=True to leave the domain"
+            )
+        return w
+
+    def _enlarged(self, weights: FloatArray) -> FloatArray:
+        """Weights of the simplex to those of the domain, larger about the centre."""
+        return (1.0 + self.extrapolation) * weights + self.lowest

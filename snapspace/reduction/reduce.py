@@ -1,0 +1,116 @@
+"""reduce: a problem and a subspace become a model."""
+
+from __future__ import annotations
+
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import EmbeddedSurface, boundary_surface
+from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
+from ..snapshots import Snapshots
+from ..subspace import AffineSubspace
+from .handle_quadric import handle_quadric
+from .interpolation_model import InterpolationModel
+from .posing_model import PosingModel
+from .quartic import pose_quartics, reduced_quartic
+
+FloatArray = NDArray[np.float64]
+
+
+@overload
+def reduce(
+    problem: PosingProblem,
+    subspace: AffineSubspace,
+    *,
+    snapshots: Snapshots | None = None,
+    surface: None = None,
+    threads: int | None = None,
+    provenance: dict[str, Any] | None = None,
+) -> PosingModel: ...
+@overload
+def reduce(
+    problem: InterpolationProblem,
+    subspace: AffineSubspace,
+    *,
+    snapshots: Snapshots | None = None,
+    surface: EmbeddedSurface | None = None,
+    threads: int | None = None,
+    provenance: dict[str, Any] | None = None,
+) -> InterpolationModel: ...
+def reduce(
+    problem: PosingProblem | InterpolationProblem,
+    subspace: AffineSubspace,
+    *,
+    snapshots: Snapshots | None = None,
+    surface: EmbeddedSurface | None = None,
+    threads: int | None = None,
+    provenance: dict[str, Any] | None = None,
+) -> PosingModel | InterpolationModel:
+    """Restricts a problem to a subspace (paper, sec. 6.1).
+
+    Parameters
+    ----------
+    problem : PosingProblem or InterpolationProblem
+    subspace : AffineSubspace
+        Attached to the problem's tau.
+    snapshots : Snapshots, optional
+        Recorded in the model by parameters and coordinates.
+    surface : EmbeddedSurface, optional
+        Interpolation only: the surface that sessions and files show. Default: that of the tets.
+    threads : int, optional
+        Default: all. The result does not depend on it.
+    provenance : dict, optional
+        Recorded in the model; must be valid JSON.
+
+    Returns
+    -------
+    PosingModel or InterpolationModel
+        Exact: its objective equals F at tau + U q for all q, and all affine motions of the handles
+        or all weights of the poses.
+
+    Raises
+    ------
+    ValueError
+        If the subspace is of another mesh or not attached to the problem's tau.
+    """
+    if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
+        raise ValueError(
+            "reduce: the subspace is not attached to the problem's reference shape: the rest shape "
+            "of posing, the mean shape of interpolation"
+        )
+    parameters, coordinates = _training(problem, subspace, snapshots)
+    if isinstance(problem, PosingProblem):
+        return PosingModel(
+            problem=problem,
+            subspace=subspace,
+            elastic=reduced_quartic(problem.energy, subspace, threads=threads),
+            handles=handle_quadric(problem, subspace),
+            training_parameters=parameters,
+            training_coordinates=coordinates,
+            provenance=provenance or {},
+        )
+    return InterpolationModel(
+        problem=problem,
+        subspace=subspace,
+        coefficients=pose_quartics(problem, subspace, threads=threads),
+        surface=surface or boundary_surface(problem.mesh),
+        training_parameters=parameters,
+        training_coordinates=coordinates,
+        provenance=provenance or {},
+    )
+
+
+def _training(
+    problem: PosingProblem | InterpolationProblem,
+    subspace: AffineSubspace,
+    snapshots: Snapshots | None,
+) -> tuple[FloatArray, FloatArray]:
+    """Parameters and coordinates of the snapshots, and of the solutions known without solving."""
+    if snapshots is None:
+        return np.zeros((0, problem.parameter_count)), np.zeros((0, subspace.dimension))
+    known, shapes = solutions_beyond_tau(problem)
+    parameters = np.vstack([snapshots.parameters, known])
+    every = np.hstack([snapshots.shapes, shapes.T])
+    return parameters, np.ascontiguousarray(subspace.coordinates(every).T)

@@ -1,0 +1,8 @@
+"""Sessions: live solves of reduced models."""
+
+from .blending_session import BlendingSession
+from .frame_report import FrameReport
+from .posing_session import PosingSession
+from .session import Session
+
+__all__ = ["BlendingSession", "FrameReport", "PosingSession", "Session"]

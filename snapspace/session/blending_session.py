@@ -1,0 +1,89 @@
+"""BlendingSession: a reduced interpolation model that is blended live (paper, sec. 6.2)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from .. import _core as core
+from ..reduction import InterpolationModel
+from .frame_report import FrameReport
+from .session import Session
+
+FloatArray = NDArray[np.float64]
+
+
+class BlendingSession(Session[InterpolationModel]):
+    """Shapes between the poses of a reduced model: set weights, read vertices.
+
+    Parameters and errors as for `Session`.
+
+    Notes
+    -----
+    A solve starts from the last frame's shape or from the nearest sample that the model was trained
+    with, whichever has the lower energy: from afar BFGS could end in another minimum.
+
+    Examples
+    --------
+    session = snapspace.load("lion.snapspace").session()
+    session.blend([0.3, 0.7])
+    session.vertices
+    """
+
+    _weights: FloatArray
+    _training: cKDTree
+
+    @property
+    def weights(self) -> FloatArray:
+        """Weights of the current shape, (poses,)."""
+        return self._weights.copy()
+
+    def blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FrameReport:
+        """Sets the weights of the poses, and solves.
+
+        Parameters
+        ----------
+        weights : array_like, (poses,)
+            Not negative, with sum one. One-hot weights give back the pose, as far as the subspace
+            holds it.
+        extrapolate : bool, default False
+            Also takes weights beyond the simplex that was sampled; their sum is still one. There
+            the energy may have no minimum: the report's status tells.
+
+        Raises
+        ------
+        ValueError
+            For another number of weights, one that is not finite, a sum that is not one, or a
+            weight beyond the sampled simplex without `extrapolate`; the shape stays as it was.
+        """
+        w = self.model.problem.weights(weights, extrapolate=extrapolate)
+        self._weights = w
+        self._loop.set_weights(w)
+        self._start()
+        return self.solve()
+
+    def reset(self) -> None:
+        """Back to the mean shape: equal weights."""
+        self._weights = self.model.problem.domain.center
+        self._loop.set_weights(self._weights)
+        self._loop.q = np.zeros(self.model.dimension)
+
+    def set_parameters(self, parameters: ArrayLike) -> FrameReport:
+        """`blend` with any weights that sum to one."""
+        return self.blend(parameters, extrapolate=True)
+
+    def _start(self) -> None:
+        """Takes the nearest training sample as the start if its energy is below the present one."""
+        if not len(self.model.training_parameters):
+            return
+        _, nearest = self._training.query(self._weights)
+        candidate = self.model.training_coordinates[nearest]
+        present, _ = self._loop.value_and_gradient(self._loop.q)
+        known, _ = self._loop.value_and_gradient(candidate)
+        if not present <= known:
+            self._loop.q = candidate
+
+    def _make_loop(self) -> core.BlendingLoop:
+        self._training = cKDTree(self.model.training_parameters)
+        return core.BlendingLoop(self.model.dimension, self.model.coefficients)

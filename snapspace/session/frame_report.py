@@ -1,0 +1,28 @@
+"""FrameReport: how one frame of a session was solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class FrameReport:
+    """How one frame was solved.
+
+    status : converged, max_iterations, line_search_failed or not_finite
+    iterations, evaluations : of BFGS
+    value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
+    seconds : of the solve, without the vertices
+    """
+
+    status: str
+    iterations: int
+    evaluations: int
+    value: float
+    gradient_norm: float
+    seconds: float
+
+    @property
+    def converged(self) -> bool:
+        """Whether all three termination tests were met."""
+        return self.status == "converged"

@@ -1,0 +1,92 @@
+"""Session: the live solve of a reduced model (paper, sec. 6.2)."""
+
+from __future__ import annotations
+
+import time
+from abc import ABC, abstractmethod
+from typing import Any, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..reduction import ReducedModel
+from .frame_report import FrameReport
+
+FloatArray = NDArray[np.float64]
+Model = TypeVar("Model", bound=ReducedModel)
+
+
+class Session(ABC, Generic[Model]):
+    """What the sessions of all problems have in common.
+
+    `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes the one
+    that belongs to the model. Each change solves the reduced problem by BFGS from the last frame's
+    shape, with the inverse Hessian at tau as the first approximation.
+
+    Parameters
+    ----------
+    model : ReducedModel
+    tolerance : float, default 1e-7
+        eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and
+        a displacement of a tenth of the diagonal.
+    max_iterations : int, default 300
+        Bound on the work of one frame.
+
+    Raises
+    ------
+    ValueError
+        For a tolerance or bound that is not positive.
+    """
+
+    def __init__(self, model: Model, *, tolerance: float = 1e-7, max_iterations: int = 300) -> None:
+        if not tolerance > 0 or max_iterations < 1:
+            raise ValueError(
+                f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be "
+                "positive"
+            )
+        self.model = model
+        self.tolerance = tolerance
+        self.max_iterations = max_iterations
+        self._loop: Any = self._make_loop()
+        self.reset()
+
+    @property
+    def q(self) -> FloatArray:
+        """Reduced coordinates of the current shape, (d,)."""
+        q: FloatArray = self._loop.q
+        return q
+
+    @property
+    def vertices(self) -> FloatArray:
+        """Vertices tau + U q of the current shape, (n, 3), in the mesh's length unit."""
+        return self.model.subspace.shape(self.q).reshape(-1, 3)
+
+    def solve(self) -> FrameReport:
+        """Solves for what is set, from the current shape."""
+        begin = time.perf_counter()
+        report = self._loop.solve(
+            tolerance=self.tolerance,
+            max_iterations=self.max_iterations,
+            value_scale=self.model.value_scale,
+            coordinate_scale=self.model.coordinate_scale,
+        )
+        return FrameReport(
+            report.status.name,
+            report.iterations,
+            report.evaluations,
+            report.value,
+            report.gradient_norm,
+            time.perf_counter() - begin,
+        )
+
+    @abstractmethod
+    def set_parameters(self, parameters: ArrayLike) -> FrameReport:
+        """Takes a parameter vector (p,) of the problem, also beyond its domain, and solves."""
+
+    @abstractmethod
+    def reset(self) -> None:
+        """Back to tau."""
+
+    @abstractmethod
+    def _make_loop(self) -> Any:
+        """The compiled live loop of the model."""
