@@ -3,6 +3,7 @@
 from importlib.metadata import version as _version
 
 from .energy import ElasticEnergy, StVK
+from .filling import fill_surface
 from .mesh import (
     EmbeddedSurface,
     MeshNotice,
@@ -83,6 +84,7 @@ __all__ = [
     "TetMesh",
     "Validation",
     "embed_surface",
+    "fill_surface",
     "in_box",
     "in_sphere",
     "load",

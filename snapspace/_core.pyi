@@ -123,7 +123,7 @@ class PosingSystem:
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, wide: bool = True) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
@@ -135,6 +135,11 @@ class InterpolationSystem:
     """
 
     def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
+
+    def adapt(self, shapes: NDArray[numpy.float64]) -> None:
+        """
+        Makes the factor anew for solutions near displacements (k, 3n), at equal weights.
+        """
 
     @property
     def factor_nonzeros(self) -> int: ...
@@ -148,11 +153,74 @@ class InterpolationSystem:
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, wide: bool = True) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
+
+class FitStatus(enum.Enum):
+    """How the fit of one pose ended."""
+
+    converged = 0
+
+    max_iterations = 1
+
+    stiffness_limit = 2
+
+    line_search_failed = 3
+
+    cancelled = 4
+
+class FitReport:
+    """How the fit of one pose ended."""
+
+    @property
+    def status(self) -> FitStatus: ...
+
+    @property
+    def stages(self) -> int: ...
+
+    @property
+    def iterations(self) -> int:
+        """Newton steps of all stages."""
+
+    @property
+    def evaluations(self) -> int: ...
+
+    @property
+    def linear_iterations(self) -> int: ...
+
+    @property
+    def stiffness(self) -> float:
+        """Of the last stage."""
+
+    @property
+    def deviation(self) -> float:
+        """Root mean square distance of surface and target, weighted by area."""
+
+    @property
+    def seconds(self) -> float: ...
+
+class FittingSystem:
+    """What all poses of a mesh and surface share."""
+
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], corners: NDArray[numpy.int32], weights: NDArray[numpy.float64], areas: NDArray[numpy.float64]) -> None: ...
+
+    def energy(self, u: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+        """
+        Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted, and its gradient (3n,).
+        """
+
+    def projected_hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """
+        Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).
+        """
+
+    def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
+        """
+        Displacements (3n,) that bring the surface to displacements (s, 3), and a report.
+        """
 
 def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
     """

@@ -16,8 +16,9 @@ from .snapshots.solve import Progress
 
 FloatArray = NDArray[np.float64]
 
-#: The reference is solved until twice the predicted decrease is below this share of F; on the
-#: Dragon its shapes are then within 1e-4 of the limit, relative to the displacement.
+#: The reference is solved until twice the predicted decrease is below this share of F, or a
+#: hundredth of the tolerance that snapshots have. On the Dragon its shapes are then within 1e-4 of
+#: the limit, relative to the displacement.
 REFERENCE_TOLERANCE = 1e-9
 
 
@@ -99,7 +100,8 @@ def validate(
         If no full solution converged.
     """
     parameters = unseen_parameters(model, samples, seed=seed)
-    options = SolverOptions(tolerance=REFERENCE_TOLERANCE, max_iterations=5000)
+    tolerance = min(REFERENCE_TOLERANCE, 0.01 * model.problem.snapshot_tolerance)
+    options = SolverOptions(tolerance=tolerance, max_iterations=5000)
     solved = solve_snapshots(
         model.problem, parameters, options=options, threads=threads, progress=progress
     )

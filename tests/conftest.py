@@ -4,9 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from snapspace import ReducedModel, reduce, sample, snapshot_pca, solve_snapshots
+from snapspace import (
+    InterpolationModel,
+    InterpolationProblem,
+    ReducedModel,
+    reduce,
+    sample,
+    snapshot_pca,
+    solve_snapshots,
+)
+from snapspace.generators import cylinder, helix
 
-from .shapes import bar_problem
+from .shapes import bar_problem, interpolation_problem
 
 
 @pytest.fixture(scope="session")
@@ -16,3 +25,24 @@ def posing_model() -> ReducedModel:
     snapshots = solve_snapshots(problem, sample(problem.domain, 60, seed=1), threads=1)
     subspace = snapshot_pca(snapshots, dimension=20)
     return reduce(problem, subspace, snapshots=snapshots, threads=1)
+
+
+def interpolation_model(
+    problem: InterpolationProblem, samples: int, dimension: int
+) -> InterpolationModel:
+    snapshots = solve_snapshots(problem, sample(problem.domain, samples, seed=1), threads=1)
+    assert snapshots.converged.all()
+    subspace = snapshot_pca(snapshots, dimension=dimension)
+    return reduce(problem, subspace, snapshots=snapshots, threads=1)
+
+
+@pytest.fixture(scope="session")
+def blending_model() -> InterpolationModel:
+    """Three poses of a bar in the best 12 dimensions for 30 random blends."""
+    return interpolation_model(interpolation_problem(), 30, 12)
+
+
+@pytest.fixture(scope="session")
+def helix_model() -> InterpolationModel:
+    """A cylinder and a helix in the best 20 dimensions for 30 random blends."""
+    return interpolation_model(InterpolationProblem([cylinder(2, 26), helix(2, 26)]), 30, 20)

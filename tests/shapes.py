@@ -1,4 +1,4 @@
-"""Generated meshes, deformations and posing problems that several test rooms share."""
+"""Generated meshes, deformations and problems that several test rooms share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from scipy.spatial.transform import Rotation
 from snapspace.energy import StVK
 from snapspace.generators import bar, cylinder
 from snapspace.mesh import TetMesh, mass_matrix
-from snapspace.problem import HandleBox, Handles, PosingProblem
+from snapspace.problem import HandleBox, Handles, InterpolationProblem, Poses, PosingProblem
 from snapspace.subspace import AffineSubspace, pca
 
 FloatArray = NDArray[np.float64]
@@ -70,3 +70,49 @@ def random_subspace(
     tau = mesh.vertices.reshape(-1) if tau is None else tau
     directions = np.random.default_rng(seed).normal(size=(tau.size, dimension))
     return pca(tau[:, None] + directions, tau, mass_matrix(mesh), dimension=dimension)
+
+
+def bent(mesh: TetMesh, angle: float, *, twist: float = 0.0) -> FloatArray:
+    """Vertices (n, 3) of a bar bent to an arc in the plane of x and y and twisted about its line.
+
+    Both angles, in radians, are those of the far end. The middle line keeps its length.
+    """
+    lower, upper = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    x, y, z = (mesh.vertices - [lower[0], *(0.5 * (lower + upper)[1:])]).T
+    length = upper[0] - lower[0]
+    turn, roll = angle * x / length, twist * x / length
+    y, z = np.cos(roll) * y - np.sin(roll) * z, np.sin(roll) * y + np.cos(roll) * z
+    # sin(a)/a and (1 - cos(a))/a, which stay finite for a straight bar
+    along, across = np.sinc(turn / np.pi), np.sin(turn / 2) * np.sinc(turn / 2 / np.pi)
+    return np.stack([x * along - y * np.sin(turn), x * across + y * np.cos(turn), z], axis=1)
+
+
+def bar_poses(mesh: TetMesh | None = None) -> Poses:
+    """A bar at rest, bent, and bent the other way and twisted, each in a frame of its own."""
+    mesh = mesh or irregular_bar(8, 2, 2)
+    shapes = [mesh.vertices, bent(mesh, 1.2), bent(mesh, -0.7, twist=1.0)]
+    for k in (1, 2):
+        motion = random_rotation(k), np.array([3.0 * k, -2.0, 1.0])
+        shapes[k] = moved(shapes[k].reshape(-1), *motion).reshape(-1, 3)
+    return Poses(np.stack(shapes), mesh.tets, names=["rest", "bent", "twisted"])
+
+
+def interpolation_problem(**options: float) -> InterpolationProblem:
+    """Between the poses of a bar, in a material whose two parameters differ."""
+    return InterpolationProblem(bar_poses(), material=StVK(lam=1.5, mu=0.7), **options)
+
+
+def symmetric_bar() -> TetMesh:
+    """A bar that the mirror y -> -y maps onto itself, vertex to vertex and tet to tet."""
+    half = bar(8, 1, 2, width=0.5)
+    tets, vertices = half.tets, half.vertices * [1.0, -1.0, 1.0]
+    inner = half.vertices[:, 1] == 0
+    twin = np.where(inner, np.arange(len(inner)), len(inner) - 1 + np.cumsum(~inner))
+    both = np.concatenate([half.vertices, vertices[~inner]])
+    return TetMesh(both, np.concatenate([tets, twin[tets][:, [1, 0, 2, 3]]]))
+
+
+def mirror_image(mesh: TetMesh) -> NDArray[np.intp]:
+    """For each vertex of `symmetric_bar` the one that the mirror y -> -y puts in its place."""
+    index = {tuple(vertex): i for i, vertex in enumerate(mesh.vertices.tolist())}
+    return np.array([index[x, -y, z] for x, y, z in mesh.vertices.tolist()])

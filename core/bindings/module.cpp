@@ -4,6 +4,7 @@
 namespace snapspace {
 void bind_energy(nb::module_& m);
 void bind_snapshots(nb::module_& m);
+void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
 void bind_online(nb::module_& m);
 }  // namespace snapspace
@@ -15,6 +16,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   m.attr("lane_count") = snapspace::kWideLanes;
   snapspace::bind_energy(m);
   snapspace::bind_snapshots(m);
+  snapspace::bind_fitting(m);
   snapspace::bind_reduction(m);
   snapspace::bind_online(m);
 }

@@ -68,16 +68,16 @@ void bind_solves(nb::class_<System>& system) {
       .def(
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, SolveControl& control, bool wide) {
+             int max_iterations, int threads, SolveControl& control, int lanes) {
             Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
             const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
             nb::gil_scoped_release release;
             batch.reports =
-                solve_fast(self, samples, {tolerance, max_iterations, wide, threads}, control);
+                solve_fast(self, samples, {tolerance, max_iterations, lanes, threads}, control);
             return batch;
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("wide") = true,
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 8,
           "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
@@ -86,7 +86,7 @@ void bind_solves(nb::class_<System>& system) {
             Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
             const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
             nb::gil_scoped_release release;
-            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, true, threads},
+            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, 1, threads},
                                          clamp, control, &batch.linear_iterations);
             return batch;
           },
@@ -168,6 +168,19 @@ void bind_snapshots(nb::module_& m) {
             InterpolationSystem(mesh, renumbered, static_cast<int>(poses.shape(0)), StVK{lam, mu});
       },
       nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"));
+  interpolation.def(
+      "adapt",
+      [](InterpolationSystem& self, MatrixIn shapes) {
+        require(shapes.shape(0) >= 1 && shapes.shape(1) == static_cast<std::size_t>(self.size()),
+                "shapes must be (k, 3n)");
+        std::vector<double> renumbered(shapes.size());
+        for (std::size_t k = 0; k < shapes.shape(0); ++k)
+          self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
+                                     renumbered.data() + k * shapes.shape(1));
+        self.adapt(renumbered, static_cast<int>(shapes.shape(0)));
+      },
+      nb::arg("shapes"),
+      "Makes the factor anew for solutions near displacements (k, 3n), at equal weights.");
   bind_solves(interpolation);
 }
 

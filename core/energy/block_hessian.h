@@ -28,6 +28,11 @@ class BlockHessian {
   void add(const ElasticEnergy& energy, const double* u, double clamp = kUnclamped,
            double weight = 1.0);
 
+  /// The block of corners a and b of a tet.
+  [[nodiscard]] std::array<double, 9>& block(std::size_t tet, int a, int b) {
+    return blocks_[slots_[tet][4 * a + b]];
+  }
+
   /// Adds `value` to the three diagonal entries of a vertex.
   void add_to_diagonal(int vertex, double value);
 

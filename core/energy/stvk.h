@@ -42,15 +42,20 @@ inline void displacement_gradient(const RestTet& tet, const Real* u, Real G[3][3
   gradient_of_edges(tet, D, G);
 }
 
-/// Second Piola-Kirchhoff stress S = 2 mu E + lam tr(E) I at G; returns the density psi.
+/// Upper triangle of the strain E = (G + G^T + G^T G) / 2.
 template <class Real>
-inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
-  Real E[3][3];
+inline void strain(const Real G[3][3], Real E[3][3]) {
   for (int r = 0; r < 3; ++r)
     for (int c = r; c < 3; ++c) {
       const Real quadratic = G[0][r] * G[0][c] + G[1][r] * G[1][c] + G[2][r] * G[2][c];
       E[r][c] = (G[r][c] + G[c][r] + quadratic) * Real(0.5);
     }
+}
+
+/// Second Piola-Kirchhoff stress S = 2 mu E + lam tr(E) I of a strain given by its upper triangle;
+/// returns the density psi.
+template <class Real>
+inline Real stress_of_strain(const StVK& material, const Real E[3][3], Real S[3][3]) {
   const Real trace = E[0][0] + E[1][1] + E[2][2];
   const Real pressure = trace * Real(material.lam);
   const Real two_mu(2.0 * material.mu);
@@ -62,6 +67,14 @@ inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
   const Real off_diagonal = E[0][1] * E[0][1] + E[0][2] * E[0][2] + E[1][2] * E[1][2];
   return (diagonal + off_diagonal + off_diagonal) * Real(material.mu) +
          trace * pressure * Real(0.5);
+}
+
+/// The same at G.
+template <class Real>
+inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
+  Real E[3][3];
+  strain(G, E);
+  return stress_of_strain(material, E, S);
 }
 
 /// Adds volume * P * inverse_edges^T to `forces`, whose columns belong to vertices 1, 2, 3: P :

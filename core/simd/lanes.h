@@ -7,22 +7,23 @@
 
 namespace snapspace {
 
-/// Samples solved together by a thread, when there are many and when there are few.
+/// Samples that a thread solves together at most.
 #if defined(__AVX512F__)
 inline constexpr int kWideLanes = 8;
-inline constexpr int kNarrowLanes = 4;
 #elif defined(__AVX__)
 inline constexpr int kWideLanes = 4;
-inline constexpr int kNarrowLanes = 4;
 #else
 inline constexpr int kWideLanes = 2;
-inline constexpr int kNarrowLanes = 2;
 #endif
 
 #if defined(__GNUC__)
 // Compilers drop the attribute where the size depends on a template parameter: every size is named.
 template <class T, int Width>
 struct VectorOf;
+template <>
+struct VectorOf<double, 1> {
+  typedef double type __attribute__((vector_size(8)));
+};
 template <>
 struct VectorOf<double, 2> {
   typedef double type __attribute__((vector_size(16)));
@@ -34,6 +35,10 @@ struct VectorOf<double, 4> {
 template <>
 struct VectorOf<double, 8> {
   typedef double type __attribute__((vector_size(64)));
+};
+template <>
+struct VectorOf<float, 1> {
+  typedef float type __attribute__((vector_size(4)));
 };
 template <>
 struct VectorOf<float, 2> {

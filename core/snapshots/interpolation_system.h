@@ -4,9 +4,11 @@
 
 #include "energy/blended_energy.h"
 #include "energy/block_hessian.h"
+#include "energy/scalar_hessian.h"
 #include "snapshots/numbering.h"
 #include "snapshots/samples.h"
 #include "snapshots/scalar_factor.h"
+#include "threads/parallel.h"
 
 namespace snapspace {
 
@@ -37,7 +39,7 @@ struct InterpolationSystem {
       : numbering(mesh.order),
         energy(poses.data(), count, static_cast<int>(mesh.order.size()), mesh.tets.data(),
                static_cast<int>(mesh.tets.size() / 4), material),
-        factor(scalar_matrix(material)) {}
+        factor(rest_factor()) {}
 
   [[nodiscard]] int size() const { return energy.size(); }
   [[nodiscard]] int input_size() const { return energy.poses(); }
@@ -49,13 +51,32 @@ struct InterpolationSystem {
     return energy.energy(0).inverted_tets(u);
   }
 
+  /// Makes the factor anew for solutions near the given shapes (count x 3n, internal): that of the
+  /// mean of their scalar Hessians at equal weights. Poses that stretch a tet much make it stiff,
+  /// and a factor that knows needs a fourth of the iterations.
+  void adapt(const std::vector<double>& shapes, int count) {
+    ScalarHessian hessian(energy.energy(0).rest);
+    std::vector<double> shifted(size());
+    for (int shape = 0; shape < count; ++shape)
+      for (int k = 0; k < energy.poses(); ++k) {
+        const double* u = shapes.data() + static_cast<std::size_t>(shape) * size();
+        for (int i = 0; i < size(); ++i) shifted[i] = u[i] + energy.offset(k)[i];
+        hessian.add(energy.energy(k), shifted.data(), 1.0 / (count * energy.poses()));
+      }
+    factor = pinned_factor(hessian.matrix());
+  }
+
  private:
-  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix(StVK material) const {
+  [[nodiscard]] ScalarFactor rest_factor() const {
     Eigen::SparseMatrix<double> A = energy.energy(0).rest.laplacian();
     for (int k = 1; k < energy.poses(); ++k) A += energy.energy(k).rest.laplacian();
-    A *= (2.0 * material.mu + material.lam) / energy.poses();
+    const StVK& material = energy.energy(0).material;
+    return pinned_factor((2.0 * material.mu + material.lam) / energy.poses() * A);
+  }
+
+  static ScalarFactor pinned_factor(Eigen::SparseMatrix<double> A) {
     A.coeffRef(0, 0) *= 2.0;
-    return A;
+    return ScalarFactor(A);
   }
 };
 
@@ -63,8 +84,13 @@ struct InterpolationSystem {
 template <class Real>
 class InterpolationObjective {
  public:
-  InterpolationObjective(const InterpolationSystem& system, const Samples& samples)
-      : system_(system), samples_(samples), weights_(system.input_size(), Real(0.0)) {}
+  /// @param threads  that it may use for itself
+  InterpolationObjective(const InterpolationSystem& system, const Samples& samples, int threads = 1)
+      : system_(system),
+        samples_(samples),
+        threads_(threads),
+        weights_(system.input_size(), Real(0.0)),
+        second_half_(kHalves ? system.size() : 0, Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }
   [[nodiscard]] double negligible() const { return negligible_; }
@@ -74,8 +100,21 @@ class InterpolationObjective {
     for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
   }
 
-  Real value_and_gradient(const Real* u, Real* gradient) const {
-    return system_.energy.value_and_gradient(weights_.data(), u, gradient);
+  /// F at u (3n); its gradient overwrites `gradient`. Few samples are a pack or two, which would
+  /// leave threads idle: narrow packs go through the tets in two halves, whatever the number of
+  /// threads, because sums of other parts would round differently.
+  Real value_and_gradient(const Real* u, Real* gradient) {
+    const int tets = system_.energy.tets();
+    if constexpr (!kHalves)
+      return system_.energy.value_and_gradient(weights_.data(), u, gradient, 0, tets);
+    Real values[2];
+    parallel_for(2, threads_, [&](int half) {
+      values[half] = system_.energy.value_and_gradient(
+          weights_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
+          half == 0 ? tets / 2 : tets);
+    });
+    for (int i = 0; i < size(); ++i) gradient[i] += second_half_[i];
+    return values[0] + values[1];
   }
 
   template <class Any>
@@ -99,9 +138,13 @@ class InterpolationObjective {
   }
 
  private:
+  static constexpr bool kHalves = sizeof(Real) <= 4 * sizeof(double);
+
   const InterpolationSystem& system_;
   const Samples& samples_;
+  int threads_;
   std::vector<Real> weights_;
+  std::vector<Real> second_half_;  // of the gradient
   double negligible_ = system_.negligible();
 };
 

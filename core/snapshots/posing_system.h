@@ -65,7 +65,7 @@ struct PosingSystem {
 template <class Real>
 class PosingObjective {
  public:
-  PosingObjective(const PosingSystem& system, const Samples& samples)
+  PosingObjective(const PosingSystem& system, const Samples& samples, int /*threads*/ = 1)
       : system_(system), samples_(samples), targets_(system.input_size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }

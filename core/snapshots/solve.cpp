@@ -28,11 +28,12 @@ std::vector<SolveReport> solve_in_lanes(const System& system, const Samples& sam
   std::vector<SolveReport> reports(samples.count);
   std::atomic<int> next{0};
   // No more groups of lanes than hold the samples.
-  const int groups = std::min((samples.count + Width - 1) / Width, thread_count(options.threads));
+  const int threads = thread_count(options.threads);
+  const int groups = std::min((samples.count + Width - 1) / Width, threads);
   parallel_for(groups, groups, [&](int) {
     const FlushDenormals flush;
     using Objective = typename System::template Objective<Lanes<Width>>;
-    LaneLbfgs<Objective, Width> solver(Objective(system, samples), options);
+    LaneLbfgs<Objective, Width> solver(Objective(system, samples, threads / groups), options);
     const auto take = [&] {
       const int sample = next++;
       return sample < samples.count ? sample : -1;
@@ -59,8 +60,12 @@ std::vector<SolveReport> solve_in_lanes(const System& system, const Samples& sam
 template <class System>
 std::vector<SolveReport> solve_fast(const System& system, const Samples& samples,
                                     const SolveOptions& options, SolveControl& control) {
-  return options.wide ? solve_in_lanes<kWideLanes>(system, samples, options, control)
-                      : solve_in_lanes<kNarrowLanes>(system, samples, options, control);
+  if constexpr (kWideLanes >= 8)
+    if (options.lanes >= 8) return solve_in_lanes<8>(system, samples, options, control);
+  if constexpr (kWideLanes >= 4)
+    if (options.lanes >= 4) return solve_in_lanes<4>(system, samples, options, control);
+  if (options.lanes >= 2) return solve_in_lanes<2>(system, samples, options, control);
+  return solve_in_lanes<1>(system, samples, options, control);
 }
 
 template <class System>

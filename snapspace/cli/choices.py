@@ -34,7 +34,9 @@ class Choices:
     lumped: bool
     include_unconverged: bool
 
-    def recipe(self, problem: Problem, *, dimension: int, threads: int | None) -> Recipe:
+    def recipe(
+        self, problem: Problem, *, dimension: int, threads: int | None, known: int = 0
+    ) -> Recipe:
         """The recipe for a problem; `dimension` holds if neither size was given."""
         options = SolverOptions(
             solver=self.solver,
@@ -64,6 +66,7 @@ class Choices:
             lumped=self.lumped,
             include_unconverged=self.include_unconverged,
             threads=threads,
+            known=known,
         )
         if len(parameters) < self.samples:
             notice(f"notice: the grid has {len(parameters)} samples, not {self.samples}")

@@ -13,6 +13,7 @@ from ..mesh import write_tets
 from ..mesh.atomic_file import atomic_file
 from ..pictures import save_png
 from ..problem import read_problem
+from ..reduction import PosingModel
 from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
@@ -98,6 +99,7 @@ def demo(
     print_validation(validation, dimension, asked=VALIDATION_SAMPLES)
 
     with console().status("painting"):
+        assert isinstance(built.model, PosingModel)
         shapes = posed_shapes(built.model)
         save_png(files["png"], contact_sheet(built.model, shapes))
     write_shape(files["obj"], problem.mesh, shapes[POSE_OF_OBJ])

@@ -13,10 +13,12 @@ import click
 
 from .. import __version__
 from ..mesh import MeshNotice
+from .blend import blend
 from .build import build
 from .console import notice, one_line
 from .demo import demo
 from .info import info
+from .interpolate import interpolate
 from .pose import pose
 from .validate import validate
 
@@ -39,6 +41,9 @@ def snapspace(ctx: click.Context) -> None:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace validate dragon.snapspace
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 -o posed.obj
+    With poses of your own:
+      snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
+      snapspace blend cat.snapspace --path 60 -o frames
 
     With --json a command prints one JSON object on standard output; everything else goes to
     standard error. Exit codes: 0 done, 2 a mistake in the input, 130 interrupted.
@@ -47,7 +52,7 @@ def snapspace(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (demo, build, validate, pose, info):
+for command in (demo, build, interpolate, validate, pose, blend, info):
     snapspace.add_command(command)
 
 

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model_file import load
+from ..reduction import PosingModel
 from .mesh_info import Info, mesh_facts, mesh_figures
+from .poses_info import poses_facts, poses_figures
 from .problem_info import problem_facts, problem_figures
 from .units import in_bytes, in_time
 
@@ -20,15 +22,22 @@ def model_info(file: Path) -> Info:
     """JSON content and facts of a model file; ValueError if it is not one."""
     model = load(file)
     subspace = model.subspace
+    if isinstance(model, PosingModel):
+        figures_of_problem = problem_figures(model.problem)
+        facts_of_problem = problem_facts(figures_of_problem)
+    else:
+        figures_of_problem = poses_figures(model)
+        facts_of_problem = poses_facts(figures_of_problem)
     figures: dict[str, Any] = {
         "kind": "model",
+        "problem": "posing" if isinstance(model, PosingModel) else "interpolation",
         "bytes": file.stat().st_size,
         "dimension": model.dimension,
         "samples": len(model.training_parameters),
         "energy_fraction": subspace.energy_fraction,
-        "lumped_mass": bool(subspace.mass.nnz == len(model.problem.mesh.vertices)),
+        "lumped_mass": subspace.lumped,
         "eigenvalues": subspace.eigenvalues.tolist(),
-        **problem_figures(model.problem),
+        **figures_of_problem,
         "mesh": mesh_figures(model.problem.mesh),
         "provenance": model.provenance,
     }
@@ -36,7 +45,7 @@ def model_info(file: Path) -> Info:
         ("dimension", f"{model.dimension}, from {figures['samples']} snapshots"),
         ("not captured", _decay(subspace.eigenvalues, model.dimension)),
         ("file", in_bytes(figures["bytes"])),
-        *problem_facts(figures),
+        *facts_of_problem,
         *mesh_facts(figures["mesh"]),
         *_provenance_facts(model.provenance),
     ]
@@ -58,9 +67,11 @@ def _percent(share: float) -> str:
 def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     """What is recorded, for models of any origin: entries that are not there are left out."""
     facts = []
-    for key in ("problem", "mesh"):
+    for key in ("problem", "mesh", "tets"):
         if isinstance(record.get(key), str):
             facts.append((f"{key} file", record[key]))
+    if isinstance(record.get("poses"), list):
+        facts.append(("pose files", ", ".join(map(str, record["poses"]))))
     for key in ("sampling", "solver", "versions"):
         if isinstance(record.get(key), dict):
             facts.append((key, ", ".join(f"{name} {value}" for name, value in record[key].items())))

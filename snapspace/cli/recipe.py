@@ -24,6 +24,7 @@ class Recipe:
     dimension, energy_fraction : one of them; see `snapshot_pca`
     lumped, include_unconverged : as for `snapshot_pca`
     threads : None for all
+    known : solutions that join the snapshots without solving, the poses of an interpolation
     """
 
     parameters: NDArray[np.float64]
@@ -34,22 +35,24 @@ class Recipe:
     lumped: bool = False
     include_unconverged: bool = False
     threads: int | None = None
+    known: int = 0
 
     def __post_init__(self) -> None:
         if (self.dimension is None) == (self.energy_fraction is None):
             raise ValueError("give either --dimension or --energy-fraction")
         if self.dimension is not None:
-            check_dimension(self.dimension, len(self.parameters))
+            check_dimension(self.dimension, len(self.parameters), known=self.known)
         if self.energy_fraction is not None and not 0 < self.energy_fraction <= 1:
             raise ValueError(f"energy fraction is {self.energy_fraction}, but must be in (0, 1]")
 
 
-def check_dimension(dimension: int, samples: int) -> None:
-    """ValueError if there are fewer samples than modes."""
-    if dimension > samples:
+def check_dimension(dimension: int, samples: int, *, known: int = 0) -> None:
+    """ValueError if there are fewer samples and known solutions than modes."""
+    if dimension > samples + known:
+        poses = f" and {known} poses" if known else ""
         raise ValueError(
-            f"dimension {dimension} needs at least as many samples, but there are {samples}; raise "
-            "--samples or lower --dimension"
+            f"dimension {dimension} needs at least as many samples, but there are {samples}{poses}"
+            "; raise --samples or lower --dimension"
         )
 
 

@@ -1,6 +1,7 @@
 """Tetrahedral meshes: the mesh itself, its mass, repair, reading and writing."""
 
-from .embedded_surface import EmbeddedSurface, boundary_surface, embed_surface
+from .embed_surface import embed_surface
+from .embedded_surface import EmbeddedSurface, boundary_surface
 from .mass import (
     apply_mass,
     mass_gram,

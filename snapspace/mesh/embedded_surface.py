@@ -1,30 +1,182 @@
-"""TEMPORARY by the lead; to be overwritten by the helper."""
+"""EmbeddedSurface: a triangle surface that the tets of a mesh carry along."""
+
+from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
+from scipy.sparse import coo_array, csr_array
+
+from .arrays import FloatArray, IndexArray, as_indices
+from .surface import compact_surface
+from .tet_mesh import TetMesh
+from .validation import check_indices
+
+# Rounding of weights that sum to one, relative to the sum of their sizes.
+_ROUNDING = 1e-9
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class EmbeddedSurface:
-    faces: object
-    corners: object
-    weights: object
+    """A surface whose vertices are fixed affine combinations of tet vertices.
 
-    def vertices(self, shape):
-        x = shape.reshape(-1, 3)
-        return np.einsum("sk,skc->sc", self.weights, x[self.corners])
+    Parameters
+    ----------
+    faces : array_like of int, (f, 3)
+        Triangles; the indices are those of the surface's s vertices.
+    corners : array_like of int, (s, 4)
+        Tet vertices that each surface vertex follows.
+    weights : array_like, (s, 4)
+        Their weights. Rows sum to one; a vertex outside of its tet has negative weights.
+
+    Raises
+    ------
+    ValueError
+        For wrong shapes or types, indices out of range, weights that are not finite or that do not
+        sum to one.
+
+    Notes
+    -----
+    Because the rows sum to one, an affine motion of the tets is the same motion of the surface.
+    Arrays are copied and read-only. Made by `embed_surface` and `boundary_surface`.
+    """
+
+    faces: IndexArray
+    corners: IndexArray
+    weights: FloatArray
+
+    def __repr__(self) -> str:
+        return f"EmbeddedSurface({len(self.corners)} vertices, {len(self.faces)} faces)"
+
+    def __post_init__(self) -> None:
+        who = "EmbeddedSurface"
+        faces = as_indices(self.faces, corners=3, who=who, what="faces")
+        corners = as_indices(self.corners, corners=4, who=who, what="corners")
+        weights = np.array(self.weights, np.float64, order="C")
+        if weights.shape != corners.shape:
+            raise ValueError(
+                f"{who}: weights must have the shape of corners, {corners.shape}, got "
+                f"{weights.shape}"
+            )
+        check_indices(faces, len(corners), who=who, what="face")
+        if corners.size and corners.min() < 0:
+            row = int(np.flatnonzero((corners < 0).any(axis=1))[0])
+            raise ValueError(
+                f"{who}: vertex {row} has the negative corner {corners[row].min()}; corners are "
+                "0-based indices of tet vertices"
+            )
+        size = np.abs(weights).sum(axis=1)
+        fine = np.isfinite(size) & (np.abs(weights.sum(axis=1) - 1.0) <= _ROUNDING * size)
+        wrong = np.flatnonzero(~fine)
+        if wrong.size:
+            row = int(wrong[0])
+            raise ValueError(
+                f"{who}: the weights of vertex {row} sum to {weights[row].sum():.12g}, not to one; "
+                f"{wrong.size} of {len(weights)} vertices affected: divide each row by its sum"
+            )
+        for name, array in (("faces", faces), ("corners", corners), ("weights", weights)):
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
+
+    @cached_property
+    def exact(self) -> bool:
+        """Whether every surface vertex is a single tet vertex."""
+        return bool(((self.weights == 1.0).sum(axis=1) == 1).all()) and (
+            np.count_nonzero(self.weights) == len(self.weights)
+        )
+
+    def vertices(self, shape: ArrayLike) -> FloatArray:
+        """The surface's vertices for a deformed mesh.
+
+        Parameters
+        ----------
+        shape : array_like, (n, 3) or (3n,)
+            Positions of the tet vertices.
+
+        Returns
+        -------
+        ndarray, (s, 3)
+            A fresh array. Vertices with a single weight 1 are copied without rounding.
+
+        Raises
+        ------
+        ValueError
+            For another shape, or fewer vertices than the corners need.
+        """
+        x = np.asarray(shape, np.float64)
+        if not ((x.ndim == 1 and x.size % 3 == 0) or (x.ndim == 2 and x.shape[1] == 3)):
+            raise ValueError(f"EmbeddedSurface: a shape must be (n, 3) or (3n,), got {x.shape}")
+        x = x.reshape(-1, 3)
+        self._check_vertex_count(len(x))
+        return np.asarray(self._map @ x[: self._needed])
+
+    def matrix(self, vertex_count: int) -> csr_array:
+        """The embedding as a linear map: `matrix(n) @ X` is `vertices(X)` for X (n, 3).
+
+        Parameters
+        ----------
+        vertex_count : int
+            Number n of tet vertices.
+
+        Returns
+        -------
+        csr_array, (s, n)
+            Rows sum to one; at most four entries a row, sorted, none of them zero.
+
+        Raises
+        ------
+        ValueError
+            If the corners need more vertices.
+        """
+        self._check_vertex_count(vertex_count)
+        used = self._map
+        arrays = (used.data.copy(), used.indices.copy(), used.indptr.copy())
+        return csr_array(arrays, shape=(len(self.corners), vertex_count))
+
+    @cached_property
+    def _map(self) -> csr_array:
+        """The matrix without the columns behind the last corner; four times faster than gathers."""
+        row, k = np.nonzero(self.weights)
+        entries = (self.weights[row, k], (row, self.corners[row, k]))
+        matrix = csr_array(coo_array(entries, shape=(len(self.corners), self._needed)))
+        matrix.sum_duplicates()
+        matrix.eliminate_zeros()
+        return matrix
+
+    @cached_property
+    def _needed(self) -> int:
+        return int(self.corners.max(initial=-1)) + 1
+
+    def _check_vertex_count(self, count: int) -> None:
+        if count < self._needed:
+            raise ValueError(
+                f"EmbeddedSurface: the shape has {count} vertices, but the surface follows tet "
+                f"vertex {self._needed - 1}: it belongs to another mesh"
+            )
 
 
-def boundary_surface(mesh):
-
-    used = mesh.surface_vertices
-    place = np.zeros(len(mesh.vertices), np.int32)
-    place[used] = np.arange(len(used))
-    c = np.repeat(used[:, None], 4, 1).astype(np.int32)
-    w = np.zeros((len(used), 4))
-    w[:, 0] = 1
-    return EmbeddedSurface(place[mesh.surface], c, w)
+def single_vertices(faces: IndexArray, vertices: IndexArray) -> EmbeddedSurface:
+    """The exact embedding of a surface whose vertex i is tet vertex `vertices[i]`, (s,)."""
+    weights = np.zeros((len(vertices), 4))
+    weights[:, 0] = 1.0
+    # the same corner four times: then a vertex depends on nothing else, be it nan
+    return EmbeddedSurface(faces, np.repeat(vertices[:, None], 4, axis=1), weights)
 
 
-embed_surface = None
+def boundary_surface(mesh: TetMesh) -> EmbeddedSurface:
+    """The mesh's own surface.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+
+    Returns
+    -------
+    EmbeddedSurface
+        Exact. Its vertices are `mesh.vertices[mesh.surface_vertices]`, in this order, its faces
+        those of `mesh.surface`: closed and outward.
+    """
+    _, faces = compact_surface(mesh.vertices, mesh.surface)
+    return single_vertices(faces, mesh.surface_vertices)

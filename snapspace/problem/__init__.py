@@ -3,6 +3,7 @@
 from .handle_box import HandleBox
 from .handles import Handle, Handles
 from .interpolation_problem import InterpolationProblem
+from .lanes import lane_count
 from .motion import affine_offset, rigid_offset, rotation_matrix
 from .poses import Poses
 from .posing_problem import PosingProblem
@@ -23,6 +24,7 @@ __all__ = [
     "affine_offset",
     "in_box",
     "in_sphere",
+    "lane_count",
     "problem_content",
     "read_problem",
     "rigid_offset",

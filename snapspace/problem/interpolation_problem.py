@@ -13,17 +13,13 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..energy import StVK
-from ..interruptible import run_interruptible
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
+from .mean_shape import mean_displacement
 from .poses import Poses
 from .simplex import Simplex
 
 FloatArray = NDArray[np.float64]
-
-#: The mean shape is solved until twice the predicted decrease is below this share of its energy.
-MEAN_TOLERANCE = 1e-10
-_MEAN_ITERATIONS = 20_000
 
 
 class InterpolationProblem:
@@ -67,13 +63,7 @@ class InterpolationProblem:
         self.material = material or StVK()
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
-            known = np.asarray(mean_shape, np.float64).reshape(-1)
-            if known.shape != self.base.shape or not np.isfinite(known).all():
-                raise ValueError(
-                    f"InterpolationProblem: mean_shape needs {self.base.size} finite coordinates, "
-                    f"got {known.size}"
-                )
-            self.mean_shape = known
+            self.mean_shape = self._checked_shape(mean_shape)
 
     @property
     def mesh(self) -> TetMesh:
@@ -103,18 +93,14 @@ class InterpolationProblem:
 
     @cached_property
     def system(self) -> core.InterpolationSystem:
-        """The compiled problem with its scalar factor, shared by all samples."""
-        # energies do not depend on the poses' frames, but far apart the differences lose digits
-        shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        return core.InterpolationSystem(
-            shapes, self.poses.tets, self.material.lam, self.material.mu
-        )
+        """The compiled problem, its scalar factor made for shapes near the mean."""
+        mean = self.mean_shape  # first: its solve adapts the factor to other shapes
+        self._unadapted_system.adapt((mean - self.base)[None, :])
+        return self._unadapted_system
 
     @cached_property
     def mean_shape(self) -> FloatArray:
         """The solution for equal weights (3n,), registered to the first pose (paper, sec. 4.3).
-
-        Solved for from every pose, and the one with the least energy is kept.
 
         Raises
         ------
@@ -123,33 +109,8 @@ class InterpolationProblem:
         KeyboardInterrupt
             On Ctrl-C.
         """
-        starts = self._near_poses - self.base
-        weights = np.tile(self.domain.center, (len(starts), 1))
-        batch, interrupted = run_interruptible(
-            lambda control: self.system.solve_fast(
-                weights,
-                starts,
-                tolerance=MEAN_TOLERANCE,
-                max_iterations=_MEAN_ITERATIONS,
-                threads=0,
-                control=control,
-                wide=len(starts) > 4,
-            ),
-            lambda finished: None,
-        )
-        if interrupted:
-            raise KeyboardInterrupt("the mean shape was not finished")
-        values = [
-            report.value if report.status.name == "converged" else np.inf
-            for report in batch.reports
-        ]
-        best = int(np.argmin(values))
-        if not np.isfinite(values[best]):
-            raise ValueError(
-                "InterpolationProblem: the mean shape of the poses was not found "
-                f"({batch.reports[0].status.name}); look for poses with very flat tets"
-            )
-        mean = self.base + batch.shapes[best]
+        displacement = mean_displacement(self._unadapted_system, self._near_poses - self.base)
+        mean = self.base + displacement
         return registered(mean, self.base, self._mass_of(mean))
 
     @cached_property
@@ -175,9 +136,13 @@ class InterpolationProblem:
         """Mass matrix (n, n) of the mean shape; a tet that is inverted there counts as it is."""
         return self._mass_of(self.tau, lumped=True) if lumped else self._mean_mass
 
+    def check(self, parameters: FloatArray) -> None:
+        """ValueError unless the weights (p,) are in the domain."""
+        self.weights(parameters)
+
     def inputs(self, parameters: FloatArray) -> FloatArray:
-        """What the system takes for samples (k, p): the weights themselves, checked."""
-        return np.stack([self.weights(w) for w in parameters])
+        """What the system takes for samples (k, p): the weights themselves."""
+        return np.ascontiguousarray(parameters)
 
     def weights(self, parameters: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
         """The weights (p,), if they are in the domain or `extrapolate` is set; else ValueError."""
@@ -220,6 +185,25 @@ class InterpolationProblem:
         w = self.weights(weights, extrapolate=extrapolate)
         blend: FloatArray = np.einsum("k,ki->i", w, self.pose_shapes).reshape(-1, 3)
         return blend
+
+    def _checked_shape(self, shape: ArrayLike) -> FloatArray:
+        x = np.asarray(shape, np.float64).reshape(-1)
+        if x.shape != self.base.shape:
+            raise ValueError(
+                f"InterpolationProblem: the mean shape has {x.size} coordinates, but the poses "
+                f"have {self.base.size}"
+            )
+        if not np.isfinite(x).all():
+            raise ValueError("InterpolationProblem: the mean shape has a coordinate not finite")
+        return x
+
+    @cached_property
+    def _unadapted_system(self) -> core.InterpolationSystem:
+        # energies do not depend on the poses' frames, but far apart the differences lose digits
+        shapes = self._near_poses.reshape(self.poses.shapes.shape)
+        return core.InterpolationSystem(
+            shapes, self.poses.tets, self.material.lam, self.material.mu
+        )
 
     @cached_property
     def _mean_mass(self) -> csr_array:

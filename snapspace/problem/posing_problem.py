@@ -178,6 +178,10 @@ class PosingProblem:
             ]
         )
 
+    def check(self, parameters: FloatArray) -> None:
+        """ValueError for parameters (p,) of another size or not finite; the box may be left."""
+        self.offsets(parameters)
+
     def inputs(self, parameters: FloatArray) -> FloatArray:
         """What the system takes for samples (k, p): pinned displacements, (k, 3 pins)."""
         return np.stack(

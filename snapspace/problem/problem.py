@@ -84,6 +84,10 @@ class Problem(Protocol):
         """Mass matrix (n, n) of tau, in whose norm shapes are compared."""
         ...
 
+    def check(self, parameters: FloatArray) -> None:
+        """ValueError unless one parameter vector (p,) may be solved for."""
+        ...
+
     def inputs(self, parameters: FloatArray) -> FloatArray:
         """What the system takes for parameters (k, p)."""
         ...

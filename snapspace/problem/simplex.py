@@ -140,7 +140,7 @@ class Simplex:
             a weight outside of the domain.
         """
         try:
-            w = np.asarray(weights, np.float64)
+            w = np.array(weights, np.float64)
         except (TypeError, ValueError):
             raise ValueError(
                 f"{who}: weights must be {self.corners} numbers, one per pose"

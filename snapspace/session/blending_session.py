@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.spatial import cKDTree
 
 from .. import _core as core
 from ..reduction import InterpolationModel
@@ -17,7 +16,8 @@ FloatArray = NDArray[np.float64]
 class BlendingSession(Session[InterpolationModel]):
     """Shapes between the poses of a reduced model: set weights, read vertices.
 
-    Parameters and errors as for `Session`.
+    Parameters and errors as for `Session`; the default tolerance is 1e-9, because without handles
+    soft modes decide.
 
     Notes
     -----
@@ -31,8 +31,8 @@ class BlendingSession(Session[InterpolationModel]):
     session.vertices
     """
 
+    default_tolerance = 1e-9
     _weights: FloatArray
-    _training: cKDTree
 
     @property
     def weights(self) -> FloatArray:
@@ -77,13 +77,13 @@ class BlendingSession(Session[InterpolationModel]):
         """Takes the nearest training sample as the start if its energy is below the present one."""
         if not len(self.model.training_parameters):
             return
-        _, nearest = self._training.query(self._weights)
-        candidate = self.model.training_coordinates[nearest]
+        with np.errstate(over="ignore"):  # weights far outside of any use
+            away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
+        candidate = self.model.training_coordinates[np.argmin(away)]
         present, _ = self._loop.value_and_gradient(self._loop.q)
         known, _ = self._loop.value_and_gradient(candidate)
         if not present <= known:
             self._loop.q = candidate
 
     def _make_loop(self) -> core.BlendingLoop:
-        self._training = cKDTree(self.model.training_parameters)
         return core.BlendingLoop(self.model.dimension, self.model.coefficients)

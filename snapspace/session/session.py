@@ -26,7 +26,7 @@ class Session(ABC, Generic[Model]):
     Parameters
     ----------
     model : ReducedModel
-    tolerance : float, default 1e-7
+    tolerance : float, default 1e-7 for posing, 1e-9 for blending
         eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and
         a displacement of a tenth of the diagonal.
     max_iterations : int, default 300
@@ -38,7 +38,12 @@ class Session(ABC, Generic[Model]):
         For a tolerance or bound that is not positive.
     """
 
-    def __init__(self, model: Model, *, tolerance: float = 1e-7, max_iterations: int = 300) -> None:
+    default_tolerance = 1e-7
+
+    def __init__(
+        self, model: Model, *, tolerance: float | None = None, max_iterations: int = 300
+    ) -> None:
+        tolerance = self.default_tolerance if tolerance is None else tolerance
         if not tolerance > 0 or max_iterations < 1:
             raise ValueError(
                 f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be "

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
-from ..problem import Problem
+from ..problem import Problem, lane_count
 from .checkpoint import Checkpoint
 from .snapshots import SampleReport, Snapshots
 from .starts import interpolated_start, lower_start, nearest_start
@@ -20,9 +20,6 @@ from .starts import interpolated_start, lower_start, nearest_start
 FloatArray = NDArray[np.float64]
 Solver = Literal["fast", "newton"]
 SOLVERS: tuple[Solver, ...] = ("fast", "newton")
-#: Waves of at least this many samples are solved in wide packs: a pack costs as much half empty as
-#: full. Which one is taken depends on the wave only, not on what of it is missing.
-WIDE_FROM = 24
 Progress = Callable[[int, int], None]
 
 
@@ -175,7 +172,7 @@ class _Run:
         inputs = self.problem.inputs(self.samples[missing])
         already, total = len(self.reports), len(self.samples)
         batch, interrupted = run_interruptible(
-            lambda control: self._solve(inputs, starts, control, wide=len(wave) >= WIDE_FROM),
+            lambda control: self._solve(inputs, starts, control, lanes=lane_count(len(wave))),
             lambda finished: self.progress(already + finished, total),
         )
         done = [k for k, report in enumerate(batch.reports) if report.status.name != "cancelled"]
@@ -207,13 +204,13 @@ class _Run:
         return lower_start(self.problem.system, inputs, interpolated, nearest)
 
     def _solve(
-        self, inputs: FloatArray, starts: FloatArray, control: core.SolveControl, *, wide: bool
+        self, inputs: FloatArray, starts: FloatArray, control: core.SolveControl, *, lanes: int
     ) -> core.Batch:
         options = self.options
         solve = (
             partial(self.problem.system.solve_newton, clamp=options.clamp)
             if options.solver == "newton"
-            else partial(self.problem.system.solve_fast, wide=wide)
+            else partial(self.problem.system.solve_fast, lanes=lanes)
         )
         batch: core.Batch = solve(
             inputs,
@@ -249,4 +246,9 @@ def _checked(problem: Problem, parameters: ArrayLike) -> FloatArray:
     bad = np.flatnonzero(~np.isfinite(samples).all(axis=1))
     if bad.size:
         raise ValueError(f"solve_snapshots: sample {bad[0]} has a parameter that is not finite")
+    for index, w in enumerate(samples):
+        try:
+            problem.check(w)
+        except ValueError as error:
+            raise ValueError(f"solve_snapshots: sample {index}: {error}") from None
     return samples

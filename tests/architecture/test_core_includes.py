@@ -23,7 +23,17 @@ ALLOWED: dict[str, set[str]] = {
     "energy": {"mesh", "simd"},
     "snapshots": {"mesh", "energy", "simd", "threads"},
     "reduction": {"mesh", "energy", "online", "threads"},
-    "bindings": {"mesh", "energy", "snapshots", "reduction", "online", "simd", "threads"},
+    "fitting": {"mesh", "energy", "snapshots", "threads"},
+    "bindings": {
+        "mesh",
+        "energy",
+        "snapshots",
+        "fitting",
+        "reduction",
+        "online",
+        "simd",
+        "threads",
+    },
 }
 
 #: core/online is meant for WebAssembly too: no threads, files, output, exceptions, Eigen.

@@ -19,6 +19,8 @@ ALLOWED: dict[str, set[str]] = {
     "registration": {"blas"},
     "sampling": set(),
     "pictures": set(),
+    "filling": {"mesh"},
+    "fitting": {"_core", "blas", "interruptible", "mesh", "registration"},
     "generators": {"mesh"},
     "energy": {"_core", "mesh"},
     "problem": {"_core", "interruptible", "mesh", "energy", "registration"},

@@ -1,0 +1,116 @@
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "bindings/arrays.h"
+#include "fitting/pose_fitter.h"
+
+namespace snapspace {
+
+namespace {
+
+void require_below(const IndexMatrixIn& indices, std::size_t n, const char* message) {
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    require(indices.data()[i] >= 0 && static_cast<std::size_t>(indices.data()[i]) < n, message);
+}
+
+void construct(FittingSystem* self, const MatrixIn& vertices, const IndexMatrixIn& tets,
+               const IndexMatrixIn& corners, const MatrixIn& weights, const VectorIn& areas) {
+  require(vertices.shape(1) == 3, "vertices must be (n, 3)");
+  require(tets.shape(1) == 4, "tets must be (m, 4)");
+  require(corners.shape(1) == 4 && weights.shape(1) == 4, "corners and weights must be (s, 4)");
+  require(corners.shape(0) == weights.shape(0) && corners.shape(0) == areas.size(),
+          "one row of weights and one area per surface point is needed");
+  require_below(tets, vertices.shape(0), "a tet has a vertex index out of range");
+  require_below(corners, vertices.shape(0), "a surface point has a corner out of range");
+  const LocalMesh mesh(vertices.data(), static_cast<int>(vertices.shape(0)), tets.data(),
+                       static_cast<int>(tets.shape(0)));
+  const SurfaceSprings springs(corners.data(), weights.data(), areas.data(),
+                               static_cast<int>(areas.size()), mesh.places);
+  new (self) FittingSystem(mesh, springs);
+}
+
+std::vector<double> internal(const FittingSystem& system, const VectorIn& u) {
+  require(u.size() == static_cast<std::size_t>(system.size()), "needs a (3n,) vector");
+  std::vector<double> result(u.size());
+  system.numbering.to_internal(u.data(), result.data());
+  return result;
+}
+
+DoublesOut external(const FittingSystem& system, const std::vector<double>& u) {
+  DoublesOut result = new_array<double>({u.size()});
+  system.numbering.to_external(u.data(), result.data());
+  return result;
+}
+
+/// Of the symmetric Dirichlet energy, without limits.
+std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u) {
+  const std::vector<double> shape = internal(self, u);
+  std::vector<double> gradient(shape.size());
+  const Distortions limits(self.rest.tets.size(), std::numeric_limits<double>::infinity());
+  Distortions distortions(limits.size());
+  const double value =
+      symmetric_dirichlet(self.rest, shape.data(), limits, gradient.data(), distortions);
+  return {value, external(self, gradient)};
+}
+
+DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const VectorIn& v) {
+  BlockHessian hessian = self.pattern;
+  assemble_projected(self.rest, internal(self, u).data(), hessian);
+  std::vector<double> product(self.size());
+  hessian.multiply(internal(self, v).data(), product.data());
+  return external(self, product);
+}
+
+std::pair<DoublesOut, FitReport> fit(const FittingSystem& self, const MatrixIn& targets,
+                                     double deviation, double first_stiffness, int max_iterations,
+                                     const SolveControl& control) {
+  require(
+      targets.shape(0) == static_cast<std::size_t>(self.springs.size()) && targets.shape(1) == 3,
+      "targets must be (points, 3)");
+  FitReport report;
+  std::vector<double> shape;
+  {
+    nb::gil_scoped_release release;
+    PoseFitter fitter(self, {deviation, first_stiffness, max_iterations});
+    report = fitter.fit(targets.data(), control);
+    shape = fitter.shape();
+  }
+  return {external(self, shape), report};
+}
+
+}  // namespace
+
+void bind_fitting(nb::module_& m) {
+  nb::enum_<FitStatus>(m, "FitStatus", "How the fit of one pose ended.")
+      .value("converged", FitStatus::converged)
+      .value("max_iterations", FitStatus::max_iterations)
+      .value("stiffness_limit", FitStatus::stiffness_limit)
+      .value("line_search_failed", FitStatus::line_search_failed)
+      .value("cancelled", FitStatus::cancelled);
+
+  nb::class_<FitReport>(m, "FitReport", "How the fit of one pose ended.")
+      .def_ro("status", &FitReport::status)
+      .def_ro("stages", &FitReport::stages)
+      .def_ro("iterations", &FitReport::iterations, "Newton steps of all stages.")
+      .def_ro("evaluations", &FitReport::evaluations)
+      .def_ro("linear_iterations", &FitReport::linear_iterations)
+      .def_ro("stiffness", &FitReport::stiffness, "Of the last stage.")
+      .def_ro("deviation", &FitReport::deviation,
+              "Root mean square distance of surface and target, weighted by area.")
+      .def_ro("seconds", &FitReport::seconds);
+
+  nb::class_<FittingSystem>(m, "FittingSystem", "What all poses of a mesh and surface share.")
+      .def("__init__", &construct, nb::arg("vertices"), nb::arg("tets").noconvert(),
+           nb::arg("corners").noconvert(), nb::arg("weights"), nb::arg("areas"))
+      .def("energy", &energy, nb::arg("u"),
+           "Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted, "
+           "and its gradient (3n,).")
+      .def("projected_hessian_product", &hessian_product, nb::arg("u"), nb::arg("v"),
+           "Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).")
+      .def("fit", &fit, nb::arg("targets"), nb::kw_only(), nb::arg("deviation"),
+           nb::arg("first_stiffness"), nb::arg("max_iterations"), nb::arg("control"),
+           "Displacements (3n,) that bring the surface to displacements (s, 3), and a report.");
+}
+
+}  // namespace snapspace

@@ -1,0 +1,37 @@
+#pragma once
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "energy/elastic_energy.h"
+
+namespace snapspace {
+
+/// The Hessian of an elastic energy with each 3 x 3 block replaced by a third of its trace: an n x
+/// n matrix that, applied to x, y and z, preconditions the Hessian. Where strains are small it is a
+/// multiple of the Laplacian; where tets are stretched it is as much stiffer as the material is.
+///
+/// The trace has a closed form: with C = F^T F and stress S, the block of vertices j, k with hat
+/// gradients b is volume * b_j^T ((mu tr(C) I + (mu + lam) C) / 3 + S) b_k. The singular values of
+/// F are raised to at least one, where S is positive semi-definite and with it the matrix.
+class ScalarHessian {
+ public:
+  explicit ScalarHessian(const RestShape& rest)
+      : tets_(rest.tets), vertex_count_(rest.vertex_count), locals_(rest.tets.size()) {
+    for (Eigen::Matrix4d& local : locals_) local.setZero();
+  }
+
+  /// Adds weight times the Hessian at displacements u. The energy may have another rest shape of
+  /// the same tets.
+  void add(const ElasticEnergy& energy, const double* u, double weight);
+
+  /// The sum so far; singular, since it does not change under translations.
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
+
+ private:
+  const std::vector<RestTet>& tets_;
+  int vertex_count_;
+  std::vector<Eigen::Matrix4d> locals_;
+};
+
+}  // namespace snapspace

@@ -1,0 +1,180 @@
+#include "fitting/pose_fitter.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include "snapshots/line_search.h"
+#include "threads/flush_denormals.h"
+
+namespace snapspace {
+
+namespace {
+
+/// Relative decrements at which a stage has served as a start of the next, and at which the last
+/// one ends.
+constexpr double kStageTolerance = 5e-2;
+constexpr double kTolerance = 1e-3;
+/// Growth of the stiffness from stage to stage. The deviation falls about as its square root, so
+/// the last step can be sized to end near the goal: a stiffer surface distorts the tets more.
+constexpr double kMostGrowth = 10.0;
+constexpr double kLeastGrowth = 1.5;
+/// Times the first stiffness; no goal that can be reached needs it.
+constexpr double kStiffnessLimit = 1e10;
+/// A step may raise no tet's distortion by more than this factor: tets that a long step crushes
+/// take many steps to recover, and some never do.
+constexpr double kMostDistortionGrowth = 3.0;
+
+double dot(const std::vector<double>& a, const std::vector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// y += scale * x
+void add_scaled(std::vector<double>& y, double scale, const std::vector<double>& x) {
+  for (std::size_t i = 0; i < y.size(); ++i) y[i] += scale * x[i];
+}
+
+}  // namespace
+
+PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
+    : system_(system), options_(options), hessian_(system.pattern) {
+  for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_, &residual_,
+                  &preconditioned_, &search_, &product_})
+    v->resize(system.size());
+  limits_.resize(system.rest.tets.size());
+  distortions_.resize(system.rest.tets.size());
+}
+
+FitReport PoseFitter::fit(const double* targets, const SolveControl& control) {
+  const FlushDenormals flush;
+  const auto begin = std::chrono::steady_clock::now();
+  targets_ = targets;
+  start();
+  while (!done_ && !control.cancelled) take_step(control);
+  report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report_;
+}
+
+/// The rest shape, and the first stage.
+void PoseFitter::start() {
+  report_ = {};
+  report_.stages = 1;
+  report_.stiffness = options_.first_stiffness;
+  done_ = false;
+  std::fill(u_.begin(), u_.end(), 0.0);
+  std::fill(limits_.begin(), limits_.end(), kMostDistortionGrowth * 6.0);
+  value_ = value_and_gradient(u_, gradient_);
+  decrement_ = value_;
+  report_.deviation = system_.springs.deviation(targets_, u_.data());
+}
+
+/// One Newton step, and what follows from it: the next stage, or the end.
+void PoseFitter::take_step(const SolveControl& control) {
+  const auto end = [&](FitStatus status) {
+    report_.status = status;
+    done_ = true;
+  };
+  assemble_projected(system_.rest, u_.data(), hessian_);
+  const double decrement = find_direction(control);
+  if (control.cancelled) return;  // the direction may be half done
+  decrement_ = decrement;
+  const auto below = [&](double tolerance) {
+    return decrement <= std::max(tolerance * value_, system_.negligible());
+  };
+  const bool near = report_.deviation <= options_.deviation;
+  if (near && below(kTolerance)) return end(FitStatus::converged);
+  if (report_.iterations >= options_.max_iterations) return end(FitStatus::max_iterations);
+  const bool next_stage = !near && below(kStageTolerance);
+  // at a minimum there is no step to take
+  if (!below(0.0)) {
+    if (!line_search(-decrement)) return end(FitStatus::line_search_failed);
+    ++report_.iterations;
+    report_.deviation = system_.springs.deviation(targets_, u_.data());
+  }
+  if (next_stage && !raise_stiffness()) end(FitStatus::stiffness_limit);
+}
+
+bool PoseFitter::raise_stiffness() {
+  const double ratio = report_.deviation / options_.deviation;
+  report_.stiffness *= std::clamp(1.1 * ratio * ratio, kLeastGrowth, kMostGrowth);
+  ++report_.stages;
+  value_ = value_and_gradient(u_, gradient_);
+  decrement_ = value_;
+  return report_.stiffness <= kStiffnessLimit * options_.first_stiffness;
+}
+
+double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
+  const double value =
+      symmetric_dirichlet(system_.rest, u.data(), limits_, gradient.data(), distortions_);
+  if (!std::isfinite(value)) return value;
+  return value +
+         system_.springs.value_and_gradient(report_.stiffness, targets_, u.data(), gradient.data());
+}
+
+ScalarFactor PoseFitter::scalar_factor() const {
+  const auto& start = hessian_.row_start();
+  const auto& columns = hessian_.columns();
+  const int n = system_.rest.vertex_count;
+  std::vector<double> values(columns.size());
+  std::transform(hessian_.blocks().begin(), hessian_.blocks().end(), values.begin(),
+                 [](const auto& block) { return (block[0] + block[4] + block[8]) / 3.0; });
+  const Eigen::Map<const Eigen::SparseMatrix<double>> elastic(
+      n, n, static_cast<Eigen::Index>(values.size()), start.data(), columns.data(), values.data());
+  return ScalarFactor(system_.springs.scalar_hessian(report_.stiffness, n) + elastic);
+}
+
+/// Preconditioned conjugate gradients on H d = -g, loosely far from the minimum [Eisenstat & Walker
+/// 1996]. Returns -g.d.
+double PoseFitter::find_direction(const SolveControl& control) {
+  constexpr int kMaxIterations = 500;
+  const double scale = std::max(value_, system_.negligible());
+  const double forcing = std::clamp(std::sqrt(decrement_ / scale), 1e-2, 0.1);
+  const ScalarFactor factor = scalar_factor();
+  std::fill(direction_.begin(), direction_.end(), 0.0);
+  for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
+  factor.solve(residual_.data(), preconditioned_.data(), product_.data());
+  search_ = preconditioned_;
+  double norm = dot(residual_, preconditioned_);
+  const double goal = norm * forcing * forcing;
+  for (int k = 0; k < kMaxIterations && norm > goal && !control.cancelled; ++k) {
+    hessian_.multiply(search_.data(), product_.data());
+    system_.springs.add_product(report_.stiffness, search_.data(), product_.data());
+    ++report_.linear_iterations;
+    const double step = norm / dot(search_, product_);
+    add_scaled(direction_, step, search_);
+    add_scaled(residual_, -step, product_);
+    factor.solve(residual_.data(), preconditioned_.data(), product_.data());
+    const double next = dot(residual_, preconditioned_);
+    const double ratio = next / norm;
+    norm = next;
+    for (std::size_t i = 0; i < search_.size(); ++i)
+      search_[i] = preconditioned_[i] + ratio * search_[i];
+  }
+  return -dot(gradient_, direction_);
+}
+
+bool PoseFitter::line_search(double slope) {
+  constexpr int kMaxShortenings = 40;
+  double step = 1.0;
+  for (int shortening = 0; shortening <= kMaxShortenings; ++shortening) {
+    for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] + step * direction_[i];
+    const double value = value_and_gradient(trial_, trial_gradient_);
+    ++report_.evaluations;
+    const bool finite = std::isfinite(value);
+    const double trial_slope = finite ? dot(trial_gradient_, direction_) : 0.0;
+    if (finite && sufficient_decrease(value_, slope, step, value, trial_slope)) {
+      u_.swap(trial_);
+      gradient_.swap(trial_gradient_);
+      value_ = value;
+      for (std::size_t t = 0; t < limits_.size(); ++t)
+        limits_[t] = kMostDistortionGrowth * distortions_[t];
+      return true;
+    }
+    // a refused tet says nothing about how much shorter
+    step = finite ? shorter_step(value_, slope, step, value, trial_slope) : 0.5 * step;
+  }
+  return false;
+}
+
+}  // namespace snapspace

@@ -1,0 +1,79 @@
+#pragma once
+#include <vector>
+
+#include "fitting/fitting_system.h"
+#include "fitting/symmetric_dirichlet.h"
+#include "snapshots/scalar_factor.h"
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+enum class FitStatus : int {
+  converged = 0,
+  max_iterations = 1,
+  stiffness_limit = 2,  ///< the target is not reached however hard the surface is pulled
+  line_search_failed = 3,
+  cancelled = 4,
+};
+
+struct FitOptions {
+  double deviation = 0.0;        ///< goal: root mean square distance of surface and target
+  double first_stiffness = 0.0;  ///< of the surface; see PoseFitter
+  int max_iterations = 300;      ///< Newton steps of all stages together
+};
+
+struct FitReport {
+  FitStatus status = FitStatus::cancelled;
+  int stages = 0;
+  int iterations = 0;
+  int evaluations = 0;
+  int linear_iterations = 0;
+  double stiffness = 0.0;  ///< of the last stage
+  double deviation = 0.0;  ///< at the returned shape
+  double seconds = 0.0;
+};
+
+/// Displacements of a tet mesh that bring its surface to a target, without inverted tets.
+///
+/// Minimises F(u) = symmetric Dirichlet energy + springs of a stiffness that is raised in stages
+/// until the surface is near enough. The first stage must be so soft that the shape bends towards
+/// its pose and does not stretch: limbs pulled hard through the body get caught in folds that no
+/// later stage undoes.
+///
+/// Each stage by Newton's method on the projected Hessian. The systems are solved by conjugate
+/// gradients on a scalar matrix: the mean of the diagonal of each 3 x 3 block. It follows the
+/// compressed tets, whose stiffness varies by orders of magnitude, and 5 to 20 iterations suffice;
+/// L-BFGS on the Laplacian of the rest shape does not get over them.
+class PoseFitter {
+ public:
+  PoseFitter(const FittingSystem& system, const FitOptions& options);
+
+  /// @param targets  displacements of the surface points, 3 per point
+  FitReport fit(const double* targets, const SolveControl& control);
+
+  /// Displacements in the internal numbering.
+  [[nodiscard]] const std::vector<double>& shape() const { return u_; }
+
+ private:
+  void start();
+  void take_step(const SolveControl& control);
+  double value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient);
+  double find_direction(const SolveControl& control);
+  bool line_search(double slope);
+  [[nodiscard]] bool raise_stiffness();
+  [[nodiscard]] ScalarFactor scalar_factor() const;
+
+  const FittingSystem& system_;
+  FitOptions options_;
+  BlockHessian hessian_;
+  const double* targets_ = nullptr;
+  FitReport report_;
+  double value_ = 0.0;
+  double decrement_ = 0.0;  // -g.d of the last direction d
+  bool done_ = false;
+  Distortions limits_, distortions_;
+  std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
+  std::vector<double> residual_, preconditioned_, search_, product_;
+};
+
+}  // namespace snapspace

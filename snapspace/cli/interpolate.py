@@ -1,0 +1,204 @@
+"""`snapspace interpolate`: several poses become a model file."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+from rich import box
+from rich.table import Table
+
+from ..energy import StVK
+from ..fitting import DEVIATION, PoseFit
+from ..mesh import write_tets
+from ..problem import InterpolationProblem
+from ..registration import SCALE_POLICIES, ScalePolicy
+from .build import check_output
+from .choices import Choices, choice_options
+from .console import console, notice, print_json, print_next
+from .fit_cache import FitCache
+from .options import FILE, json_option, threads_option
+from .pipeline import build_model
+from .pose_files import PoseOptions, PoseSet, read_poses
+from .recipe import check_dimension
+from .summary import print_summary
+
+SAMPLES, DIMENSION = 40, 20
+
+
+@click.command(short_help="Make a model that blends poses.")
+@click.argument("files", nargs=-1, required=True, type=FILE, metavar="POSE POSE ...")
+@click.option(
+    "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
+)
+@click.option(
+    "--tets",
+    type=FILE,
+    metavar="FILE",
+    help="Tet mesh of the first surface: its first vertices are the surface's, or it encloses it "
+    "[default: the surface is filled].",
+)
+@click.option(
+    "--edge-length",
+    type=float,
+    metavar="SHARE",
+    help="Of the tets that fill the surface, relative to the diagonal.",
+)
+@click.option(
+    "--deviation",
+    type=float,
+    default=DEVIATION,
+    show_default=True,
+    help="Surface fits end at this rms distance, relative to the diagonal; a larger one is softer.",
+)
+@click.option(
+    "--scale",
+    type=click.Choice(SCALE_POLICIES),
+    default="auto",
+    show_default=True,
+    help="Bring poses to the size of the first: always (match), never (keep), or where the factor "
+    "is so large that the unit of length must differ (auto).",
+)
+@click.option("--accept-inverted", is_flag=True, help="Go on with inverted tets in fitted poses.")
+@click.option(
+    "--save-poses", type=FILE, metavar="DIR", help="Also write the tets of every pose, as .msh."
+)
+@click.option(
+    "--extrapolation",
+    type=click.FloatRange(min=0.0),
+    default=0.0,
+    show_default=True,
+    help="Also sample outside of the simplex, enlarged by this share.",
+)
+@click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
+@click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
+@choice_options(samples=SAMPLES, dimension=DIMENSION, sampling="sobol")
+@click.option("--repair", is_flag=True, help="Mend tet meshes that have curable faults.")
+@threads_option
+@json_option
+def interpolate(
+    files: Sequence[Path],
+    output: Path,
+    tets: Path | None,
+    edge_length: float | None,
+    deviation: float,
+    scale: ScalePolicy,
+    accept_inverted: bool,
+    save_poses: Path | None,
+    extrapolation: float,
+    lam: float,
+    mu: float,
+    choices: Choices,
+    repair: bool,
+    threads: int | None,
+    as_json: bool,
+) -> None:
+    """Build a model that blends poses of one object along elastic paths.
+
+    Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
+    the same tets; vertex i of all poses is one point of the object. Each may be in a frame of its
+    own. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
+
+    Ctrl-C keeps finished poses and samples beside the model; the same command goes on from there.
+
+    \b
+    Examples:
+      snapspace interpolate cylinder.mesh helix.mesh --samples 30 -o helix.snapspace
+      snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
+      snapspace interpolate stand.off sit.off --tets stand.mesh -o cat.snapspace
+    """
+    begin = time.perf_counter()
+    check_output(output)
+    if choices.energy_fraction is None:
+        check_dimension(choices.dimension or DIMENSION, choices.samples, known=len(files))
+    cache = FitCache.beside(output)
+    options = PoseOptions(
+        tets=tets,
+        edge_length=edge_length,
+        deviation=deviation,
+        scale=scale,
+        accept_inverted=accept_inverted,
+        repair=repair,
+        threads=threads,
+    )
+    pose_set = read_poses(files, options, cache)
+    print_fits(pose_set.fits)
+    problem = InterpolationProblem(
+        pose_set.poses, material=StVK(lam=lam, mu=mu), extrapolation=extrapolation
+    )
+    recipe = choices.recipe(problem, dimension=DIMENSION, threads=threads, known=len(files))
+    if save_poses is not None:
+        _save_poses(save_poses, pose_set)
+    source: dict[str, Any] = {
+        "poses": [file.name for file in files],
+        "tets": None if tets is None else tets.name,
+        "fits": [asdict(fit) for fit in pose_set.fits],
+    }
+    built = build_model(
+        problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
+    )
+    built.seconds.update(pose_set.seconds)
+    cache.remove()
+    print_summary(built, include_unconverged=choices.include_unconverged)
+    _print_next(output, len(pose_set.poses))
+    if as_json:
+        print_json({**built.as_json(), "poses": len(pose_set.poses), "fits": source["fits"]})
+
+
+def print_fits(fits: Sequence[PoseFit]) -> None:
+    """How far the fitted poses are from their surfaces, as a table on standard error."""
+    if not fits:
+        return
+    table = Table(
+        title="fitted poses; distances relative to the diagonal",
+        title_justify="left",
+        title_style="bold",
+        box=box.SIMPLE_HEAD,
+    )
+    table.add_column("")
+    for name in ("rms", "max", "inverted", "stretch", "seconds"):
+        table.add_column(name, justify="right")
+    for fit in fits:
+        table.add_row(
+            fit.name,
+            f"{fit.rms:.2g}",
+            f"{fit.max:.2g}",
+            str(fit.inverted_tets),
+            f"{fit.smallest_stretch:.2g} to {fit.largest_stretch:.2g}",
+            f"{fit.seconds:.2g}",
+        )
+    console().print(table)
+    for fit in fits:
+        if fit.status != "converged":
+            notice(f"notice: {fit.name} ended with {fit.status}, {fit.rms:.2g} from its surface")
+
+
+def _save_poses(folder: Path, pose_set: PoseSet) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(
+            f"{folder}: cannot make the folder ({error.strerror}); give another --save-poses"
+        ) from None
+    poses = pose_set.poses
+    for name, shape in zip(poses.names, poses.shapes, strict=True):
+        file = folder / f"{name.replace('/', '-').replace(': ', '-')}.msh"
+        write_tets(file, poses.reference, vertices=shape)
+
+
+def _print_next(output: Path, poses: int) -> None:
+    equal = ",".join(["0.5", "0.5", *["0"] * (poses - 2)])
+    print_next(
+        [
+            ("how far it is from the full solution", ["validate", output]),
+            ("one blend", ["blend", output, "--weights", equal, "-o", "blend.obj"]),
+            (
+                "a path through all poses, beside the straight one",
+                ["blend", output, "--path", "30", "-o", "frames", "--linear", "--png", "path.png"],
+            ),
+        ]
+    )

@@ -1,0 +1,201 @@
+"""Poses as the user has them: tet meshes, or surfaces that are filled and fitted."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..filling import fill_surface
+from ..fitting import PoseFit, fit_poses
+from ..mesh import (
+    EmbeddedSurface,
+    TetMesh,
+    boundary_surface,
+    embed_surface,
+    read_surface,
+    read_tets,
+)
+from ..mesh.correspondence import check_same_faces
+from ..problem import Poses
+from ..registration import ScalePolicy, matched_scales
+from .console import console, notice
+from .files import SURFACE_INPUTS, TET_INPUTS
+from .fit_cache import FitCache
+from .progress import sample_progress
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class PoseOptions:
+    """How poses are read.
+
+    tets : file with the tets of the first pose's surface; None fills it
+    edge_length : of the tets that fill it, relative to the diagonal; None for the default
+    deviation : rms distance from the surfaces, relative to the diagonal, that fits aim at
+    scale : when poses are brought to the size of the first one
+    accept_inverted : whether inverted tets in a pose are accepted
+    repair : whether faults of tet meshes are mended
+    """
+
+    tets: Path | None
+    edge_length: float | None
+    deviation: float
+    scale: ScalePolicy
+    accept_inverted: bool
+    repair: bool
+    threads: int | None
+
+
+@dataclass(frozen=True)
+class PoseSet:
+    """Poses with the surface that the user knows, how they were fitted, and seconds by stage."""
+
+    poses: Poses
+    surface: EmbeddedSurface
+    fits: Sequence[PoseFit] = ()
+    seconds: dict[str, float] = field(default_factory=dict)
+
+
+def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> PoseSet:
+    """The poses of two or more files, all tet meshes or all surfaces.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two files, a mixture of kinds, poses that do not correspond (the first
+        difference is named), a surface that cannot be filled, or inverted tets unless accepted.
+    """
+    if len(files) < 2:
+        raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
+    names = pose_names(files)
+    kinds = {file.suffix.lower() in SURFACE_INPUTS for file in files}
+    if len(kinds) == 2:
+        raise ValueError(
+            "the poses are partly tets and partly surfaces; give all of one kind (with --tets the "
+            "first surface's tets come from a file)"
+        )
+    for file in files:
+        if file.suffix.lower() not in SURFACE_INPUTS + TET_INPUTS:
+            known = ", ".join(SURFACE_INPUTS + TET_INPUTS)
+            raise ValueError(f"{file}: unknown extension '{file.suffix}'; known are {known}")
+    if kinds == {True}:
+        return _from_surfaces(files, names, options, cache)
+    if options.tets is not None:
+        raise ValueError("--tets is for poses that are surfaces; these have tets of their own")
+    return _from_tets(files, names, options)
+
+
+def pose_names(files: Sequence[Path]) -> list[str]:
+    """The files' names without extension, with their folder or number where they are alike."""
+    for names in (
+        [file.stem for file in files],
+        [f"{file.parent.name}/{file.stem}" for file in files],
+    ):
+        if len(set(names)) == len(names):
+            return names
+    return [f"{number}: {file.stem}" for number, file in enumerate(files)]
+
+
+def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions) -> PoseSet:
+    meshes = [read_tets(file, repair=options.repair) for file in files]
+    poses = Poses.of(meshes, names=names)
+    shapes = _scaled(poses.shapes, poses.tets, names, options)
+    poses = Poses(shapes, poses.tets, names=names)
+    return PoseSet(poses, boundary_surface(poses.reference))
+
+
+def _from_surfaces(
+    files: Sequence[Path], names: Sequence[str], options: PoseOptions, cache: FitCache
+) -> PoseSet:
+    surfaces = [read_surface(file) for file in files]
+    check_same_faces(surfaces, names)
+    faces = surfaces[0][1]
+    targets = _scaled(np.stack([vertices for vertices, _ in surfaces]), faces, names, options)
+    seconds: dict[str, float] = {}
+    begin = time.perf_counter()
+    mesh = _tets_of(targets[0], faces, options, cache)
+    surface = embed_surface(targets[0], faces, mesh)
+    seconds["tets"] = time.perf_counter() - begin
+
+    begin = time.perf_counter()
+    shapes, fits = _fitted(mesh, surface, targets[1:], names[1:], options, cache)
+    seconds["fitting"] = time.perf_counter() - begin
+    poses = Poses(
+        np.concatenate([mesh.vertices[None], shapes]),
+        mesh.tets,
+        names=names,
+        accept_inverted=options.accept_inverted,
+    )
+    return PoseSet(poses, surface, fits, seconds)
+
+
+def _scaled(
+    shapes: FloatArray,
+    cells: NDArray[np.int32],
+    names: Sequence[str],
+    options: PoseOptions,
+) -> FloatArray:
+    scaled, factors = matched_scales(shapes, cells, policy=options.scale)
+    for name, factor in zip(names, factors, strict=True):
+        if factor != 1.0:
+            notice(f"notice: {name} is scaled by {factor:.6g} to the size of {names[0]}")
+    return scaled
+
+
+def _tets_of(
+    vertices: FloatArray, faces: NDArray[np.int32], options: PoseOptions, cache: FitCache
+) -> TetMesh:
+    if options.tets is not None:
+        return read_tets(options.tets, repair=options.repair)
+    size = {} if options.edge_length is None else {"edge_length": options.edge_length}
+    known = cache.load_tets(vertices, faces, size)
+    if known is not None:
+        notice("resuming: the first pose was filled before")
+        return known
+    with console().status("filling the first pose with tets"):
+        mesh = fill_surface(vertices, faces, **size)
+    cache.save_tets(vertices, faces, size, mesh)
+    return mesh
+
+
+def _fitted(
+    mesh: TetMesh,
+    surface: EmbeddedSurface,
+    targets: FloatArray,
+    names: Sequence[str],
+    options: PoseOptions,
+    cache: FitCache,
+) -> tuple[FloatArray, list[PoseFit]]:
+    """Shapes (k, n, 3) of the targets, of which the cache may have some."""
+    settings = {"deviation": options.deviation}  # what the cache goes by
+    found = {
+        number: known
+        for number, target in enumerate(targets)
+        if (known := cache.load_fit(mesh, surface, target, settings)) is not None
+    }
+    if found:
+        notice(f"resuming: {len(found)} of {len(targets)} poses were fitted before")
+    missing = [number for number in range(len(targets)) if number not in found]
+    if missing:
+        with sample_progress("poses", done=len(found), total=len(targets)) as progress:
+            fits = fit_poses(
+                mesh,
+                surface,
+                targets[missing],
+                names=[names[number] for number in missing],
+                threads=options.threads,
+                progress=lambda done, _: progress(len(found) + done, len(targets)),
+                on_finished=lambda k, shape, fit: cache.save_fit(
+                    mesh, surface, targets[missing[k]], settings, shape, fit
+                ),
+                deviation=options.deviation,
+            )
+        found.update(zip(missing, zip(fits.shapes, fits.reports, strict=True), strict=True))
+    ordered = [found[number] for number in range(len(targets))]
+    return np.stack([shape for shape, _ in ordered]), [fit for _, fit in ordered]

@@ -1,0 +1,109 @@
+"""Filling a closed surface with tets."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh import TetMesh, compact_surface, repair_tets, tet_volumes
+from ..mesh.arrays import as_indices, as_points
+from ..mesh.closed_surface import check_closed, enclosed_volume
+from ..mesh.components import tet_components
+from ..mesh.validation import check_indices, check_points
+from .ftetwild import ftetwild
+
+# Solids with less than this share of the volume are crumbs, which are dropped.
+_CRUMB = 1e-3
+
+
+def fill_surface(
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    *,
+    edge_length: float = 0.02,
+    tolerance: float = 5e-4,
+) -> TetMesh:
+    """Fill a closed triangle surface with tets.
+
+    Parameters
+    ----------
+    vertices : array_like, (s, 3)
+    faces : array_like of int, (f, 3)
+        Closed and oriented alike, outward or inward. Self-intersections are allowed: inside is
+        where the winding number is positive, so that parts that overlap become one.
+    edge_length : float, default 0.02
+        Wanted length of the tets' edges where the surface does not ask for shorter ones, as a share
+        of the diagonal of the surface's bounding box.
+    tolerance : float, default 5e-4
+        How far the boundary of the tets may be from the surface, as a share of the diagonal. What
+        is thinner may be lost, and gaps that are narrower may be closed. Smaller values need more
+        tets and time.
+
+    Returns
+    -------
+    TetMesh
+        Its boundary is near the surface but has vertices of its own: `embed_surface` expresses the
+        given surface by the tets.
+
+    Raises
+    ------
+    ValueError
+        For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
+        a surface that is not closed, not oriented alike or encloses no volume, options out of
+        range, if the tets are several separate solids, or if fTetWild fails.
+
+    Notes
+    -----
+    Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral Meshing in the Wild", 2020 (package
+    pytetwild). It takes from seconds to minutes, on one thread, and can be interrupted with Ctrl-C.
+    **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
+    and offers no seed, so two runs differ in some tets. Write the mesh to a file to work with the
+    same one again.
+    """
+    points = as_points(vertices, who="fill_surface")
+    triangles = as_indices(faces, corners=3, who="fill_surface", what="faces")
+    check_points(points, who="fill_surface")
+    check_indices(triangles, len(points), who="fill_surface", what="face")
+    check_closed(triangles, who="fill_surface")
+    _check_share(edge_length, "edge_length", largest=1.0)
+    _check_share(tolerance, "tolerance", largest=0.1)
+    points, triangles = compact_surface(points, triangles)
+    center = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    # fTetWild has absolute thresholds: in its unit of length all surfaces have the same size
+    scaled = (points - center) / (diagonal or 1.0)
+    volume = enclosed_volume(scaled, triangles)
+    if abs(volume) < np.finfo(np.float64).eps:
+        raise ValueError(
+            f"fill_surface: the surface encloses no volume ({len(triangles)} faces): a solid is "
+            "needed; check that the surface is neither flat nor doubly covered"
+        )
+    outward = triangles if volume > 0 else np.ascontiguousarray(triangles[:, ::-1])
+    tet_vertices, tets = ftetwild(scaled, outward, edge_length=edge_length, tolerance=tolerance)
+    _check_one_solid(tet_vertices, tets)
+    mesh, _ = repair_tets(tet_vertices * diagonal + center, tets)
+    return mesh
+
+
+def _check_share(value: float, name: str, *, largest: float) -> None:
+    if not 0 < value <= largest:
+        raise ValueError(
+            f"fill_surface: {name} is {value}, but must be positive and at most {largest}: it is "
+            "a share of the diagonal"
+        )
+
+
+def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> None:
+    if not len(tets):
+        raise ValueError(
+            "fill_surface: fTetWild found nothing inside of the surface: it may be thinner than "
+            "the tolerance everywhere, lower it"
+        )
+    volumes = np.abs(tet_volumes(vertices, tets))
+    share = np.bincount(tet_components(tets, len(vertices)), volumes) / volumes.sum()
+    solids = int((share > _CRUMB).sum())
+    if solids > 1:
+        raise ValueError(
+            f"fill_surface: the tets are {solids} separate solids, but one is needed: join the "
+            "parts of the surface, or lower the tolerance if a thin bridge between them was lost"
+        )

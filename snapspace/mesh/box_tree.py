@@ -1,0 +1,66 @@
+"""BoxTree: which of many boxes are near which of many points."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arrays import FloatArray
+from .morton_code import morton_codes
+
+Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
+
+
+class BoxTree:
+    """A balanced binary tree over axis-aligned boxes in Morton order.
+
+    Parameters
+    ----------
+    low, high : ndarray, (m, 3)
+        Opposite corners of the boxes, m > 0.
+
+    Notes
+    -----
+    Karras, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees", 2012,
+    orders boxes like this. The tree is stored level by level, so that a query takes a few array
+    operations per level for all points together.
+    """
+
+    def __init__(self, low: FloatArray, high: FloatArray) -> None:
+        self._order = np.argsort(morton_codes((low + high) / 2.0), kind="stable")
+        depth = max(0, len(low) - 1).bit_length()
+        # empty boxes fill the last level up: they are infinitely far from everything
+        lows, highs = np.full((2**depth, 3), np.inf), np.full((2**depth, 3), -np.inf)
+        lows[: len(low)], highs[: len(low)] = low[self._order], high[self._order]
+        self._levels = [(lows, highs)]
+        for _ in range(depth):
+            lows = np.minimum(lows[0::2], lows[1::2])
+            highs = np.maximum(highs[0::2], highs[1::2])
+            self._levels.append((lows, highs))
+        self._levels.reverse()
+
+    def within(self, points: FloatArray, distances: FloatArray) -> Pairs:
+        """Pairs of a point and a box not farther from it than the point's distance.
+
+        Parameters
+        ----------
+        points : ndarray, (k, 3)
+        distances : ndarray, (k,)
+            Zero for boxes that contain the point, boundary included.
+
+        Returns
+        -------
+        points, boxes : ndarray of int
+            Indices, one of each per pair, by point.
+        """
+        squared = distances**2
+        point, node = np.arange(len(points)), np.zeros(len(points), np.intp)
+        for level, (low, high) in enumerate(self._levels):
+            if level:
+                point = np.repeat(point, 2)
+                node = (2 * node[:, None] + np.arange(2)).ravel()
+            here = points[point]
+            gap = np.maximum(np.maximum(low[node] - here, here - high[node]), 0.0)
+            near = np.einsum("ij,ij->i", gap, gap) <= squared[point]
+            point, node = point[near], node[near]
+        return point, self._order[node]

@@ -1,0 +1,90 @@
+"""Embedding a surface in the tets that were filled into it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from .arrays import FloatArray, as_indices, as_points
+from .embedded_surface import EmbeddedSurface, single_vertices
+from .tet_mesh import TetMesh
+from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
+from .validation import check_indices, check_points
+
+# All relative to the diagonal of the mesh.
+_SAME = 1e-9  # points closer than this are one
+_FARTHEST = 0.02
+
+
+def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> EmbeddedSurface:
+    """Express a surface by the tets it lies in, so that it follows them.
+
+    Parameters
+    ----------
+    vertices : array_like, (s, 3)
+        The surface at rest, in the unit and frame of the mesh.
+    faces : array_like of int, (f, 3)
+    mesh : TetMesh
+        Filled into the surface. A tetrahedraliser may keep the surface only within an envelope.
+
+    Returns
+    -------
+    EmbeddedSurface
+        With the surface's own vertices, in their order, and its faces; `vertices(mesh.vertices)`
+        are the given vertices up to rounding. If the first s vertices of the mesh are those of the
+        surface, it is exact. Else a vertex that coincides with a tet vertex (1e-9 of the diagonal)
+        follows only that, one inside of the mesh has the barycentric coordinates of its tet, and
+        one outside those of a tet at the closest boundary face, extrapolated: of all tets that
+        share a vertex with that face, the one with the smallest weights.
+
+    Raises
+    ------
+    ValueError
+        For wrong shapes or types, coordinates that are not finite, an index out of range, or a
+        vertex that lies more than 2 % of the mesh's diagonal outside of it.
+
+    Notes
+    -----
+    Where parts of the surface overlap or nearly touch, a vertex may be in a tet of the other part.
+    """
+    points = as_points(vertices, who="embed_surface")
+    triangles = as_indices(faces, corners=3, who="embed_surface", what="faces")
+    check_points(points, who="embed_surface")
+    check_indices(triangles, len(points), who="embed_surface", what="face")
+    if not len(points):
+        raise ValueError("embed_surface: the surface has no vertices; at least one is needed")
+    same = _SAME * mesh.diagonal
+    count = len(points)
+    if count <= len(mesh.vertices) and np.abs(mesh.vertices[:count] - points).max() <= same:
+        return single_vertices(triangles, np.arange(count, dtype=np.int32))
+    tets, weights = containing_tets(mesh, points)
+    _extrapolate_outside(mesh, points, tets, weights)
+    corners = mesh.tets[tets]
+    # the nearest tet vertex may be of a tet that was not chosen: rounding decides at a vertex
+    distance, nearest = cKDTree(mesh.vertices).query(points, distance_upper_bound=same)
+    coincides = np.flatnonzero(distance <= same)
+    corners[coincides] = nearest[coincides, None]
+    weights[coincides] = (1.0, 0.0, 0.0, 0.0)
+    return EmbeddedSurface(triangles, corners, weights)
+
+
+def _extrapolate_outside(
+    mesh: TetMesh, points: FloatArray, tets: NDArray[np.intp], weights: FloatArray
+) -> None:
+    """Fill in what `containing_tets` left open."""
+    outside = np.flatnonzero(tets < 0)
+    if not outside.size:
+        return
+    faces, _ = closest_boundary_faces(mesh, points[outside], limit=_FARTHEST * mesh.diagonal)
+    far = outside[faces < 0]
+    if far.size:
+        _, distance = closest_boundary_faces(mesh, points[far[:1]], limit=np.inf)
+        raise ValueError(
+            f"embed_surface: vertex {far[0]} lies {distance[0]:.4g} outside of the tets, "
+            f"{distance[0] / mesh.diagonal:.3g} of the mesh's diagonal and more than "
+            f"{_FARTHEST}; {far.size} of {len(points)} vertices affected: give the surface that "
+            "the mesh was filled into, in the same unit and frame, or fill it with "
+            "snapspace.fill_surface(vertices, faces)"
+        )
+    tets[outside], weights[outside] = least_extrapolated(mesh, points[outside], faces)

@@ -1,0 +1,159 @@
+"""Where points lie in a tet mesh: the tet around each, or the nearest place on its boundary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .arrays import FloatArray
+from .box_tree import BoxTree
+from .closest_point import closest_on_triangles
+from .tet_mesh import TetMesh
+
+Integers = NDArray[np.intp]
+
+_BLOCK = 4096  # points at a time: their candidates fit into the cache
+# Containing tets may be missed by this share of the diagonal, which is rounding.
+_ROUNDING = 1e-12
+
+
+def barycentric(tets: FloatArray, points: FloatArray) -> FloatArray:
+    """Barycentric coordinates of one point for each tet.
+
+    Parameters
+    ----------
+    tets : ndarray, (k, 4, 3)
+        Corners; positive volumes.
+    points : ndarray, (k, 3)
+        Inside or outside.
+
+    Returns
+    -------
+    ndarray, (k, 4)
+        Rows sum to one; negative beyond the opposite face.
+    """
+    first, second, third = (tets[:, i] - tets[:, 0] for i in (1, 2, 3))
+    offset = points - tets[:, 0]
+    normals = (np.cross(second, third), np.cross(third, first), np.cross(first, second))
+    volume = np.einsum("ij,ij->i", first, normals[0])
+    last = [np.einsum("ij,ij->i", offset, normal) / volume for normal in normals]
+    return np.stack([1.0 - last[0] - last[1] - last[2], *last], axis=1)
+
+
+def containing_tets(mesh: TetMesh, points: FloatArray) -> tuple[Integers, FloatArray]:
+    """The tet in which each point lies deepest.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+    points : ndarray, (k, 3)
+
+    Returns
+    -------
+    tets : ndarray of int, (k,)
+        -1 for points outside of all tets; the first tet if a point is on a common face.
+    weights : ndarray, (k, 4)
+        Barycentric coordinates, at least zero up to rounding; nan outside.
+    """
+    corners = mesh.vertices[mesh.tets]
+    tree = BoxTree(corners.min(axis=1), corners.max(axis=1))
+    tets, weights = np.full(len(points), -1), np.full((len(points), 4), np.nan)
+    slack = _ROUNDING * mesh.diagonal
+    for start in range(0, len(points), _BLOCK):
+        here = points[start : start + _BLOCK]
+        point, tet = tree.within(here, np.full(len(here), slack))
+        found = barycentric(corners[tet], here[point])
+        depth = found.min(axis=1)
+        keep = np.flatnonzero(depth >= -_ROUNDING)
+        best = keep[_first_of_each(point[keep], -depth[keep], tet[keep])]
+        tets[start + point[best]], weights[start + point[best]] = tet[best], found[best]
+    return tets, weights
+
+
+def closest_boundary_faces(
+    mesh: TetMesh, points: FloatArray, *, limit: float
+) -> tuple[Integers, FloatArray]:
+    """The boundary face closest to each point.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+    points : ndarray, (k, 3)
+    limit : float
+        Largest distance of interest, in the mesh's length unit.
+
+    Returns
+    -------
+    faces : ndarray of int, (k,)
+        Rows of `mesh.surface`; -1 if no face is within the limit; the first face at a common edge.
+    distances : ndarray, (k,)
+        To the face; inf if there is none.
+    """
+    triangles = mesh.vertices[mesh.surface]
+    tree = BoxTree(triangles.min(axis=1), triangles.max(axis=1))
+    # the closest vertex bounds the distance of the closest face from above
+    reach, _ = cKDTree(mesh.vertices[mesh.surface_vertices]).query(points)
+    reach = np.minimum(reach * (1.0 + _ROUNDING), limit)
+    faces, distances = np.full(len(points), -1), np.full(len(points), np.inf)
+    for start in range(0, len(points), _BLOCK):
+        here = points[start : start + _BLOCK]
+        point, face = tree.within(here, reach[start : start + _BLOCK])
+        offset = closest_on_triangles(here[point], triangles[face]) - here[point]
+        distance = np.linalg.norm(offset, axis=1)
+        best = _first_of_each(point, distance, face)
+        best = best[distance[best] <= limit]
+        faces[start + point[best]], distances[start + point[best]] = face[best], distance[best]
+    return faces, distances
+
+
+def least_extrapolated(
+    mesh: TetMesh, points: FloatArray, faces: Integers
+) -> tuple[Integers, FloatArray]:
+    """Of the tets around a boundary face, the one that needs the smallest weights for a point.
+
+    Parameters
+    ----------
+    mesh : TetMesh
+    points : ndarray, (k, 3)
+        Outside of the mesh.
+    faces : ndarray of int, (k,)
+        Rows of `mesh.surface`, the face closest to each point.
+
+    Returns
+    -------
+    tets : ndarray of int, (k,)
+        Among all that share a vertex with the face: the tet behind the face may be a sliver, whose
+        coordinates explode off its plane. No tet elsewhere: it may belong to another limb.
+    weights : ndarray, (k, 4)
+        Barycentric coordinates, of the smallest sum of sizes.
+    """
+    order = np.argsort(mesh.tets.ravel(), kind="stable")
+    begin = np.searchsorted(mesh.tets.ravel()[order], np.arange(len(mesh.vertices) + 1))
+    tets, weights = np.full(len(points), -1), np.full((len(points), 4), np.nan)
+    for block in _blocks(len(points)):
+        vertices = mesh.surface[faces[block]].ravel()
+        count = begin[vertices + 1] - begin[vertices]
+        point = np.repeat(np.repeat(block, 3), count)
+        within = np.arange(len(point)) - np.repeat(np.cumsum(count) - count, count)
+        tet = order[np.repeat(begin[vertices], count) + within] // 4
+        found = barycentric(mesh.vertices[mesh.tets[tet]], points[point])
+        best = _first_of_each(point, np.abs(found).sum(axis=1), tet)
+        tets[point[best]], weights[point[best]] = tet[best], found[best]
+    return tets, weights
+
+
+def _blocks(count: int) -> Iterator[Integers]:
+    for start in range(0, count, _BLOCK):
+        yield np.arange(start, min(start + _BLOCK, count))
+
+
+def _first_of_each(group: Integers, cost: FloatArray, index: Integers) -> Integers:
+    """Position of the least cost, then the least index, in each group."""
+    order = np.lexsort((index, cost, group))
+    first = np.ones(len(order), np.bool_)
+    first[1:] = group[order[1:]] != group[order[:-1]]
+    chosen: Integers = order[first]
+    return chosen

@@ -1,0 +1,132 @@
+"""One small surface takes fTetWild half a second, so the filled meshes are shared."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.typing import ArrayLike
+
+from snapspace.filling import fill_surface, ftetwild
+from snapspace.generators import bar, cylinder
+from snapspace.mesh import TetMesh, compact_surface, embed_surface
+from snapspace.mesh.closed_surface import check_closed, enclosed_volume
+from snapspace.mesh.tet_search import closest_boundary_faces
+
+Surface = tuple[np.ndarray, np.ndarray]
+COARSE = {"edge_length": 0.3, "tolerance": 4e-3}
+
+
+def surface_of(mesh: TetMesh) -> Surface:
+    return compact_surface(mesh.vertices, mesh.surface)
+
+
+@pytest.fixture(scope="module")
+def barrel() -> Surface:
+    return surface_of(cylinder(3, 4, length=2.0, radius=1.0))
+
+
+@pytest.fixture(scope="module")
+def filled(barrel: Surface) -> TetMesh:
+    return fill_surface(*barrel, **COARSE)
+
+
+def test_the_solid_is_that_of_the_surface(barrel: Surface, filled: TetMesh) -> None:
+    assert filled.volume == pytest.approx(enclosed_volume(*barrel), rel=0.02)
+    assert filled.diagonal == pytest.approx(np.linalg.norm(np.ptp(barrel[0], axis=0)), rel=0.01)
+    check_closed(filled.surface, who="test")
+
+
+def test_the_tets_are_well_shaped(filled: TetMesh) -> None:
+    assert filled.dihedral_angles.min() > 5.0
+
+
+def test_the_surface_is_near_the_boundary_and_follows_the_tets(
+    barrel: Surface, filled: TetMesh
+) -> None:
+    vertices, faces = barrel
+    _, distances = closest_boundary_faces(filled, vertices, limit=np.inf)
+    assert distances.max() < 0.01 * filled.diagonal
+    surface = embed_surface(vertices, faces, filled)
+    assert surface.vertices(filled.vertices) == pytest.approx(vertices, abs=1e-13)
+    assert np.abs(surface.weights).max() < 3.0
+
+
+def test_unit_frame_orientation_and_unused_vertices_do_not_matter(barrel: Surface) -> None:
+    """fTetWild has thresholds without a unit and keeps what is left of the faces."""
+    vertices, faces = barrel
+    far = np.vstack([1e-4 * vertices + 7.0, [[1e3, 1e3, 1e3]]])
+    mesh = fill_surface(far, faces[:, ::-1], **COARSE)
+    assert mesh.volume == pytest.approx(1e-12 * enclosed_volume(*barrel), rel=0.02)
+    assert mesh.vertices.mean(axis=0) == pytest.approx(7.0 + 1e-4 * vertices.mean(axis=0), abs=3e-5)
+
+
+def test_parts_that_overlap_become_one_solid() -> None:
+    """Two bars that cross: their surfaces intersect each other."""
+    along, faces = surface_of(bar(4, 1, 1, length=4.0, width=1.0, height=1.0))
+    across = along[:, [1, 0, 2]] + [1.5, -1.5, 0.1]
+    # exchanging two axes mirrors the bar, so its faces turn
+    both = np.concatenate([faces, faces[:, ::-1] + len(along)])
+    mesh = fill_surface(np.concatenate([along, across]), both, **COARSE)
+    assert mesh.volume == pytest.approx(4.0 + 4.0 - 0.9, rel=0.03)
+
+
+def test_separate_parts_are_refused_and_nothing_is_left_behind(
+    capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The C++ code prints, and writes a file into the current folder."""
+    monkeypatch.chdir(tmp_path)
+    vertices, faces = surface_of(bar(1, 1, 1, length=1.0, width=1.0, height=1.0))
+    both = np.concatenate([vertices, vertices + 3.0]), np.concatenate([faces, faces + 8])
+    with pytest.raises(ValueError, match="the tets are 2 separate solids, but one is needed"):
+        fill_surface(*both, **COARSE)
+    assert capfd.readouterr() == ("", "")
+    assert list(tmp_path.iterdir()) == []
+
+
+TET = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]
+FACES = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]]
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces", "options", "message"),
+    [
+        (TET, np.zeros((0, 3), dtype=int), {}, "the surface has no faces"),
+        (TET, FACES[1:], {}, "the surface is not closed, it has 3 boundary edges"),
+        (TET, [[2, 1, 3], *FACES[1:]], {}, "opposite orientations at 3 edges"),
+        (TET, [[1, 2, 4]], {}, "face 0 has vertex index 4, but vertices has 4 rows"),
+        ([[0, 0, np.nan], *TET[1:]], FACES, {}, "vertex 0 is not finite"),
+        ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], FACES, {}, "encloses no volume"),
+        (np.ones((4, 3)), FACES, {}, "encloses no volume"),
+        (TET, FACES, {"edge_length": 0.0}, "edge_length is 0.0, but must be positive"),
+        (TET, FACES, {"tolerance": 0.5}, "tolerance is 0.5, but must be positive and at most 0.1"),
+        (TET, FACES, {"tolerance": float("nan")}, "tolerance is nan, but must be positive"),
+    ],
+)
+def test_refuses_what_cannot_be_filled(
+    vertices: ArrayLike, faces: ArrayLike, options: dict[str, float], message: str
+) -> None:
+    with pytest.raises(ValueError, match=f"fill_surface: .*{message}") as caught:
+        fill_surface(vertices, faces, **options)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("program", "message"),
+    [
+        ("print('first'); raise SystemExit('no memory')", "exit status 1: no memory; check the"),
+        # what the C++ code does when it meets an inverted tet
+        ("raise SystemExit(0)", "exit status 0: it wrote nothing"),
+        ("import os; os.abort()", "exit status -?[0-9]+: "),
+    ],
+)
+def test_a_process_that_fails_is_an_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, program: str, message: str
+) -> None:
+    path = tmp_path / "program.py"
+    path.write_text(program)
+    monkeypatch.setattr(ftetwild, "_PROGRAM", path)
+    with pytest.raises(ValueError, match=f"fill_surface: fTetWild failed with {message}") as caught:
+        fill_surface(TET, FACES)
+    assert "\n" not in str(caught.value)
