@@ -1,36 +1,40 @@
-"""Makes the pictures of the docs, from the generated creature.
+"""Makes the pictures of the docs, from generated shapes.
 
 python docs/make_pictures.py
+python docs/make_pictures.py helix poses
 """
 
 from __future__ import annotations
 
-import json
-import tempfile
+import argparse
+from collections.abc import Callable
 from pathlib import Path
 
-import snapspace as ss
-from snapspace import generators
-from snapspace.cli.demo_creature import PROBLEM, contact_sheet, posed_shapes
+import numpy as np
+from numpy.typing import NDArray
+from pictures_creature import creature_picture
+from pictures_helix import helix_picture
+from pictures_poses import poses_picture
+
 from snapspace.pictures import save_png
 
 FOLDER = Path(__file__).parent / "pictures"
-
-
-def creature_problem(tets: int) -> ss.PosingProblem:
-    """The demo's problem on a creature of a given size."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "creature.json"
-        path.write_text(json.dumps(PROBLEM), encoding="utf-8")
-        return ss.read_problem(path, mesh=generators.creature(tets))
+PICTURES: dict[str, Callable[[], NDArray[np.uint8]]] = {
+    "creature": creature_picture,
+    "helix": helix_picture,
+    "poses": poses_picture,
+}
 
 
 def main() -> None:
-    problem = creature_problem(60_000)
-    snapshots = ss.solve_snapshots(problem, ss.sample(problem.domain, 300, seed=0))
-    subspace = ss.snapshot_pca(snapshots, dimension=50)
-    model = ss.reduce(problem, subspace, snapshots=snapshots)
-    save_png(FOLDER / "creature.png", contact_sheet(model, posed_shapes(model)))
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", metavar="name", help=f"of {', '.join(PICTURES)}")
+    names = parser.parse_args().names or list(PICTURES)
+    for name in names:
+        if name not in PICTURES:
+            parser.error(f"there is no picture '{name}'; the pictures are {', '.join(PICTURES)}")
+    for name in names:
+        save_png(FOLDER / f"{name}.png", PICTURES[name]())
 
 
 if __name__ == "__main__":

@@ -88,6 +88,9 @@ class SolveControl:
     def cancel(self) -> None: ...
 
     @property
+    def cancelled(self) -> bool: ...
+
+    @property
     def finished(self) -> int: ...
 
 class Batch:
@@ -136,9 +139,9 @@ class InterpolationSystem:
 
     def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
 
-    def adapt(self, shapes: NDArray[numpy.float64]) -> None:
+    def adapted(self, shapes: NDArray[numpy.float64]) -> InterpolationSystem:
         """
-        Makes the factor anew for solutions near displacements (k, 3n), at equal weights.
+        The same problem with a factor for solutions near displacements (k, 3n).
         """
 
     @property

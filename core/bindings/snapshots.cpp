@@ -120,6 +120,7 @@ void bind_snapshots(nb::module_& m) {
                            "Shared with a running solve: ends it early, counts what is finished.")
       .def(nb::init<>())
       .def("cancel", [](SolveControl& self) { self.cancelled = true; })
+      .def_prop_ro("cancelled", [](const SolveControl& self) { return self.cancelled.load(); })
       .def_prop_ro("finished", [](const SolveControl& self) { return self.finished.load(); });
 
   nb::class_<Batch>(m, "Batch", "Solutions of one call.")
@@ -169,18 +170,19 @@ void bind_snapshots(nb::module_& m) {
       },
       nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"));
   interpolation.def(
-      "adapt",
-      [](InterpolationSystem& self, MatrixIn shapes) {
+      "adapted",
+      [](const InterpolationSystem& self, MatrixIn shapes) {
         require(shapes.shape(0) >= 1 && shapes.shape(1) == static_cast<std::size_t>(self.size()),
                 "shapes must be (k, 3n)");
         std::vector<double> renumbered(shapes.size());
         for (std::size_t k = 0; k < shapes.shape(0); ++k)
           self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
                                      renumbered.data() + k * shapes.shape(1));
-        self.adapt(renumbered, static_cast<int>(shapes.shape(0)));
+        nb::gil_scoped_release release;
+        return self.adapted(renumbered, static_cast<int>(shapes.shape(0)));
       },
       nb::arg("shapes"),
-      "Makes the factor anew for solutions near displacements (k, 3n), at equal weights.");
+      "The same problem with a factor for solutions near displacements (k, 3n).");
   bind_solves(interpolation);
 }
 

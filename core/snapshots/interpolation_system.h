@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -16,8 +17,8 @@ template <class Real>
 class InterpolationObjective;
 
 /// What all samples of an interpolation problem share: F(u) = sum_k w_k E_k, with u the
-/// displacement from pose 0. Only the weights differ from sample to sample; one factor, that of the
-/// mean of the poses' scalar matrices, preconditions them all.
+/// displacement from pose 0. Only the weights differ from sample to sample; one factor
+/// preconditions them all.
 ///
 /// F does not change under rigid motions. Its gradient is orthogonal to translations and rotations
 /// of the shape, so the iterates only drift along them by rounding, and callers register the
@@ -29,54 +30,55 @@ struct InterpolationSystem {
   using Objective = InterpolationObjective<Real>;
 
   Numbering numbering;
-  BlendedEnergy energy;
+  std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
   ScalarFactor factor;
 
   /// @param mesh   pose 0, renumbered
   /// @param poses  count x n x 3 in the internal numbering
   InterpolationSystem(const LocalMesh& mesh, const std::vector<double>& poses, int count,
                       StVK material)
-      : numbering(mesh.order),
-        energy(poses.data(), count, static_cast<int>(mesh.order.size()), mesh.tets.data(),
-               static_cast<int>(mesh.tets.size() / 4), material),
-        factor(rest_factor()) {}
+      : InterpolationSystem(Numbering(mesh.order),
+                            std::make_shared<BlendedEnergy>(
+                                poses.data(), count, static_cast<int>(mesh.order.size()),
+                                mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4), material),
+                            std::vector<double>(mesh.vertices.size(), 0.0), 1) {}
 
-  [[nodiscard]] int size() const { return energy.size(); }
-  [[nodiscard]] int input_size() const { return energy.poses(); }
+  /// The same problem with a factor for solutions near the given shapes (count x 3n, internal
+  /// displacements): that of the mean of their scalar Hessians at equal weights. Poses that stretch
+  /// a tet much make it stiff, and a factor that knows needs a fourth of the iterations.
+  [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes, int count) const {
+    return {numbering, energy, shapes, count};
+  }
 
-  [[nodiscard]] double negligible() const { return energy.energy(0).negligible(); }
+  [[nodiscard]] int size() const { return energy->size(); }
+  [[nodiscard]] int input_size() const { return energy->poses(); }
+  [[nodiscard]] double negligible() const { return energy->energy(0).negligible(); }
 
   /// Tets whose orientation differs from the one in pose 0.
   [[nodiscard]] int inverted_tets(const double* u) const {
-    return energy.energy(0).inverted_tets(u);
-  }
-
-  /// Makes the factor anew for solutions near the given shapes (count x 3n, internal): that of the
-  /// mean of their scalar Hessians at equal weights. Poses that stretch a tet much make it stiff,
-  /// and a factor that knows needs a fourth of the iterations.
-  void adapt(const std::vector<double>& shapes, int count) {
-    ScalarHessian hessian(energy.energy(0).rest);
-    std::vector<double> shifted(size());
-    for (int shape = 0; shape < count; ++shape)
-      for (int k = 0; k < energy.poses(); ++k) {
-        const double* u = shapes.data() + static_cast<std::size_t>(shape) * size();
-        for (int i = 0; i < size(); ++i) shifted[i] = u[i] + energy.offset(k)[i];
-        hessian.add(energy.energy(k), shifted.data(), 1.0 / (count * energy.poses()));
-      }
-    factor = pinned_factor(hessian.matrix());
+    return energy->energy(0).inverted_tets(u);
   }
 
  private:
-  [[nodiscard]] ScalarFactor rest_factor() const {
-    Eigen::SparseMatrix<double> A = energy.energy(0).rest.laplacian();
-    for (int k = 1; k < energy.poses(); ++k) A += energy.energy(k).rest.laplacian();
-    const StVK& material = energy.energy(0).material;
-    return pinned_factor((2.0 * material.mu + material.lam) / energy.poses() * A);
-  }
+  InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
+                      const std::vector<double>& shapes, int count)
+      : numbering(std::move(numbers)),
+        energy(std::move(blended)),
+        factor(scalar_matrix(shapes, count)) {}
 
-  static ScalarFactor pinned_factor(Eigen::SparseMatrix<double> A) {
+  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix(const std::vector<double>& shapes,
+                                                          int count) const {
+    ScalarHessian hessian(energy->energy(0).rest);
+    std::vector<double> shifted(size());
+    for (int shape = 0; shape < count; ++shape)
+      for (int k = 0; k < energy->poses(); ++k) {
+        const double* u = shapes.data() + static_cast<std::size_t>(shape) * size();
+        for (int i = 0; i < size(); ++i) shifted[i] = u[i] + energy->offset(k)[i];
+        hessian.add(energy->energy(k), shifted.data(), 1.0 / (count * energy->poses()));
+      }
+    Eigen::SparseMatrix<double> A = hessian.matrix();
     A.coeffRef(0, 0) *= 2.0;
-    return ScalarFactor(A);
+    return A;
   }
 };
 
@@ -104,12 +106,12 @@ class InterpolationObjective {
   /// leave threads idle: narrow packs go through the tets in two halves, whatever the number of
   /// threads, because sums of other parts would round differently.
   Real value_and_gradient(const Real* u, Real* gradient) {
-    const int tets = system_.energy.tets();
+    const int tets = system_.energy->tets();
     if constexpr (!kHalves)
-      return system_.energy.value_and_gradient(weights_.data(), u, gradient, 0, tets);
+      return system_.energy->value_and_gradient(weights_.data(), u, gradient, 0, tets);
     Real values[2];
     parallel_for(2, threads_, [&](int half) {
-      values[half] = system_.energy.value_and_gradient(
+      values[half] = system_.energy->value_and_gradient(
           weights_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
           half == 0 ? tets / 2 : tets);
     });
@@ -123,17 +125,17 @@ class InterpolationObjective {
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const {
-    return BlockHessian(system_.energy.energy(0).rest);
+    return BlockHessian(system_.energy->energy(0).rest);
   }
 
   /// One lane only: the Hessian at u, clamped as BlockHessian::add does it.
   void assemble(const double* u, double clamp, BlockHessian& hessian) const {
     hessian.clear();
     std::vector<double> shifted(size());
-    for (int k = 0; k < system_.energy.poses(); ++k) {
-      const std::vector<double>& offset = system_.energy.offset(k);
+    for (int k = 0; k < system_.energy->poses(); ++k) {
+      const std::vector<double>& offset = system_.energy->offset(k);
       for (int i = 0; i < size(); ++i) shifted[i] = u[i] + offset[i];
-      hessian.add(system_.energy.energy(k), shifted.data(), clamp, weights_[k]);
+      hessian.add(system_.energy->energy(k), shifted.data(), clamp, weights_[k]);
     }
   }
 

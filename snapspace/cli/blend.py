@@ -80,9 +80,9 @@ def blend(
     """
     if (weights is None) == (frames is None):
         raise ValueError("give either --weights or --path")
-    _check_outputs(output, png, folder=frames is not None)
     model = load_interpolation(model_file, dimension)
     wanted = _wanted(model, weights, frames, extrapolate=extrapolate)
+    _check_outputs(output, png, folder=frames is not None)
     session = model.session()
     shapes: list[BlendedShape] = []
     for w in wanted:
@@ -117,7 +117,7 @@ def _wanted(
 
 
 def _check_outputs(output: Path | None, png: Path | None, *, folder: bool) -> None:
-    """ValueError unless the files can be written: before anything is."""
+    """ValueError unless the files can be written: before anything is. Makes the folder."""
     if png is not None:
         writable_path(png, known=(".png",))
     if output is None:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
-import shutil
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from ..mesh.atomic_file import atomic_file
 
 FloatArray = NDArray[np.float64]
 Settings = dict[str, Any]
+_UNREADABLE = (SafetensorError, OSError, KeyError, TypeError, ValueError)
 
 
 class FitCache:
@@ -40,8 +41,11 @@ class FitCache:
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings
     ) -> TetMesh | None:
         """The tets that fill a surface, if they are there."""
-        content = self._load(_key("tets", settings, vertices, faces))
-        return None if content is None else TetMesh(content[0]["vertices"], content[0]["tets"])
+        try:
+            arrays, _ = self._load(_key("tets", settings, vertices, faces))
+            return TetMesh(arrays["vertices"], arrays["tets"])
+        except _UNREADABLE:
+            return None
 
     def save_tets(
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings, mesh: TetMesh
@@ -54,10 +58,11 @@ class FitCache:
         self, mesh: TetMesh, surface: EmbeddedSurface, target: FloatArray, settings: Settings
     ) -> tuple[FloatArray, PoseFit] | None:
         """The shape (n, 3) fitted to a target (s, 3), and its report, if they are there."""
-        content = self._load(_fit_key(mesh, surface, target, settings))
-        if content is None:
+        try:
+            arrays, header = self._load(_fit_key(mesh, surface, target, settings))
+            return arrays["shape"], PoseFit(**json.loads(header["fit"]))
+        except _UNREADABLE:
             return None
-        return content[0]["shape"], PoseFit(**json.loads(content[1]["fit"]))
 
     def save_fit(
         self,
@@ -73,16 +78,16 @@ class FitCache:
         self._save(key, {"shape": shape}, {"fit": json.dumps(asdict(fit))})
 
     def remove(self) -> None:
-        """Deletes the folder, after the result is safe elsewhere."""
-        shutil.rmtree(self.folder, ignore_errors=True)
+        """Deletes what is kept, after the result is safe elsewhere; files of others stay."""
+        with contextlib.suppress(OSError):
+            for path in self.folder.glob("*.safetensors"):
+                path.unlink()
+            self.folder.rmdir()
 
-    def _load(self, key: str) -> tuple[dict[str, NDArray[Any]], dict[str, str]] | None:
-        try:
-            with safe_open(self.folder / f"{key}.safetensors", framework="np") as file:
-                arrays = {name: file.get_tensor(name) for name in file.keys()}
-                return arrays, dict(file.metadata() or {})
-        except (SafetensorError, OSError, ValueError):
-            return None
+    def _load(self, key: str) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+        with safe_open(self.folder / f"{key}.safetensors", framework="np") as file:
+            arrays = {name: file.get_tensor(name) for name in file.keys()}
+            return arrays, dict(file.metadata() or {})
 
     def _save(self, key: str, arrays: dict[str, NDArray[Any]], header: dict[str, str]) -> None:
         try:
@@ -98,7 +103,7 @@ def _fit_key(
     mesh: TetMesh, surface: EmbeddedSurface, target: FloatArray, settings: Settings
 ) -> str:
     tets = {**settings, "mesh": mesh.fingerprint}
-    return _key("pose", tets, target, surface.corners, surface.weights)
+    return _key("pose", tets, target, surface.corners, surface.weights, surface.faces)
 
 
 def _key(kind: str, settings: Settings, *arrays: NDArray[Any]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -141,7 +141,7 @@ def interpolate(
     built = build_model(
         problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
     )
-    built.seconds.update(pose_set.seconds)
+    built = replace(built, seconds={**pose_set.seconds, **built.seconds})
     cache.remove()
     print_summary(built, include_unconverged=choices.include_unconverged)
     _print_next(output, len(pose_set.poses))

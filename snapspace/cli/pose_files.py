@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +21,7 @@ from ..mesh import (
     read_tets,
 )
 from ..mesh.correspondence import check_same_faces
+from ..mesh.input_path import existing_file
 from ..problem import Poses
 from ..registration import ScalePolicy, matched_scales
 from .console import console, notice
@@ -74,16 +75,14 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
     if len(files) < 2:
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     names = pose_names(files)
+    for file in files:
+        existing_file(file, known=SURFACE_INPUTS + TET_INPUTS)
     kinds = {file.suffix.lower() in SURFACE_INPUTS for file in files}
     if len(kinds) == 2:
         raise ValueError(
             "the poses are partly tets and partly surfaces; give all of one kind (with --tets the "
             "first surface's tets come from a file)"
         )
-    for file in files:
-        if file.suffix.lower() not in SURFACE_INPUTS + TET_INPUTS:
-            known = ", ".join(SURFACE_INPUTS + TET_INPUTS)
-            raise ValueError(f"{file}: unknown extension '{file.suffix}'; known are {known}")
     if kinds == {True}:
         return _from_surfaces(files, names, options, cache)
     if options.tets is not None:
@@ -182,20 +181,30 @@ def _fitted(
     if found:
         notice(f"resuming: {len(found)} of {len(targets)} poses were fitted before")
     missing = [number for number in range(len(targets)) if number not in found]
+
+    def keep(index: int, shape: FloatArray, fit: PoseFit) -> None:
+        number = missing[index]
+        cache.save_fit(mesh, surface, targets[number], settings, shape, fit)
+        found[number] = shape, fit
+
     if missing:
-        with sample_progress("poses", done=len(found), total=len(targets)) as progress:
-            fits = fit_poses(
-                mesh,
-                surface,
-                targets[missing],
-                names=[names[number] for number in missing],
-                threads=options.threads,
-                progress=lambda done, _: progress(len(found) + done, len(targets)),
-                on_finished=lambda k, shape, fit: cache.save_fit(
-                    mesh, surface, targets[missing[k]], settings, shape, fit
-                ),
-                deviation=options.deviation,
-            )
-        found.update(zip(missing, zip(fits.shapes, fits.reports, strict=True), strict=True))
-    ordered = [found[number] for number in range(len(targets))]
-    return np.stack([shape for shape, _ in ordered]), [fit for _, fit in ordered]
+        done_before = len(found)
+        try:
+            with sample_progress("poses", done=done_before, total=len(targets)) as progress:
+                fit_poses(
+                    mesh,
+                    surface,
+                    targets[missing],
+                    deviation=options.deviation,
+                    threads=options.threads,
+                    progress=lambda done, _: progress(done_before + done, len(targets)),
+                    on_finished=keep,
+                )
+        except KeyboardInterrupt:
+            raise KeyboardInterrupt(
+                f"{len(found)} of {len(targets)} fitted poses are kept; the same command goes on "
+                "from there"
+            ) from None
+    # the names are of this run: the same target may have had another one
+    fits = [replace(found[number][1], name=name) for number, name in enumerate(names)]
+    return np.stack([found[number][0] for number in range(len(targets))]), fits

@@ -22,14 +22,13 @@ _MOST_STAGES = 200
 def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> FloatArray:
     """Displacement (3n,) of the minimum of the mean energy of all poses.
 
-    The first iterations start from every pose at once, with the system's factor adapted to all of
-    them. From then on the shape with the lowest energy goes on alone, and every so many iterations
-    the factor is adapted to it.
+    The first iterations start from every pose at once, with a factor adapted to all of them. From
+    then on the shape with the lowest energy goes on alone, and every so many iterations the factor
+    is adapted to it.
 
     Parameters
     ----------
     system : InterpolationSystem
-        Its factor is changed.
     poses : (k, 3n) displacements of the poses, from which the solves start
 
     Raises
@@ -40,10 +39,9 @@ def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> Fl
         On Ctrl-C.
     """
     shapes = poses
-    system.adapt(shapes)
     for _ in range(_MOST_STAGES):
         weights = np.full((len(shapes), len(poses)), 1.0 / len(poses))
-        batch = _stage(system, weights, shapes)
+        batch = _stage(system.adapted(shapes), weights, shapes)
         shapes = batch.shapes
         best = int(np.nanargmin([report.value for report in batch.reports]))
         status = batch.reports[best].status.name
@@ -53,7 +51,6 @@ def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> Fl
         if status != "max_iterations":
             break
         shapes = shapes[best : best + 1]
-        system.adapt(shapes)
     raise ValueError(
         f"InterpolationProblem: the mean shape of the poses was not found ({status}); look for "
         "poses with very flat tets"

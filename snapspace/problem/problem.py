@@ -76,6 +76,11 @@ class Problem(Protocol):
         ...
 
     @property
+    def patience(self) -> int | None:
+        """Iterations of the fast solver after which `system_near` helps; None if it never does."""
+        ...
+
+    @property
     def fingerprint(self) -> str:
         """Hash of all that solutions depend on."""
         ...
@@ -94,6 +99,10 @@ class Problem(Protocol):
 
     def known_solutions(self) -> tuple[FloatArray, FloatArray]:
         """Parameters (j, p) and shapes (j, 3n) of solutions that are known beforehand."""
+        ...
+
+    def system_near(self, displacement: FloatArray) -> Any:
+        """The compiled problem, made for solutions near a displacement (3n,) from `base`."""
         ...
 
     def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
-from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -12,8 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
-from ..problem import Problem, lane_count
+from ..problem import Problem
 from .checkpoint import Checkpoint
+from .fast_solve import as_sample_report, solve_fast
 from .snapshots import SampleReport, Snapshots
 from .starts import interpolated_start, lower_start, nearest_start
 
@@ -171,20 +171,22 @@ class _Run:
         starts = self._starts(wave)[np.subtract(missing, wave.start)]
         inputs = self.problem.inputs(self.samples[missing])
         already, total = len(self.reports), len(self.samples)
-        batch, interrupted = run_interruptible(
-            lambda control: self._solve(inputs, starts, control, lanes=lane_count(len(wave))),
-            lambda finished: self.progress(already + finished, total),
+        solved, interrupted = run_interruptible(
+            lambda control: self._solve(inputs, starts, control, wave=len(wave)),
+            # slow samples are counted twice
+            lambda finished: self.progress(min(already + finished, total), total),
         )
-        done = [k for k, report in enumerate(batch.reports) if report.status.name != "cancelled"]
+        shapes, reports = solved
+        done = [k for k, report in enumerate(reports) if report.status != "cancelled"]
         if done:
-            solved = self.problem.registered(batch.shapes[done])
-            self.displacements[[missing[k] for k in done]] = solved
+            places = [missing[k] for k in done]
+            self.displacements[places] = self.problem.registered(shapes[done])
         for k in done:
-            self.reports[missing[k]] = _report(batch.reports[k])
+            self.reports[missing[k]] = reports[k]
         if self.checkpoint and done:
-            indices = [missing[k] for k in done]
-            reports = [self.reports[i] for i in indices]
-            self.checkpoint.save(indices, self.displacements[indices], reports)
+            self.checkpoint.save(
+                places, self.displacements[places], [self.reports[i] for i in places]
+            )
         if interrupted:
             raise Interrupted(f"{len(self.reports)} of {total} samples are finished")
 
@@ -204,36 +206,21 @@ class _Run:
         return lower_start(self.problem.system, inputs, interpolated, nearest)
 
     def _solve(
-        self, inputs: FloatArray, starts: FloatArray, control: core.SolveControl, *, lanes: int
-    ) -> core.Batch:
+        self, inputs: FloatArray, starts: FloatArray, control: core.SolveControl, *, wave: int
+    ) -> tuple[FloatArray, list[SampleReport]]:
         options = self.options
-        solve = (
-            partial(self.problem.system.solve_newton, clamp=options.clamp)
-            if options.solver == "newton"
-            else partial(self.problem.system.solve_fast, lanes=lanes)
+        assert options.tolerance is not None  # resolved
+        common: dict[str, Any] = {
+            "tolerance": options.tolerance,
+            "max_iterations": options.max_iterations,
+            "threads": self.threads,
+        }
+        if options.solver == "fast":
+            return solve_fast(self.problem, inputs, starts, control, wave=wave, **common)
+        batch = self.problem.system.solve_newton(
+            inputs, starts, clamp=options.clamp, control=control, **common
         )
-        batch: core.Batch = solve(
-            inputs,
-            starts,
-            tolerance=options.tolerance,
-            max_iterations=options.max_iterations,
-            threads=self.threads,
-            control=control,
-        )
-        return batch
-
-
-def _report(report: Any) -> SampleReport:
-    return SampleReport(
-        status=report.status.name,
-        iterations=report.iterations,
-        evaluations=report.evaluations,
-        value=report.value,
-        gradient_norm=report.gradient_norm,
-        decrement=report.decrement,
-        seconds=report.seconds,
-        inverted_tets=report.inverted_tets,
-    )
+        return batch.shapes, [as_sample_report(report) for report in batch.reports]
 
 
 def _checked(problem: Problem, parameters: ArrayLike) -> FloatArray:

@@ -10,9 +10,10 @@ from typing import Any
 
 import pytest
 
+from snapspace import write_tets
 from snapspace.cli import main
 
-from .files import write_problem
+from .files import surface_first, write_problem, write_surface_poses, write_tet_poses
 
 
 @dataclass(frozen=True)
@@ -71,3 +72,30 @@ def model(built_model: Path, tmp_path: Path) -> Path:
     path = tmp_path / built_model.name
     path.write_bytes(built_model.read_bytes())
     return path
+
+
+@pytest.fixture(scope="session")
+def built_blend(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A model of three tet poses of the bar, dimension 8 from 12 samples. Not to be written to."""
+    folder = tmp_path_factory.mktemp("blend")
+    path = folder / "poses.snapspace"
+    words = [*write_tet_poses(folder), "--samples", 12, "--dimension", 8, "-o", path]
+    assert main(["interpolate", *map(str, words)]) == 0
+    return path
+
+
+@pytest.fixture
+def blend_model(built_blend: Path, tmp_path: Path) -> Path:
+    """A copy of the model of poses in a folder of its own."""
+    path = tmp_path / built_blend.name
+    path.write_bytes(built_blend.read_bytes())
+    return path
+
+
+@pytest.fixture
+def surface_words(tmp_path: Path) -> list[object]:
+    """A run of `interpolate` on three surfaces of the bar, with tets that begin with theirs."""
+    write_tets(tmp_path / "tets.mesh", surface_first())
+    poses = write_surface_poses(tmp_path)
+    size = ["--samples", 6, "--dimension", 5]
+    return ["interpolate", *poses, "--tets", tmp_path / "tets.mesh", *size]

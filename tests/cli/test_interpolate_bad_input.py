@@ -1,0 +1,229 @@
+"""Poses or options that `interpolate` cannot take: one line that names them, no file touched."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import write_surface, write_tets
+
+from .conftest import Run
+from .files import (
+    POSES,
+    FloatArray,
+    bar_mesh,
+    bar_shapes,
+    bar_surfaces,
+    contents,
+    surface_first,
+    write_raw,
+    write_surface_poses,
+    write_tet_poses,
+)
+
+Case = Callable[[Path], list[object]]
+SMALL = ["--samples", 4, "--dimension", 3]
+
+
+def tets(folder: Path, *words: object) -> list[object]:
+    """Tet poses and more options."""
+    return [*write_tet_poses(folder), *SMALL, *words]
+
+
+def surfaces(folder: Path, *words: object) -> list[object]:
+    """Surfaces, the tets of the first, and more options."""
+    write_tets(folder / "tets.mesh", surface_first())
+    return [*write_surface_poses(folder), *SMALL, "--tets", folder / "tets.mesh", *words]
+
+
+def other_tets(folder: Path) -> list[object]:
+    """One tet of the second pose begins at another vertex."""
+    cells = bar_mesh().tets.copy()
+    cells[7] = cells[7][[1, 2, 0, 3]]
+    words = tets(folder)
+    write_raw(folder / "bent.mesh", bar_shapes()["bent"], cells)
+    return words
+
+
+def other_faces(folder: Path) -> list[object]:
+    """Two faces of the third pose have changed places."""
+    vertices, faces = bar_surfaces()["twisted"]
+    faces[[4, 9]] = faces[[9, 4]]
+    words = surfaces(folder)
+    write_surface(folder / "twisted.obj", vertices, faces)
+    return words
+
+
+def other_vertices(folder: Path) -> list[object]:
+    """The second surface has one vertex more."""
+    words = surfaces(folder)
+    with (folder / "bent.obj").open("a") as file:
+        file.write("v 0 0 0\n")
+    return words
+
+
+def fewer_tets(folder: Path) -> list[object]:
+    words = tets(folder)
+    write_tets(folder / "twisted.mesh", bar_mesh(4, 2, 2))
+    return words
+
+
+def pulled_through() -> FloatArray:
+    """The bent bar with one vertex pulled through others."""
+    shape = bar_shapes()["bent"].copy()
+    shape[40] += [0, 0, 1.5]
+    return shape
+
+
+def inverted(folder: Path) -> list[object]:
+    """The second pose has inverted tets."""
+    words = tets(folder)
+    write_raw(folder / "bent.mesh", pulled_through(), bar_mesh().tets)
+    return words
+
+
+def flat(folder: Path) -> list[object]:
+    words = tets(folder)
+    shape = bar_shapes()["bent"] * [1, 1, 0]
+    write_raw(folder / "bent.mesh", shape, bar_mesh().tets)
+    return words
+
+
+def nan(folder: Path) -> list[object]:
+    vertices, faces = bar_surfaces()["bent"]
+    words = surfaces(folder)
+    write_surface(folder / "bent.off", vertices, faces)
+    text = (folder / "bent.off").read_text().splitlines()
+    text[5] = "nan 0 0"
+    (folder / "bent.off").write_text("\n".join(text))
+    return [folder / "bent.off" if word == folder / "bent.obj" else word for word in words]
+
+
+def far_tets(folder: Path) -> list[object]:
+    """Tets in another unit of length than the surface."""
+    words = surfaces(folder)
+    write_tets(folder / "tets.mesh", bar_mesh(), vertices=0.01 * bar_mesh().vertices)
+    return words
+
+
+def without_extent(folder: Path) -> list[object]:
+    vertices, faces = bar_surfaces()["bent"]
+    words = surfaces(folder)
+    write_surface(folder / "bent.obj", 0 * vertices, faces)
+    return words
+
+
+def mixture(folder: Path) -> list[object]:
+    return [*tets(folder), *write_surface_poses(folder)[:1]]
+
+
+def open_surface(folder: Path) -> list[object]:
+    """Without --tets, so that it would have to be filled."""
+    vertices, faces = bar_surfaces()["rest"]
+    for name in POSES[:2]:
+        write_surface(folder / f"{name}.ply", vertices, faces[1:])
+    return [folder / "rest.ply", folder / "bent.ply", *SMALL]
+
+
+def folder_as_pose(folder: Path) -> list[object]:
+    (folder / "folder.mesh").mkdir()
+    return tets(folder, folder / "folder.mesh")
+
+
+def taken_folder(folder: Path) -> list[object]:
+    (folder / "taken").write_text("a file")
+    return tets(folder, "--save-poses", folder / "taken")
+
+
+CASES: dict[str, tuple[Case, str]] = {
+    "one file": (lambda f: tets(f)[:1] + SMALL, "interpolate needs two poses or more, got 1"),
+    "no files": (lambda f: [], "Missing argument 'POSE POSE ...'"),
+    "missing": (lambda f: [*tets(f), f / "none.mesh"], "none.mesh: there is no such file"),
+    "missing surface": (lambda f: surfaces(f, f / "none.obj"), "none.obj: there is no such file"),
+    "unknown extension": (
+        lambda f: tets(f, f / "a.xyz"),
+        "a.xyz: unknown extension '.xyz'; known are .obj, .off, .ply, .stl, .mesh, ",
+    ),
+    "no extension": (lambda f: surfaces(f, f / "a"), "a: no extension; known are .obj"),
+    "folder": (folder_as_pose, "folder.mesh: this is a folder; a file is needed"),
+    "mixture": (mixture, "the poses are partly tets and partly surfaces; give all of one kind"),
+    "tets for tets": (
+        lambda f: tets(f, "--tets", f / "rest.mesh"),
+        "--tets is for poses that are surfaces; these have tets of their own",
+    ),
+    "no tets": (
+        lambda f: [*surfaces(f)[:-1], f / "none.mesh"],
+        "none.mesh: there is no such file",
+    ),
+    "surface as tets": (
+        lambda f: [*surfaces(f)[:-1], f / "rest.obj"],
+        "rest.obj: unknown extension '.obj'; known are .mesh",
+    ),
+    "far tets": (far_tets, "and more than 0.02; 74 of 74 vertices affected: give the surface that"),
+    "tet counts": (fewer_tets, "twisted: has 45 vertices, but rest has 81; export all poses from"),
+    "other tets": (other_tets, "bent: tet 7 has vertices "),
+    "vertex counts": (other_vertices, "bent: has 75 vertices, but rest has 74; export all poses"),
+    "other faces": (other_faces, "twisted: face 4 has vertices "),
+    "other faces counted": (other_faces, "; 2 of 144 faces differ: export all poses from one mesh"),
+    "flat": (flat, "bent.mesh: "),
+    "nan": (nan, "bent.off: vertex 3 is not finite"),
+    "no extent": (without_extent, "half of the edges of pose 1 have length zero"),
+    "open surface": (open_surface, "the surface is not closed, it has 3 boundary edges"),
+    "edge length": (
+        lambda f: [*write_surface_poses(f), *SMALL, "--edge-length", 7],
+        "edge_length is 7.0, but must be positive and at most 1.0",
+    ),
+    "deviation": (lambda f: surfaces(f, "--deviation", 0), "deviation is 0.0, but it must be posi"),
+    "deviation nan": (lambda f: surfaces(f, "--deviation", "nan"), "deviation is nan"),
+    "scale": (lambda f: tets(f, "--scale", "big"), "'--scale': 'big' is not one of 'auto', 'match"),
+    "mu": (lambda f: tets(f, "--mu", -1), "mu is -1.0, but the shear modulus must be positive"),
+    "extrapolation": (lambda f: tets(f, "--extrapolation", -1), "'--extrapolation': -1"),
+    "extrapolation nan": (lambda f: tets(f, "--extrapolation", "nan"), "extrapolation is nan"),
+    "dimension": (
+        lambda f: tets(f, "--dimension", 8),
+        "dimension 8 needs at least as many samples, but there are 4 and 3 poses; raise --samples",
+    ),
+    "two sizes": (
+        lambda f: tets(f, "--energy-fraction", 0.9),
+        "give either --dimension or --energy-fraction",
+    ),
+    "tolerance": (lambda f: tets(f, "--tolerance", 0), "tolerance is 0"),
+    "solver": (lambda f: tets(f, "--solver", "magic"), "'--solver': 'magic' is not one of"),
+    "output extension": (
+        lambda f: tets(f, "-o", f / "model.bin"),
+        "model.bin: a model file ends in .snapspace",
+    ),
+    "output folder": (
+        lambda f: tets(f, "-o", f / "none" / "m.snapspace"),
+        "none does not exist",
+    ),
+    "saved poses": (taken_folder, "taken: cannot make the folder"),
+    "usage": (lambda f: tets(f, "--handle", "head"), "No such option '--handle'"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_refusals_are_one_line_and_touch_nothing(run: Run, tmp_path: Path, name: str) -> None:
+    case, message = CASES[name]
+    words = case(tmp_path)
+    (tmp_path / "new.snapspace").write_text("what was there before")
+    before = contents(tmp_path)
+    output = [] if "-o" in words else ["-o", tmp_path / "new.snapspace"]
+    assert message in run("interpolate", *words, *output, "--json").error
+    assert contents(tmp_path) == before
+
+
+def test_inverted_tets_are_counted(run: Run, tmp_path: Path) -> None:
+    words = inverted(tmp_path)
+    corners = pulled_through()[bar_mesh().tets]
+    count = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0).sum())
+    error = run("interpolate", *words, "-o", tmp_path / "m.snapspace").error
+    assert error.startswith(f"{tmp_path / 'bent.mesh'}: tet ")
+    assert f"; {count} such tets of {len(corners)}: " in error
+
+
+def test_no_output(run: Run, tmp_path: Path) -> None:
+    assert "Missing option '-o'" in run("interpolate", *tets(tmp_path)).error

@@ -1,0 +1,40 @@
+"""The examples run, and show what they claim; the pictures of the docs can be made."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import snapspace as ss
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+def test_interpolation_keeps_the_volume_that_the_linear_blend_loses(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = runpy.run_path(str(ROOT / "examples" / "interpolation.py"))
+    rows = [line.replace("%", "").split() for line in capsys.readouterr().out.splitlines()[1:]]
+    first, second, elastic, linear = np.array(rows, dtype=float).T
+    assert first + second == pytest.approx(1.0)
+    assert elastic.min() > 95.0
+    assert linear.min() < 50.0
+    # at the ends both are the poses
+    assert elastic[[0, -1]] == pytest.approx(linear[[0, -1]], abs=0.1)
+
+    vertices, faces = ss.read_surface(tmp_path / "halfway.obj")
+    mesh, session = result["mesh"], result["session"]
+    assert len(faces) == len(mesh.surface)
+    assert session.weights == pytest.approx([0.5, 0.5])
+    np.testing.assert_allclose(vertices, session.vertices[mesh.surface_vertices], atol=1e-6)
+
+
+def test_every_picture_that_is_made_is_in_the_docs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(ROOT / "docs")
+    script = runpy.run_path(str(ROOT / "docs" / "make_pictures.py"))
+    made = {f"{name}.png" for name in script["PICTURES"]}
+    assert made == {path.name for path in (ROOT / "docs" / "pictures").iterdir()}
