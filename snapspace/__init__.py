@@ -4,10 +4,12 @@ from importlib.metadata import version as _version
 
 from .energy import ElasticEnergy, StVK
 from .filling import fill_surface
+from .fitting import PoseFit, PoseFits, fit_poses
 from .mesh import (
     EmbeddedSurface,
     MeshNotice,
     TetMesh,
+    boundary_surface,
     embed_surface,
     mass_matrix,
     read_surface,
@@ -37,7 +39,7 @@ from .reduction import (
     ReducedModel,
     reduce,
 )
-from .registration import RigidMotion, registered, rigid_registration
+from .registration import RigidMotion, matched_scales, registered, rigid_registration
 from .sampling import sample
 from .session import BlendingSession, FrameReport, PosingSession, Session
 from .snapshots import (
@@ -68,6 +70,8 @@ __all__ = [
     "InterpolationProblem",
     "Interrupted",
     "MeshNotice",
+    "PoseFit",
+    "PoseFits",
     "Poses",
     "PosingModel",
     "PosingProblem",
@@ -83,12 +87,15 @@ __all__ = [
     "StVK",
     "TetMesh",
     "Validation",
+    "boundary_surface",
     "embed_surface",
     "fill_surface",
+    "fit_poses",
     "in_box",
     "in_sphere",
     "load",
     "mass_matrix",
+    "matched_scales",
     "pca",
     "read_problem",
     "read_surface",

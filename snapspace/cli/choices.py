@@ -24,7 +24,7 @@ class Choices:
     samples: int
     dimension: int | None
     energy_fraction: float | None
-    sampling: Method
+    sampling: Method | None
     no_scramble: bool
     seed: int
     solver: Solver
@@ -38,6 +38,8 @@ class Choices:
         self, problem: Problem, *, dimension: int, threads: int | None, known: int = 0
     ) -> Recipe:
         """The recipe for a problem; `dimension` holds if neither size was given."""
+        # in one dimension even spacing beats all other ways
+        method = self.sampling or ("grid" if problem.domain.dimension == 1 else "sobol")
         options = SolverOptions(
             solver=self.solver,
             tolerance=self.tolerance,
@@ -47,7 +49,7 @@ class Choices:
         parameters = sample(
             problem.domain,
             self.samples,
-            method=self.sampling,
+            method=method,
             seed=self.seed,
             scramble=not self.no_scramble,
         )
@@ -55,7 +57,7 @@ class Choices:
         recipe = Recipe(
             parameters=parameters,
             sampling={
-                "method": self.sampling,
+                "method": method,
                 "samples": self.samples,
                 "seed": self.seed,
                 "scramble": not self.no_scramble,
@@ -74,7 +76,7 @@ class Choices:
 
 
 def choice_options(
-    *, samples: int, dimension: int, sampling: Method
+    *, samples: int, dimension: int, sampling: Method | None
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """The options of `Choices` with a command's defaults, passed on as the parameter `choices`."""
 
@@ -92,7 +94,7 @@ def choice_options(
 
 
 def _options(
-    samples: int, dimension: int, sampling: Method
+    samples: int, dimension: int, sampling: Method | None
 ) -> list[Callable[[Callable[..., Any]], Callable[..., Any]]]:
     return [
         click.option(
@@ -116,7 +118,7 @@ def _options(
             "--sampling",
             type=click.Choice(METHODS),
             default=sampling,
-            show_default=True,
+            show_default=sampling or "grid for two poses, else sobol",
             help="Method.",
         ),
         click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence."),

@@ -63,7 +63,9 @@ SAMPLES, DIMENSION = 40, 20
     help="Bring poses to the size of the first: always (match), never (keep), or where the factor "
     "is so large that the unit of length must differ (auto).",
 )
-@click.option("--accept-inverted", is_flag=True, help="Go on with inverted tets in fitted poses.")
+@click.option(
+    "--accept-inverted", is_flag=True, help="Go on with inverted tets in poses after the first."
+)
 @click.option(
     "--save-poses", type=FILE, metavar="DIR", help="Also write the tets of every pose, as .msh."
 )
@@ -76,7 +78,7 @@ SAMPLES, DIMENSION = 40, 20
 )
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
-@choice_options(samples=SAMPLES, dimension=DIMENSION, sampling="sobol")
+@choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None)
 @click.option("--repair", is_flag=True, help="Mend tet meshes that have curable faults.")
 @threads_option
 @json_option

@@ -18,9 +18,10 @@ from ..mesh import (
     boundary_surface,
     embed_surface,
     read_surface,
+    read_tet_arrays,
     read_tets,
 )
-from ..mesh.correspondence import check_same_faces
+from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.input_path import existing_file
 from ..problem import Poses
 from ..registration import ScalePolicy, matched_scales
@@ -102,11 +103,19 @@ def pose_names(files: Sequence[Path]) -> list[str]:
 
 
 def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions) -> PoseSet:
-    meshes = [read_tets(file, repair=options.repair) for file in files]
-    poses = Poses.of(meshes, names=names)
-    shapes = _scaled(poses.shapes, poses.tets, names, options)
-    poses = Poses(shapes, poses.tets, names=names)
+    meshes = [_tet_arrays(file, repair=options.repair) for file in files]
+    check_same_tets(meshes, names)
+    tets = meshes[0][1]
+    shapes = _scaled(np.stack([vertices for vertices, _ in meshes]), tets, names, options)
+    poses = Poses(shapes, tets, names=names, accept_inverted=options.accept_inverted)
     return PoseSet(poses, boundary_surface(poses.reference))
+
+
+def _tet_arrays(file: Path, *, repair: bool) -> tuple[FloatArray, NDArray[np.int32]]:
+    if not repair:
+        return read_tet_arrays(file)
+    mesh = read_tets(file, repair=True)
+    return mesh.vertices, mesh.tets
 
 
 def _from_surfaces(

@@ -12,7 +12,7 @@ from .mass import (
     mass_of_tets,
 )
 from .quality import dihedral_angles, tet_volumes
-from .read import MeshNotice, read_tets
+from .read import MeshNotice, read_tet_arrays, read_tets
 from .read_surface import read_surface
 from .repair import repair_tets
 from .surface import boundary_faces, compact_surface, vertex_normals
@@ -36,6 +36,7 @@ __all__ = [
     "mass_norms",
     "mass_of_tets",
     "read_surface",
+    "read_tet_arrays",
     "read_tets",
     "repair_tets",
     "tet_volumes",

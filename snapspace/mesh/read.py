@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import CellArray, FileContent
 from .input_path import existing_file
 from .medit import read_medit
@@ -19,6 +19,7 @@ from .quality import tet_volumes
 from .repair import repair_tets
 from .tet_mesh import TetMesh
 from .tetgen import read_tetgen
+from .validation import check_indices, check_points
 from .veg import read_veg
 
 _SOLID_CELLS = ("hexahedron", "wedge", "pyramid", "polyhedron", "voxel")
@@ -67,6 +68,27 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
     for note in notes:
         warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
     return mesh
+
+
+def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
+    """Vertices (n, 3) and tets (m, 4) of a file, as `read_tets` but inverted tets are no error.
+
+    For poses, in which a tet may be inverted that is not in the reference. Raises ValueError for
+    coordinates that are not finite and for indices out of range.
+    """
+    file = existing_file(path, known=_READERS)
+    try:
+        content = _READERS[file.suffix.lower()](file)
+        vertices = as_points(content.vertices, who="read_tets")
+        tets = as_indices(_linear_tets(content), corners=4, who="read_tets", what="tets")
+        check_points(vertices, who="read_tets")
+        check_indices(tets, len(vertices), who="read_tets", what="tet")
+        cells, notes = _flip_if_all_inverted(vertices, tets.astype(np.int64))
+    except (ValueError, OSError) as error:
+        raise ValueError(f"{file}: {str(error).removeprefix('read_tets: ')}") from None
+    for note in notes:
+        warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
+    return vertices, np.ascontiguousarray(cells, dtype=np.int32)
 
 
 def _linear_tets(content: FileContent) -> CellArray:

@@ -239,17 +239,43 @@ def test_saved_poses_can_be_taken_again(
     np.testing.assert_array_equal(second.subspace.basis, first.subspace.basis)
 
 
-def test_repair_mends_tets_that_have_one_fault_in_all_poses(run: Run, tmp_path: Path) -> None:
-    mesh = bar_mesh()
-    tets = np.vstack([mesh.tets, mesh.tets[:1]])
-    for name, shape in bar_shapes().items():
-        write_raw(tmp_path / f"{name}.mesh", shape, tets)
-    poses = [tmp_path / f"{name}.mesh" for name in POSES]
-    words = ("interpolate", *poses, *SMALL, "-o", tmp_path / "m.snapspace")
+def test_repair_mends_the_tets_of_the_surface(
+    run: Run, tmp_path: Path, surface_words: list[object]
+) -> None:
+    mesh = surface_first()
+    write_raw(tmp_path / "tets.mesh", mesh.vertices, np.vstack([mesh.tets, mesh.tets[:1]]))
+    words = (*surface_words, "-o", tmp_path / "m.snapspace")
     assert "same four vertices" in run(*words).error
     result = run(*words, "--repair", "--json")
     assert result.json["tets"] == len(mesh.tets)
-    assert result.err.count("dropped 1 of 193 tets") == 3
+    assert result.err.count("dropped 1 of 193 tets") == 1
+
+
+def test_tets_that_are_ordered_the_other_way_in_all_poses(run: Run, tmp_path: Path) -> None:
+    for name, shape in bar_shapes().items():
+        write_raw(tmp_path / f"{name}.mesh", shape, bar_mesh().tets[:, [0, 2, 1, 3]])
+    poses = [tmp_path / f"{name}.mesh" for name in POSES]
+    result = run("interpolate", *poses, *SMALL, "-o", tmp_path / "m.snapspace")
+    assert result.code == 0, result.err
+    assert "all 192 tets were inverted (ordered the other way)" in result.err
+    np.testing.assert_array_equal(
+        loaded(tmp_path / "m.snapspace").problem.mesh.tets, bar_mesh().tets
+    )
+
+
+def test_inverted_tets_are_accepted_when_asked_for(run: Run, tmp_path: Path) -> None:
+    path, poses = tmp_path / "m.snapspace", write_tet_poses(tmp_path)
+    shape = bar_shapes()["bent"].copy()
+    shape[40] += [0, 0, 1.5]  # one vertex is pulled through others
+    write_raw(poses[1], shape, bar_mesh().tets)
+    words = ("interpolate", *poses, *SMALL, "-o", path)
+    assert "tets are inverted" in run(*words).error
+    assert run(*words, "--accept-inverted").code == 0
+    corners = shape[bar_mesh().tets]
+    count = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0).sum())
+    result = run("info", path, "--json")
+    assert [pose["inverted_tets"] for pose in result.json["poses"]] == [0, count, 0]
+    assert f"{count} tets inverted" in " ".join(result.err.split())
 
 
 def test_without_tets_the_first_surface_is_filled(run: Run, tmp_path: Path) -> None:

@@ -162,13 +162,13 @@ CASES: dict[str, tuple[Case, str]] = {
         lambda f: [*surfaces(f)[:-1], f / "rest.obj"],
         "rest.obj: unknown extension '.obj'; known are .mesh",
     ),
-    "far tets": (far_tets, "and more than 0.02; 74 of 74 vertices affected: give the surface that"),
+    "far tets": (far_tets, "and more than 0.02; 73 of 74 vertices affected: give the surface that"),
     "tet counts": (fewer_tets, "twisted: has 45 vertices, but rest has 81; export all poses from"),
     "other tets": (other_tets, "bent: tet 7 has vertices "),
     "vertex counts": (other_vertices, "bent: has 75 vertices, but rest has 74; export all poses"),
     "other faces": (other_faces, "twisted: face 4 has vertices "),
     "other faces counted": (other_faces, "; 2 of 144 faces differ: export all poses from one mesh"),
-    "flat": (flat, "bent.mesh: "),
+    "flat": (flat, "bent: 192 of 192 tets have no volume, the first is tet 0"),
     "nan": (nan, "bent.off: vertex 3 is not finite"),
     "no extent": (without_extent, "half of the edges of pose 1 have length zero"),
     "open surface": (open_surface, "the surface is not closed, it has 3 boundary edges"),
@@ -217,12 +217,24 @@ def test_refusals_are_one_line_and_touch_nothing(run: Run, tmp_path: Path, name:
 
 
 def test_inverted_tets_are_counted(run: Run, tmp_path: Path) -> None:
+    """Which pose, how many, and what to try."""
     words = inverted(tmp_path)
     corners = pulled_through()[bar_mesh().tets]
-    count = int((np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0).sum())
+    bad = np.flatnonzero(np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0)
     error = run("interpolate", *words, "-o", tmp_path / "m.snapspace").error
-    assert error.startswith(f"{tmp_path / 'bent.mesh'}: tet ")
-    assert f"; {count} such tets of {len(corners)}: " in error
+    count = f"bent: {len(bad)} of {len(corners)} tets are inverted, the first is tet {bad[0]} "
+    assert count in error
+    assert "fit the pose from its surface" in error
+
+
+def test_the_first_pose_has_no_inverted_tets_even_if_they_are_accepted(
+    run: Run, tmp_path: Path
+) -> None:
+    rest, bent, twisted, *size = inverted(tmp_path)
+    words = (bent, rest, twisted, *size, "--accept-inverted", "-o", tmp_path / "m.snapspace")
+    error = run("interpolate", *words).error
+    assert "bent: tet " in error
+    assert " is inverted" in error
 
 
 def test_no_output(run: Run, tmp_path: Path) -> None:
