@@ -251,18 +251,6 @@ def test_repair_mends_the_tets_of_the_surface(
     assert result.err.count("dropped 1 of 193 tets") == 1
 
 
-def test_tets_that_are_ordered_the_other_way_in_all_poses(run: Run, tmp_path: Path) -> None:
-    for name, shape in bar_shapes().items():
-        write_raw(tmp_path / f"{name}.mesh", shape, bar_mesh().tets[:, [0, 2, 1, 3]])
-    poses = [tmp_path / f"{name}.mesh" for name in POSES]
-    result = run("interpolate", *poses, *SMALL, "-o", tmp_path / "m.snapspace")
-    assert result.code == 0, result.err
-    assert "all 192 tets were inverted (ordered the other way)" in result.err
-    np.testing.assert_array_equal(
-        loaded(tmp_path / "m.snapspace").problem.mesh.tets, bar_mesh().tets
-    )
-
-
 def test_inverted_tets_are_accepted_when_asked_for(run: Run, tmp_path: Path) -> None:
     path, poses = tmp_path / "m.snapspace", write_tet_poses(tmp_path)
     shape = bar_shapes()["bent"].copy()

@@ -14,7 +14,7 @@ from snapspace import TetMesh, write_surface, write_tets
 from snapspace.cli import pose_files
 from snapspace.cli.fit_cache import FitCache
 from snapspace.cli.pose_files import PoseOptions, pose_names, read_poses
-from snapspace.mesh import mass_matrix
+from snapspace.mesh import MeshNotice, mass_matrix
 from snapspace.registration import registered
 
 from .files import (
@@ -24,6 +24,7 @@ from .files import (
     bar_surfaces,
     enclosing_mesh,
     surface_first,
+    write_raw,
     write_surface_poses,
     write_tet_poses,
 )
@@ -76,6 +77,18 @@ def test_tets_are_their_own_poses(tmp_path: Path, cache: FitCache) -> None:
     )
     assert (pose_set.fits, pose_set.seconds) == ((), {})
     assert not cache.folder.exists()
+
+
+def test_tets_that_are_ordered_the_other_way_are_turned_in_all_poses(
+    tmp_path: Path, cache: FitCache
+) -> None:
+    paths = [tmp_path / f"{name}.mesh" for name in POSES]
+    for path, shape in zip(paths, bar_shapes().values(), strict=True):
+        write_raw(path, shape, bar_mesh().tets[:, [0, 2, 1, 3]])
+    with pytest.warns(MeshNotice, match="all 192 tets were inverted"):
+        poses = read_poses(paths, options(), cache).poses
+    np.testing.assert_array_equal(poses.tets, bar_mesh().tets)
+    np.testing.assert_array_equal(poses.shapes, list(bar_shapes().values()))
 
 
 @pytest.mark.parametrize("tets", [surface_first(), enclosing_mesh()], ids=["exact", "enclosing"])
