@@ -17,7 +17,7 @@ from .blend_path import path_weights
 from .blend_picture import blend_picture
 from .blend_shape import BlendedShape, shape_at, write_blended
 from .console import notice, print_facts, print_json
-from .files import SURFACE_OUTPUTS, TET_OUTPUTS
+from .files import SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
 
@@ -46,9 +46,7 @@ FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUT
     "--format",
     "kind",
     type=click.Choice(FORMATS),
-    default="obj",
-    show_default=True,
-    help="Of the files in the folder of --path.",
+    help="Of the files in the folder of --path [default: obj].",
 )
 @click.option(
     "--linear", is_flag=True, help="Also write the straight blend, as NAME-linear, to compare with."
@@ -63,7 +61,7 @@ def blend(
     weights: str | None,
     frames: int | None,
     output: Path | None,
-    kind: str,
+    kind: str | None,
     linear: bool,
     extrapolate: bool,
     png: Path | None,
@@ -80,6 +78,8 @@ def blend(
     """
     if (weights is None) == (frames is None):
         raise ValueError("give either --weights or --path")
+    if kind is not None and frames is None:
+        raise ValueError("--format is for --path; the extension of -o tells the format of one file")
     model = load_interpolation(model_file, dimension)
     wanted = _wanted(model, weights, frames, extrapolate=extrapolate)
     _check_outputs(output, png, folder=frames is not None)
@@ -89,7 +89,7 @@ def blend(
         shapes.append(shape_at(model, session, w, linear=linear, extrapolate=extrapolate))
     _warn(shapes)
     begin = time.perf_counter()
-    written = _write(model, shapes, output, kind=kind, folder=frames is not None)
+    written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:
         save_png(png, blend_picture(model, shapes, up=up))
         written.append(png)
@@ -125,12 +125,7 @@ def _check_outputs(output: Path | None, png: Path | None, *, folder: bool) -> No
     if not folder:
         writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
         return
-    try:
-        output.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ValueError(
-            f"{output}: cannot make the folder ({error.strerror}); give another -o"
-        ) from None
+    make_folder(output, option="-o")
 
 
 def _write(

@@ -34,18 +34,21 @@ class Choices:
     lumped: bool
     include_unconverged: bool
 
+    def solver_options(self) -> SolverOptions:
+        """The solver's options; ValueError if one is out of range."""
+        return SolverOptions(
+            solver=self.solver,
+            tolerance=self.tolerance,
+            max_iterations=self.max_iterations,
+            clamp=self.clamp,
+        )
+
     def recipe(
         self, problem: Problem, *, dimension: int, threads: int | None, known: int = 0
     ) -> Recipe:
         """The recipe for a problem; `dimension` holds if neither size was given."""
         # in one dimension even spacing beats all other ways
         method = self.sampling or ("grid" if problem.domain.dimension == 1 else "sobol")
-        options = SolverOptions(
-            solver=self.solver,
-            tolerance=self.tolerance,
-            max_iterations=self.max_iterations,
-            clamp=self.clamp,
-        )
         parameters = sample(
             problem.domain,
             self.samples,
@@ -62,7 +65,7 @@ class Choices:
                 "seed": self.seed,
                 "scramble": not self.no_scramble,
             },
-            solver=options,
+            solver=self.solver_options(),
             dimension=dimension if neither else self.dimension,
             energy_fraction=self.energy_fraction,
             lumped=self.lumped,

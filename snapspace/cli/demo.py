@@ -19,6 +19,7 @@ from ..snapshots import SolverOptions
 from ..validation import validate
 from .console import console, notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
+from .files import make_folder
 from .options import FILE, json_option, threads_option
 from .pipeline import build_model
 from .pose import write_shape
@@ -75,7 +76,7 @@ def demo(
         kind: output / f"creature.{kind}" for kind in ("msh", "json", "snapspace", "png", "obj")
     }
     check_dimension(dimension, samples)
-    _make_folder(output)
+    make_folder(output, option="--output")
     with console().status("generating the creature"):
         write_tets(files["msh"], creature(tets))
     with atomic_file(files["json"]) as path:
@@ -116,15 +117,6 @@ def demo(
                 "seconds": seconds,
             }
         )
-
-
-def _make_folder(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ValueError(
-            f"{folder}: cannot make the folder ({error.strerror}); give another --output"
-        ) from None
 
 
 def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:

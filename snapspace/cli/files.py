@@ -2,7 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 TET_INPUTS = (".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg")
 SURFACE_INPUTS = (".obj", ".off", ".ply", ".stl")
 TET_OUTPUTS = (".msh", ".vtu", ".vtk", ".mesh")
 SURFACE_OUTPUTS = (".obj", ".ply", ".off", ".stl")
+
+
+def make_folder(folder: Path, *, option: str) -> None:
+    """Makes a folder for files to be written; ValueError names the option if that fails."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(
+            f"{folder}: cannot make the folder ({error.strerror}); give another {option}"
+        ) from None

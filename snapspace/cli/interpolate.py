@@ -15,11 +15,12 @@ from rich.table import Table
 from ..energy import StVK
 from ..fitting import DEVIATION, PoseFit
 from ..mesh import write_tets
-from ..problem import InterpolationProblem
+from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .build import check_output
 from .choices import Choices, choice_options
 from .console import console, notice, print_json, print_next
+from .files import make_folder
 from .fit_cache import FitCache
 from .options import FILE, json_option, threads_option
 from .pipeline import build_model
@@ -115,6 +116,16 @@ def interpolate(
     """
     begin = time.perf_counter()
     check_output(output)
+    if len(files) < 2:
+        raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
+    if tets is not None and edge_length is not None:
+        raise ValueError("--edge-length is for tets that are made here; leave it or --tets out")
+    # what is wrong with an option is said before the work begins
+    material = StVK(lam=lam, mu=mu)
+    Simplex(corners=len(files), extrapolation=extrapolation)
+    choices.solver_options()
+    if save_poses is not None:
+        make_folder(save_poses, option="--save-poses")
     if choices.energy_fraction is None:
         check_dimension(choices.dimension or DIMENSION, choices.samples, known=len(files))
     cache = FitCache.beside(output)
@@ -129,9 +140,7 @@ def interpolate(
     )
     pose_set = read_poses(files, options, cache)
     print_fits(pose_set.fits)
-    problem = InterpolationProblem(
-        pose_set.poses, material=StVK(lam=lam, mu=mu), extrapolation=extrapolation
-    )
+    problem = InterpolationProblem(pose_set.poses, material=material, extrapolation=extrapolation)
     recipe = choices.recipe(problem, dimension=DIMENSION, threads=threads, known=len(files))
     if save_poses is not None:
         _save_poses(save_poses, pose_set)
@@ -139,6 +148,7 @@ def interpolate(
         "poses": [file.name for file in files],
         "tets": None if tets is None else tets.name,
         "fits": [asdict(fit) for fit in pose_set.fits],
+        "pose_seconds": pose_set.seconds,
     }
     built = build_model(
         problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
@@ -180,12 +190,6 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
 
 
 def _save_poses(folder: Path, pose_set: PoseSet) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ValueError(
-            f"{folder}: cannot make the folder ({error.strerror}); give another --save-poses"
-        ) from None
     poses = pose_set.poses
     for name, shape in zip(poses.names, poses.shapes, strict=True):
         file = folder / f"{name.replace('/', '-').replace(': ', '-')}.msh"

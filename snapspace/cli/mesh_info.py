@@ -111,7 +111,10 @@ def surface_info(file: Path) -> Info:
         ("faces", str(len(faces))),
         ("closed", "yes" if closed else "no: an edge has no opposite, or faces disagree"),
         ("bounds", f"{_point(low)} to {_point(high)}, diagonal {diagonal:.6g}"),
-        ("note", "a model needs tets: fill the surface first, for instance with fTetWild"),
+        (
+            "note",
+            "`snapspace interpolate` fills it and blends it with other poses; `build` needs tets",
+        ),
     ]
     return figures, facts
 

@@ -22,7 +22,9 @@ def parse_numbers(text: str, *, example: str = "numbers such as 0.2,0.8") -> lis
         numbers = [float(word) for word in words]
     except ValueError:
         raise ValueError(f"'{text}' is not {example}") from None
-    if not numbers or not all(math.isfinite(number) for number in numbers):
+    if not numbers:
+        raise ValueError(f"'{text}' is not {example}")
+    if not all(math.isfinite(number) for number in numbers):
         raise ValueError(f"'{text}' is not finite")
     return numbers
 

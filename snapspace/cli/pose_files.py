@@ -20,7 +20,9 @@ from ..mesh import (
     read_surface,
     read_tet_arrays,
     read_tets,
+    tet_volumes,
 )
+from ..mesh.closed_surface import enclosed_volume
 from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.input_path import existing_file
 from ..problem import Poses
@@ -86,8 +88,9 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
         )
     if kinds == {True}:
         return _from_surfaces(files, names, options, cache)
-    if options.tets is not None:
-        raise ValueError("--tets is for poses that are surfaces; these have tets of their own")
+    if options.tets is not None or options.edge_length is not None:
+        name = "--tets" if options.tets is not None else "--edge-length"
+        raise ValueError(f"{name} is for poses that are surfaces; these have tets of their own")
     return _from_tets(files, names, options)
 
 
@@ -106,6 +109,9 @@ def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions
     meshes = [_tet_arrays(file, repair=options.repair) for file in files]
     check_same_tets(meshes, names)
     tets = meshes[0][1]
+    if (tet_volumes(*meshes[0]) < 0).all():
+        notice(f"notice: {names[0]}: all {len(tets)} tets were inverted and have been flipped")
+        tets = np.ascontiguousarray(tets[:, [0, 2, 1, 3]])
     shapes = _scaled(np.stack([vertices for vertices, _ in meshes]), tets, names, options)
     poses = Poses(shapes, tets, names=names, accept_inverted=options.accept_inverted)
     return PoseSet(poses, boundary_surface(poses.reference))
@@ -160,7 +166,9 @@ def _tets_of(
     vertices: FloatArray, faces: NDArray[np.int32], options: PoseOptions, cache: FitCache
 ) -> TetMesh:
     if options.tets is not None:
-        return read_tets(options.tets, repair=options.repair)
+        mesh = read_tets(options.tets, repair=options.repair)
+        _check_size(mesh, vertices, faces, options.tets)
+        return mesh
     size = {} if options.edge_length is None else {"edge_length": options.edge_length}
     known = cache.load_tets(vertices, faces, size)
     if known is not None:
@@ -170,6 +178,16 @@ def _tets_of(
         mesh = fill_surface(vertices, faces, **size)
     cache.save_tets(vertices, faces, size, mesh)
     return mesh
+
+
+def _check_size(mesh: TetMesh, vertices: FloatArray, faces: NDArray[np.int32], file: Path) -> None:
+    """ValueError for tets in another unit of length: the surface would lie in a corner of them."""
+    volume = abs(enclosed_volume(vertices, faces))
+    if not 0.5 * volume <= mesh.volume <= 2.0 * volume:
+        raise ValueError(
+            f"{file}: the tets have volume {mesh.volume:g}, but the first surface encloses "
+            f"{volume:g}; give tets of that surface in its unit of length, or leave --tets out"
+        )
 
 
 def _fitted(
@@ -199,7 +217,9 @@ def _fitted(
     if missing:
         done_before = len(found)
         try:
-            with sample_progress("poses", done=done_before, total=len(targets)) as progress:
+            with sample_progress(
+                "fitted", done=done_before, total=len(targets), unit="poses"
+            ) as progress:
                 fit_poses(
                     mesh,
                     surface,

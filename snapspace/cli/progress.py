@@ -18,11 +18,13 @@ _RATE_PERIOD = 600.0
 
 
 @contextmanager
-def sample_progress(label: str, *, done: int = 0, total: int) -> Iterator[Report]:
+def sample_progress(
+    label: str, *, done: int = 0, total: int, unit: str = "samples"
+) -> Iterator[Report]:
     """Gives a callable(done, total) to be called now and then; `done` samples exist already."""
     screen = console()
     if not screen.is_terminal:
-        yield _Log(label, done)
+        yield _Log(label, done, unit)
         return
     columns = (
         TextColumn("{task.description}"),
@@ -51,8 +53,9 @@ class _RateColumn(ProgressColumn):
 class _Log:
     """One line whenever another tenth is done."""
 
-    def __init__(self, label: str, done: int) -> None:
+    def __init__(self, label: str, done: int, unit: str) -> None:
         self.label = label
+        self.unit = unit
         self.before = done
         self.begin = time.perf_counter()
         self.tenths: int | None = None
@@ -66,4 +69,4 @@ class _Log:
         self.tenths = tenths
         each = (time.perf_counter() - self.begin) / max(done - self.before, 1)
         left = f", {in_time(each * (total - done))} left" if done < total else ""
-        notice(f"{self.label}: {done} of {total} samples, {in_time(each)} each{left}")
+        notice(f"{self.label}: {done} of {total} {self.unit}, {in_time(each)} each{left}")

@@ -71,10 +71,10 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
 
 
 def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
-    """Vertices (n, 3) and tets (m, 4) of a file, as `read_tets` but inverted tets are no error.
+    """Vertices (n, 3) and tets (m, 4) of a file as they are, inverted tets too.
 
-    For poses, in which a tet may be inverted that is not in the reference. Raises ValueError for
-    coordinates that are not finite and for indices out of range.
+    For poses, in which a tet may be inverted that is not in the reference. Raises ValueError as
+    `read_tets` for the file, for coordinates that are not finite and for indices out of range.
     """
     file = existing_file(path, known=_READERS)
     try:
@@ -83,12 +83,9 @@ def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArra
         tets = as_indices(_linear_tets(content), corners=4, who="read_tets", what="tets")
         check_points(vertices, who="read_tets")
         check_indices(tets, len(vertices), who="read_tets", what="tet")
-        cells, notes = _flip_if_all_inverted(vertices, tets.astype(np.int64))
     except (ValueError, OSError) as error:
         raise ValueError(f"{file}: {str(error).removeprefix('read_tets: ')}") from None
-    for note in notes:
-        warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
-    return vertices, np.ascontiguousarray(cells, dtype=np.int32)
+    return vertices, tets
 
 
 def _linear_tets(content: FileContent) -> CellArray:
