@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from functools import wraps
 from typing import ParamSpec, TypeVar
@@ -17,11 +18,37 @@ def single_threaded_blas(function: Callable[P, R]) -> Callable[P, R]:
 
     BLAS splits long sums between its threads, so that the last bits of a product depend on how many
     there are. What a model is made of should not, and these products take well under a second.
+    Functions that run at the same time on several threads share the limit.
     """
 
     @wraps(function)
     def limited(*args: P.args, **kwargs: P.kwargs) -> R:
-        with threadpool_limits(limits=1, user_api="blas"):
+        with _limit:
             return function(*args, **kwargs)
 
     return limited
+
+
+class _SharedLimit:
+    """The process-wide limit: set by the first to enter, lifted by the last to leave."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._inside = 0
+        self._limits: threadpool_limits | None = None
+
+    def __enter__(self) -> None:
+        with self._lock:
+            if self._inside == 0:
+                self._limits = threadpool_limits(limits=1, user_api="blas")
+            self._inside += 1
+
+    def __exit__(self, *_: object) -> None:
+        with self._lock:
+            self._inside -= 1
+            if self._inside == 0 and self._limits is not None:
+                self._limits.restore_original_limits()
+                self._limits = None
+
+
+_limit = _SharedLimit()

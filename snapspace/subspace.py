@@ -11,7 +11,7 @@ from scipy.sparse import csr_array
 
 from . import _core as core
 from .blas import single_threaded_blas
-from .mesh import apply_mass, mass_gram
+from .mesh import apply_mass, mass_gram, mass_norm
 from .problem import solutions_beyond_tau
 from .snapshots import Snapshots
 
@@ -147,11 +147,14 @@ def pca(
     eigenvalues, vectors = np.maximum(eigenvalues[::-1], 0.0), vectors[:, ::-1]
     # Eigenvalues below this are rounding noise of the largest one.
     noise = len(eigenvalues) * np.finfo(float).eps * eigenvalues[0]
+    # So are displacements that are nothing but rounding of positions: those of equal poses.
+    centered = (tau.reshape(-1, 3) - tau.reshape(-1, 3).mean(axis=0)).reshape(-1)
+    noise = max(noise, len(eigenvalues) * (1e-13 * mass_norm(mass, centered)) ** 2)
     rank = int((eigenvalues > noise).sum())
     if rank == 0:
         raise ValueError(
             f"pca: all {len(eigenvalues)} snapshots equal the reference shape, so there is no "
-            "direction to span"
+            "direction to span; poses must differ by more than a rigid motion"
         )
     if energy_fraction is not None:
         if not 0 < energy_fraction <= 1:

@@ -9,6 +9,7 @@
 #include "snapshots/numbering.h"
 #include "snapshots/samples.h"
 #include "snapshots/scalar_factor.h"
+#include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
 namespace snapspace {
@@ -111,6 +112,7 @@ class InterpolationObjective {
       return system_.energy->value_and_gradient(weights_.data(), u, gradient, 0, tets);
     Real values[2];
     parallel_for(2, threads_, [&](int half) {
+      const FlushDenormals flush;  // as on the caller's thread
       values[half] = system_.energy->value_and_gradient(
           weights_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
           half == 0 ? tets / 2 : tets);

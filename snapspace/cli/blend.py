@@ -138,11 +138,25 @@ def _write(
 ) -> list[Path]:
     if output is None:
         return []
+    if folder:
+        _notice_old_frames(output, len(shapes))
     written = []
     for number, shape in enumerate(shapes):
         path = output / f"frame-{number:04d}.{kind}" if folder else output
         written += write_blended(model, shape, path)
     return written
+
+
+def _notice_old_frames(folder: Path, frames: int) -> None:
+    """Frames of a longer path would follow those of this one in a film."""
+    old = [path for path in folder.glob("frame-*.*") if _number(path) >= frames]
+    if old:
+        notice(f"notice: {folder} also holds {len(old)} files of a longer path; delete them")
+
+
+def _number(frame: Path) -> int:
+    digits = frame.stem.removesuffix("-linear").removeprefix("frame-")
+    return int(digits) if digits.isdecimal() else -1
 
 
 def _warn(shapes: list[BlendedShape]) -> None:

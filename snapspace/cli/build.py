@@ -56,7 +56,7 @@ def build(
     begin = time.perf_counter()
     check_output(output)
     problem, source = _read(problem_file, mesh, repair=repair)
-    recipe = choices.recipe(problem, dimension=DIMENSION, threads=threads)
+    recipe = choices.recipe(problem.domain, dimension=DIMENSION, threads=threads)
     built = build_model(problem, recipe, output, source=source, begin=begin)
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]

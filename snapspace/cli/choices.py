@@ -9,8 +9,7 @@ from typing import Any
 
 import click
 
-from ..problem import Problem
-from ..sampling import METHODS, Method, sample
+from ..sampling import METHODS, Domain, Method, sample
 from ..snapshots import SOLVERS, SolverOptions
 from ..snapshots.solve import Solver
 from .console import notice
@@ -44,13 +43,13 @@ class Choices:
         )
 
     def recipe(
-        self, problem: Problem, *, dimension: int, threads: int | None, known: int = 0
+        self, domain: Domain, *, dimension: int, threads: int | None, known: int = 0
     ) -> Recipe:
-        """The recipe for a problem; `dimension` holds if neither size was given."""
+        """The recipe for a domain; `dimension` holds if neither size was given."""
         # in one dimension even spacing beats all other ways
-        method = self.sampling or ("grid" if problem.domain.dimension == 1 else "sobol")
+        method = self.sampling or ("grid" if domain.dimension == 1 else "sobol")
         parameters = sample(
-            problem.domain,
+            domain,
             self.samples,
             method=method,
             seed=self.seed,

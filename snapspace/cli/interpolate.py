@@ -13,7 +13,7 @@ from rich import box
 from rich.table import Table
 
 from ..energy import StVK
-from ..fitting import DEVIATION, PoseFit
+from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
@@ -25,7 +25,6 @@ from .fit_cache import FitCache
 from .options import FILE, json_option, threads_option
 from .pipeline import build_model
 from .pose_files import PoseOptions, PoseSet, read_poses
-from .recipe import check_dimension
 from .summary import print_summary
 
 SAMPLES, DIMENSION = 40, 20
@@ -80,7 +79,7 @@ SAMPLES, DIMENSION = 40, 20
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None)
-@click.option("--repair", is_flag=True, help="Mend tet meshes that have curable faults.")
+@click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
 @threads_option
 @json_option
 def interpolate(
@@ -122,12 +121,11 @@ def interpolate(
         raise ValueError("--edge-length is for tets that are made here; leave it or --tets out")
     # what is wrong with an option is said before the work begins
     material = StVK(lam=lam, mu=mu)
-    Simplex(corners=len(files), extrapolation=extrapolation)
-    choices.solver_options()
+    domain = Simplex(corners=len(files), extrapolation=extrapolation)
+    recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
+    check_deviation(deviation)
     if save_poses is not None:
         make_folder(save_poses, option="--save-poses")
-    if choices.energy_fraction is None:
-        check_dimension(choices.dimension or DIMENSION, choices.samples, known=len(files))
     cache = FitCache.beside(output)
     options = PoseOptions(
         tets=tets,
@@ -141,7 +139,6 @@ def interpolate(
     pose_set = read_poses(files, options, cache)
     print_fits(pose_set.fits)
     problem = InterpolationProblem(pose_set.poses, material=material, extrapolation=extrapolation)
-    recipe = choices.recipe(problem, dimension=DIMENSION, threads=threads, known=len(files))
     if save_poses is not None:
         _save_poses(save_poses, pose_set)
     source: dict[str, Any] = {
@@ -150,9 +147,13 @@ def interpolate(
         "fits": [asdict(fit) for fit in pose_set.fits],
         "pose_seconds": pose_set.seconds,
     }
-    built = build_model(
-        problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
-    )
+    try:
+        built = build_model(
+            problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
+        )
+    except KeyboardInterrupt as stop:
+        kept = "; the fitted poses are kept" if pose_set.fits else ""
+        raise KeyboardInterrupt(f"{stop}{kept}") from None
     built = replace(built, seconds={**pose_set.seconds, **built.seconds})
     cache.remove()
     print_summary(built, include_unconverged=choices.include_unconverged)

@@ -98,7 +98,7 @@ def build_model(
     try:
         if isinstance(problem, InterpolationProblem):
             with _stage(seconds, "mean shape"), console().status("mean shape"):
-                _ = problem.mean_shape
+                problem.solve_mean_shape(threads=recipe.threads)
         with _stage(seconds, "snapshots"):
             snapshots = _solved(problem, recipe, checkpoint)
         with _stage(seconds, "basis"), console().status("basis"):

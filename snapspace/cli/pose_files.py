@@ -22,17 +22,19 @@ from ..mesh import (
     read_tets,
     tet_volumes,
 )
-from ..mesh.closed_surface import enclosed_volume
 from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.input_path import existing_file
 from ..problem import Poses
-from ..registration import ScalePolicy, matched_scales
+from ..registration import ScalePolicy, matched_scales, scale_factors
 from .console import console, notice
 from .files import SURFACE_INPUTS, TET_INPUTS
 from .fit_cache import FitCache
 from .progress import sample_progress
 
 FloatArray = NDArray[np.float64]
+
+#: A pose whose edges are longer or shorter than the first one's by more than this is pointed out.
+LARGE_CHANGE = 1.05
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,7 +46,7 @@ class PoseOptions:
     deviation : rms distance from the surfaces, relative to the diagonal, that fits aim at
     scale : when poses are brought to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted
-    repair : whether faults of tet meshes are mended
+    repair : whether faults of the mesh of --tets are mended
     """
 
     tets: Path | None
@@ -106,7 +108,12 @@ def pose_names(files: Sequence[Path]) -> list[str]:
 
 
 def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions) -> PoseSet:
-    meshes = [_tet_arrays(file, repair=options.repair) for file in files]
+    if options.repair:
+        raise ValueError(
+            "--repair would mend each pose in its own way, and they would no longer correspond; "
+            "mend the first one, and make the others from it"
+        )
+    meshes = [read_tet_arrays(file) for file in files]
     check_same_tets(meshes, names)
     tets = meshes[0][1]
     if (tet_volumes(*meshes[0]) < 0).all():
@@ -114,14 +121,8 @@ def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions
         tets = np.ascontiguousarray(tets[:, [0, 2, 1, 3]])
     shapes = _scaled(np.stack([vertices for vertices, _ in meshes]), tets, names, options)
     poses = Poses(shapes, tets, names=names, accept_inverted=options.accept_inverted)
+    _point_out_sizes(shapes, tets, names, options)
     return PoseSet(poses, boundary_surface(poses.reference))
-
-
-def _tet_arrays(file: Path, *, repair: bool) -> tuple[FloatArray, NDArray[np.int32]]:
-    if not repair:
-        return read_tet_arrays(file)
-    mesh = read_tets(file, repair=True)
-    return mesh.vertices, mesh.tets
 
 
 def _from_surfaces(
@@ -146,6 +147,7 @@ def _from_surfaces(
         names=names,
         accept_inverted=options.accept_inverted,
     )
+    _point_out_sizes(targets, faces, names, options)
     return PoseSet(poses, surface, fits, seconds)
 
 
@@ -162,12 +164,28 @@ def _scaled(
     return scaled
 
 
+def _point_out_sizes(
+    shapes: FloatArray,
+    cells: NDArray[np.int32],
+    names: Sequence[str],
+    options: PoseOptions,
+) -> None:
+    """A pose that is larger or smaller by a factor is elastic strain, unless the user says no."""
+    if options.scale == "auto":
+        for name, factor in zip(names, scale_factors(shapes, cells), strict=True):
+            if abs(np.log(factor)) > np.log(LARGE_CHANGE):
+                notice(
+                    f"notice: the edges of {name} are {1 / factor:.3g} times as long as those of "
+                    f"{names[0]}; --scale match takes that away, --scale keep means it"
+                )
+
+
 def _tets_of(
     vertices: FloatArray, faces: NDArray[np.int32], options: PoseOptions, cache: FitCache
 ) -> TetMesh:
     if options.tets is not None:
         mesh = read_tets(options.tets, repair=options.repair)
-        _check_size(mesh, vertices, faces, options.tets)
+        _check_size(mesh, vertices, options.tets)
         return mesh
     size = {} if options.edge_length is None else {"edge_length": options.edge_length}
     known = cache.load_tets(vertices, faces, size)
@@ -180,13 +198,13 @@ def _tets_of(
     return mesh
 
 
-def _check_size(mesh: TetMesh, vertices: FloatArray, faces: NDArray[np.int32], file: Path) -> None:
+def _check_size(mesh: TetMesh, vertices: FloatArray, file: Path) -> None:
     """ValueError for tets in another unit of length: the surface would lie in a corner of them."""
-    volume = abs(enclosed_volume(vertices, faces))
-    if not 0.5 * volume <= mesh.volume <= 2.0 * volume:
+    diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    if not 0.8 * diagonal <= mesh.diagonal <= 20.0 * diagonal:
         raise ValueError(
-            f"{file}: the tets have volume {mesh.volume:g}, but the first surface encloses "
-            f"{volume:g}; give tets of that surface in its unit of length, or leave --tets out"
+            f"{file}: the tets have a diagonal of {mesh.diagonal:g}, but the first surface has one "
+            f"of {diagonal:g}; give tets of that surface in its unit of length, or leave --tets out"
         )
 
 

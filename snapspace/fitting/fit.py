@@ -68,7 +68,8 @@ def fit_poses(
     names : sequence of str, optional
         Of the poses, for the reports. Default: their indices.
     on_finished : callable(index, shape, report), optional
-        Called from this thread, once for each pose, soon after it is finished; on Ctrl-C too.
+        Called from this thread for each pose, soon after it is finished; on Ctrl-C too, and again
+        for a pose whose call was interrupted.
 
     Returns
     -------
@@ -98,9 +99,9 @@ def fit_poses(
 
     def announce() -> None:
         for index in sorted(set(fitted) - announced):
-            announced.add(index)
             if on_finished:
                 on_finished(index, *fitted[index])
+            announced.add(index)  # after: Ctrl-C may fall into the callback
 
     def show(_: int) -> None:
         announce()
@@ -181,9 +182,14 @@ class _Fitting:
 
 
 def _check_options(deviation: float, max_iterations: int, threads: int | None) -> None:
-    if not (np.isfinite(deviation) and deviation > 0):
-        raise ValueError(f"fit_poses: deviation is {deviation}, but it must be positive")
+    check_deviation(deviation)
     if max_iterations < 1:
         raise ValueError(f"fit_poses: max_iterations is {max_iterations}, but must be at least 1")
     if threads is not None and threads < 1:
         raise ValueError(f"fit_poses: threads is {threads}, but must be at least 1")
+
+
+def check_deviation(deviation: float) -> None:
+    """ValueError unless the goal is positive."""
+    if not (np.isfinite(deviation) and deviation > 0):
+        raise ValueError(f"fit_poses: deviation is {deviation}, but it must be positive")

@@ -116,9 +116,12 @@ class InterpolationProblem:
         KeyboardInterrupt
             On Ctrl-C.
         """
-        displacement = mean_displacement(self._rest_system, self._near_poses - self.base)
-        mean = self.base + displacement
-        return registered(mean, self.base, self._mass_of(mean))
+        return self._solved_mean_shape(threads=0)
+
+    def solve_mean_shape(self, *, threads: int | None = None) -> None:
+        """Solves for `mean_shape` now, on so many threads (default: all), unless it is known."""
+        if "mean_shape" not in self.__dict__:
+            self.mean_shape = self._solved_mean_shape(threads=threads or 0)
 
     @cached_property
     def pose_shapes(self) -> FloatArray:
@@ -197,8 +200,13 @@ class InterpolationProblem:
         blend: FloatArray = np.einsum("k,ki->i", w, self.pose_shapes).reshape(-1, 3)
         return blend
 
+    def _solved_mean_shape(self, *, threads: int) -> FloatArray:
+        poses = self._near_poses - self.base
+        mean = self.base + mean_displacement(self._rest_system, poses, threads=threads)
+        return registered(mean, self.base, self._mass_of(mean))
+
     def _checked_shape(self, shape: ArrayLike) -> FloatArray:
-        x = np.asarray(shape, np.float64).reshape(-1)
+        x = np.array(shape, np.float64).reshape(-1)
         if x.shape != self.base.shape:
             raise ValueError(
                 f"InterpolationProblem: the mean shape has {x.size} coordinates, but the poses "

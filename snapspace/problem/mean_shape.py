@@ -19,7 +19,9 @@ _STAGE = 80
 _MOST_STAGES = 200
 
 
-def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> FloatArray:
+def mean_displacement(
+    system: core.InterpolationSystem, poses: FloatArray, *, threads: int = 0
+) -> FloatArray:
     """Displacement (3n,) of the minimum of the mean energy of all poses.
 
     The first iterations start from every pose at once, with a factor adapted to all of them. From
@@ -30,6 +32,7 @@ def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> Fl
     ----------
     system : InterpolationSystem
     poses : (k, 3n) displacements of the poses, from which the solves start
+    threads : int, default 0, all
 
     Raises
     ------
@@ -41,7 +44,7 @@ def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> Fl
     shapes = poses
     for _ in range(_MOST_STAGES):
         weights = np.full((len(shapes), len(poses)), 1.0 / len(poses))
-        batch = _stage(system.adapted(shapes), weights, shapes)
+        batch = _stage(system.adapted(shapes), weights, shapes, threads)
         shapes = batch.shapes
         best = int(np.nanargmin([report.value for report in batch.reports]))
         status = batch.reports[best].status.name
@@ -57,7 +60,9 @@ def mean_displacement(system: core.InterpolationSystem, poses: FloatArray) -> Fl
     )
 
 
-def _stage(system: core.InterpolationSystem, weights: FloatArray, starts: FloatArray) -> core.Batch:
+def _stage(
+    system: core.InterpolationSystem, weights: FloatArray, starts: FloatArray, threads: int
+) -> core.Batch:
     batch: core.Batch
     batch, interrupted = run_interruptible(
         lambda control: system.solve_fast(
@@ -65,7 +70,7 @@ def _stage(system: core.InterpolationSystem, weights: FloatArray, starts: FloatA
             starts,
             tolerance=TOLERANCE,
             max_iterations=_STAGE,
-            threads=0,
+            threads=threads,
             control=control,
             lanes=lane_count(len(starts)),
         ),

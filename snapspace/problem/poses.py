@@ -143,8 +143,8 @@ class Poses:
                 first = np.flatnonzero(volumes < 0)[0]
                 raise ValueError(
                     f"Poses: {name}: {count} of {len(volumes)} tets are inverted, the first is tet "
-                    f"{first} (volume {volumes[first]:g}); fit the pose from its surface with a "
-                    "softer target, repair it, or pass accept_inverted=True (command line: "
+                    f"{first} (volume {volumes[first]:g}); fit the pose from its surface, "
+                    "mend it, or pass accept_inverted=True (command line: "
                     "--accept-inverted)"
                 )
 

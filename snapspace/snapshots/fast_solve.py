@@ -53,6 +53,9 @@ def solve_fast(
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
     for k in range(len(reports)):
         while reports[k].status == "max_iterations" and reports[k].iterations < max_iterations:
+            if control.cancelled:
+                reports[k] = replace(reports[k], status="cancelled")
+                break
             again = problem.system_near(shapes[k]).solve_fast(
                 inputs[k : k + 1],
                 shapes[k : k + 1],

@@ -19,9 +19,9 @@ def nearest_start(known: FloatArray, shapes: FloatArray, wanted: FloatArray) -> 
 
     Parameters
     ----------
-    known : (k, p) parameters in the unit cube
+    known : (k, p) scaled parameters
     shapes : (k, 3n)
-    wanted : (j, p) parameters in the unit cube
+    wanted : (j, p) scaled parameters
 
     Returns
     -------

@@ -11,6 +11,7 @@ from safetensors.numpy import load_file
 
 from snapspace import (
     InterpolationModel,
+    TetMesh,
     load,
     read_surface,
     read_tets,
@@ -173,15 +174,18 @@ def test_frames_and_units_of_the_poses_do_not_matter(
 )
 def test_scales(run: Run, tmp_path: Path, scale: float, policy: str, wanted: float) -> None:
     """Under auto a pose may be larger than the first one, but not by a unit of length."""
-    mesh = bar_mesh()
+    mesh, bent = bar_mesh(), bar_shapes()["bent"]
     write_tets(tmp_path / "a.msh", mesh)
-    write_tets(tmp_path / "b.msh", mesh, vertices=scale * mesh.vertices)
+    write_tets(tmp_path / "b.msh", mesh, vertices=scale * bent)
     words = (tmp_path / "a.msh", tmp_path / "b.msh", "--samples", 2, "--dimension", 1)
     result = run("interpolate", *words, "--scale", policy, "-o", tmp_path / "m.snapspace")
     assert result.code == 0, result.err
     assert ("b is scaled by" in result.err) == (wanted != scale)
     volumes = loaded(tmp_path / "m.snapspace").problem.poses.volumes.sum(axis=1)
-    assert volumes[1] / volumes[0] == pytest.approx(wanted**3)
+    alike = TetMesh(bent, mesh.tets).volume
+    assert volumes[1] / alike == pytest.approx(wanted**3, rel=1e-6)
+    far = abs(np.log(wanted)) > 0.2
+    assert ("--scale match takes that away" in result.err) == (policy == "auto" and far)
 
 
 def test_a_larger_deviation_is_a_softer_fit(

@@ -162,7 +162,7 @@ CASES: dict[str, tuple[Case, str]] = {
         lambda f: [*surfaces(f)[:-1], f / "rest.obj"],
         "rest.obj: unknown extension '.obj'; known are .mesh",
     ),
-    "far tets": (far_tets, "but the first surface encloses 4; give tets of that surface in its"),
+    "far tets": (far_tets, "but the first surface has one of 4.24264; give tets of that surface"),
     "tet counts": (fewer_tets, "twisted: has 45 vertices, but rest has 81; export all poses from"),
     "other tets": (other_tets, "bent: tet 7 has vertices "),
     "vertex counts": (other_vertices, "bent: has 75 vertices, but rest has 74; export all poses"),

@@ -116,7 +116,7 @@ def test_the_pose_with_inverted_tets_is_named_with_a_cure() -> None:
         Poses(tet_with_apex(1.0, 2.0, -0.6), TET, names=["rest", "tall", "pushed in"])
     assert str(caught.value) == (
         "Poses: pushed in: 1 of 1 tets are inverted, the first is tet 0 (volume -0.1); fit the "
-        "pose from its surface with a softer target, repair it, or pass accept_inverted=True "
+        "pose from its surface, mend it, or pass accept_inverted=True "
         "(command line: --accept-inverted)"
     )
 
