@@ -63,8 +63,8 @@ def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> Embed
     corners = mesh.tets[tets]
     # the nearest tet vertex may be of a tet that was not chosen: rounding decides at a vertex
     distance, nearest = cKDTree(mesh.vertices).query(points, distance_upper_bound=same)
-    coincides = np.flatnonzero(distance <= same)
-    corners[coincides] = nearest[coincides, None]
+    coincides = np.flatnonzero(np.asarray(distance) <= same)
+    corners[coincides] = np.asarray(nearest)[coincides, None]
     weights[coincides] = (1.0, 0.0, 0.0, 0.0)
     return EmbeddedSurface(triangles, corners, weights)
 
