@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save
 
+from .. import __version__
 from ..fitting import PoseFit
 from ..mesh import EmbeddedSurface, TetMesh
 from ..mesh.atomic_file import atomic_file
@@ -107,7 +108,10 @@ def _fit_key(
 
 
 def _key(kind: str, settings: Settings, *arrays: NDArray[Any]) -> str:
-    digest = hashlib.sha256(json.dumps(settings, sort_keys=True).encode())
+    # another version may fill and fit in another way
+    content = {**settings, "snapspace": __version__}
+    digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
     for array in arrays:
+        digest.update(f"{array.dtype.str} {array.shape}\n".encode())
         digest.update(np.ascontiguousarray(array).tobytes())
     return f"{kind}-{digest.hexdigest()[:16]}"

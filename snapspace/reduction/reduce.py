@@ -73,7 +73,8 @@ def reduce(
     Raises
     ------
     ValueError
-        If the subspace is of another mesh or not attached to the problem's tau.
+        If the subspace is of another mesh or not attached to the problem's tau, or the surface is
+        of another mesh.
     """
     if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
         raise ValueError(
@@ -82,6 +83,8 @@ def reduce(
         )
     parameters, coordinates = _training(problem, subspace, snapshots)
     if isinstance(problem, PosingProblem):
+        if surface is not None:
+            raise ValueError("reduce: posing shows the surface of its tets; leave surface out")
         return PosingModel(
             problem=problem,
             subspace=subspace,
@@ -91,11 +94,17 @@ def reduce(
             training_coordinates=coordinates,
             provenance=provenance or {},
         )
+    shown = surface or boundary_surface(problem.mesh)
+    if len(shown.corners) and shown.corners.max() >= len(problem.mesh.vertices):
+        raise ValueError(
+            f"reduce: the surface follows vertex {shown.corners.max()}, but the mesh has "
+            f"{len(problem.mesh.vertices)} vertices; embed it in the problem's mesh"
+        )
     return InterpolationModel(
         problem=problem,
         subspace=subspace,
         coefficients=pose_quartics(problem, subspace, threads=threads),
-        surface=surface or boundary_surface(problem.mesh),
+        surface=shown,
         training_parameters=parameters,
         training_coordinates=coordinates,
         provenance=provenance or {},

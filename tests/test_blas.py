@@ -1,0 +1,96 @@
+"""The limit of one BLAS thread holds as long as any function that asked for it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from threading import Event, Thread
+
+import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from snapspace.blas import single_threaded_blas
+
+SECONDS = 10.0  # after which a thread that waits has failed
+
+
+def limits() -> list[int]:
+    return [int(pool["num_threads"]) for pool in threadpool_info() if pool["user_api"] == "blas"]
+
+
+@pytest.fixture(autouse=True)
+def two_threads() -> Iterator[None]:
+    with threadpool_limits(limits=2, user_api="blas"):
+        assert set(limits()) == {2}
+        yield
+
+
+class Call:
+    """A call on a thread of its own, which tells of its limits when asked and ends when told."""
+
+    def __init__(self) -> None:
+        self.limits: list[int] = []
+        self._inside, self._end = Event(), Event()
+        self._thread = Thread(target=self._run)
+
+    def enter(self) -> None:
+        self._thread.start()
+        assert self._inside.wait(SECONDS)
+
+    def leave(self) -> None:
+        self._end.set()
+        self._thread.join(SECONDS)
+        assert not self._thread.is_alive()
+
+    @single_threaded_blas
+    def _run(self) -> None:
+        self._inside.set()
+        self._end.wait(SECONDS)
+        self.limits = limits()  # last: of the other calls some may have left
+
+
+@pytest.mark.parametrize("first_to_leave", [0, 1])
+def test_the_limit_holds_until_the_last_of_two_calls_leaves(first_to_leave: int) -> None:
+    """Were each to restore what it found, the second would leave the limit at one for ever."""
+    calls = [Call(), Call()]
+    for call in calls:
+        call.enter()
+        assert set(limits()) == {1}
+    calls[first_to_leave].leave()
+    assert set(limits()) == {1}
+    calls[1 - first_to_leave].leave()
+    assert set(limits()) == {2}
+    assert all(set(call.limits) == {1} for call in calls)
+
+
+def test_calls_may_be_nested() -> None:
+    @single_threaded_blas
+    def inner() -> list[int]:
+        return limits()
+
+    @single_threaded_blas
+    def outer() -> tuple[list[int], list[int]]:
+        return inner(), limits()
+
+    for found in outer():
+        assert set(found) == {1}
+    assert set(limits()) == {2}
+
+
+def test_an_error_lifts_the_limit() -> None:
+    @single_threaded_blas
+    def fail() -> None:
+        raise ArithmeticError("inside")
+
+    with pytest.raises(ArithmeticError, match="inside"):
+        fail()
+    assert set(limits()) == {2}
+
+
+def test_the_function_keeps_its_face() -> None:
+    @single_threaded_blas
+    def product(a: float, *, b: float = 3.0) -> float:
+        """a times b."""
+        return a * b
+
+    assert (product(2.0), product(2.0, b=4.0)) == (6.0, 8.0)
+    assert (product.__name__, product.__doc__) == ("product", "a times b.")
