@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "snapshots/line_search.h"
 #include "threads/flush_denormals.h"
@@ -26,21 +25,14 @@ constexpr double kStiffnessLimit = 1e10;
 /// take many steps to recover, and some never do.
 constexpr double kMostDistortionGrowth = 3.0;
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// y += scale * x
-void add_scaled(std::vector<double>& y, double scale, const std::vector<double>& x) {
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += scale * x[i];
-}
-
 }  // namespace
 
 PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
-    : system_(system), options_(options), hessian_(system.pattern) {
-  for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_, &residual_,
-                  &preconditioned_, &search_, &product_})
+    : system_(system),
+      options_(options),
+      hessian_(system.pattern),
+      conjugate_gradients_(system.size()) {
+  for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_})
     v->resize(system.size());
   limits_.resize(system.rest.tets.size());
   distortions_.resize(system.rest.tets.size());
@@ -124,33 +116,20 @@ ScalarFactor PoseFitter::scalar_factor() const {
   return ScalarFactor(system_.springs.scalar_hessian(report_.stiffness, n) + elastic);
 }
 
-/// Preconditioned conjugate gradients on H d = -g, loosely far from the minimum [Eisenstat & Walker
-/// 1996]. Returns -g.d.
+/// Solves H d = -g, loosely far from the minimum [Eisenstat & Walker 1996]; returns -g.d.
 double PoseFitter::find_direction(const SolveControl& control) {
   constexpr int kMaxIterations = 500;
   const double scale = std::max(value_, system_.negligible());
   const double forcing = std::clamp(std::sqrt(decrement_ / scale), 1e-2, 0.1);
   const ScalarFactor factor = scalar_factor();
-  std::fill(direction_.begin(), direction_.end(), 0.0);
-  for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
-  factor.solve(residual_.data(), preconditioned_.data(), product_.data());
-  search_ = preconditioned_;
-  double norm = dot(residual_, preconditioned_);
-  const double goal = norm * forcing * forcing;
-  for (int k = 0; k < kMaxIterations && norm > goal && !control.cancelled; ++k) {
-    hessian_.multiply(search_.data(), product_.data());
-    system_.springs.add_product(report_.stiffness, search_.data(), product_.data());
-    ++report_.linear_iterations;
-    const double step = norm / dot(search_, product_);
-    add_scaled(direction_, step, search_);
-    add_scaled(residual_, -step, product_);
-    factor.solve(residual_.data(), preconditioned_.data(), product_.data());
-    const double next = dot(residual_, preconditioned_);
-    const double ratio = next / norm;
-    norm = next;
-    for (std::size_t i = 0; i < search_.size(); ++i)
-      search_[i] = preconditioned_[i] + ratio * search_[i];
-  }
+  report_.linear_iterations += conjugate_gradients_.solve(
+      gradient_, forcing, kMaxIterations,
+      [&](const double* v, double* product) {
+        hessian_.multiply(v, product);
+        system_.springs.add_product(report_.stiffness, v, product);
+      },
+      [&](const double* v, double* result, double* scratch) { factor.solve(v, result, scratch); },
+      [&] { return control.cancelled.load(); }, direction_);
   return -dot(gradient_, direction_);
 }
 

@@ -3,6 +3,7 @@
 
 #include "fitting/fitting_system.h"
 #include "fitting/symmetric_dirichlet.h"
+#include "snapshots/conjugate_gradients.h"
 #include "snapshots/scalar_factor.h"
 #include "snapshots/solve_report.h"
 
@@ -66,6 +67,7 @@ class PoseFitter {
   const FittingSystem& system_;
   FitOptions options_;
   BlockHessian hessian_;
+  ConjugateGradients conjugate_gradients_;
   const double* targets_ = nullptr;
   FitReport report_;
   double value_ = 0.0;
@@ -73,7 +75,6 @@ class PoseFitter {
   bool done_ = false;
   Distortions limits_, distortions_;
   std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
-  std::vector<double> residual_, preconditioned_, search_, product_;
 };
 
 }  // namespace snapspace

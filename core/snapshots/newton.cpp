@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "snapshots/interpolation_system.h"
@@ -14,15 +13,6 @@
 namespace snapspace {
 
 namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-}
-
-/// y += scale * x
-void add_scaled(std::vector<double>& y, double scale, const std::vector<double>& x) {
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += scale * x[i];
-}
 
 /// Relative decrement below which the minimum is near enough for the unclamped Hessian.
 constexpr double kNearMinimum = 1e-2;
@@ -34,9 +24,9 @@ Newton<Objective>::Newton(Objective objective, const SolveOptions& options, doub
     : objective_(std::move(objective)),
       options_(options),
       clamp_(clamp),
-      hessian_(objective_.hessian_pattern()) {
-  for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_, &residual_,
-                  &preconditioned_, &search_, &product_})
+      hessian_(objective_.hessian_pattern()),
+      conjugate_gradients_(objective_.size()) {
+  for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_})
     v->resize(objective_.size());
 }
 
@@ -86,38 +76,17 @@ SolveReport Newton<Objective>::solve(int sample, const double* start, const Solv
   return report;
 }
 
-/// Preconditioned conjugate gradients on H d = -g, until the residual in the inverse-factor norm
-/// has fallen by the given ratio. The clamped Hessian may still have negative curvature: the
-/// iterate before such a direction is a descent direction and is kept (Nocedal & Wright 2006,
-/// alg. 7.1). Returns -g.d.
+/// Solves H d = -g as far as it pays; returns -g.d.
 template <class Objective>
 double Newton<Objective>::find_direction(double relative_residual, const SolveControl& control) {
   constexpr int kMaxIterations = 1000;
-  std::fill(direction_.begin(), direction_.end(), 0.0);
-  for (std::size_t i = 0; i < gradient_.size(); ++i) residual_[i] = -gradient_[i];
-  objective_.precondition(residual_.data(), preconditioned_.data(), product_.data());
-  search_ = preconditioned_;
-  double norm = dot(residual_, preconditioned_);
-  const double goal = norm * relative_residual * relative_residual;
-  for (int iteration = 0; iteration < kMaxIterations && norm > goal && !control.cancelled;
-       ++iteration) {
-    hessian_.multiply(search_.data(), product_.data());
-    ++linear_iterations_;
-    const double curvature = dot(search_, product_);
-    if (curvature <= 0.0) {
-      if (iteration == 0) direction_ = search_;
-      break;
-    }
-    const double step = norm / curvature;
-    add_scaled(direction_, step, search_);
-    add_scaled(residual_, -step, product_);
-    objective_.precondition(residual_.data(), preconditioned_.data(), product_.data());
-    const double next = dot(residual_, preconditioned_);
-    const double ratio = next / norm;
-    norm = next;
-    for (std::size_t i = 0; i < search_.size(); ++i)
-      search_[i] = preconditioned_[i] + ratio * search_[i];
-  }
+  linear_iterations_ += conjugate_gradients_.solve(
+      gradient_, relative_residual, kMaxIterations,
+      [&](const double* v, double* product) { hessian_.multiply(v, product); },
+      [&](const double* v, double* result, double* scratch) {
+        objective_.precondition(v, result, scratch);
+      },
+      [&] { return control.cancelled.load(); }, direction_);
   return -dot(gradient_, direction_);
 }
 

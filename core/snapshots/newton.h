@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "energy/block_hessian.h"
+#include "snapshots/conjugate_gradients.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
@@ -32,9 +33,9 @@ class Newton {
   SolveOptions options_;
   double clamp_;
   BlockHessian hessian_;
+  ConjugateGradients conjugate_gradients_;
   long linear_iterations_ = 0;
   std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
-  std::vector<double> residual_, preconditioned_, search_, product_;
 };
 
 }  // namespace snapspace
