@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from functools import wraps
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
+import threadpoolctl
 from threadpoolctl import threadpool_limits
 
 P = ParamSpec("P")
@@ -40,6 +41,7 @@ class _SharedLimit:
     def __enter__(self) -> None:
         with self._lock:
             if self._inside == 0:
+                _take_control()
                 self._limits = threadpool_limits(limits=1, user_api="blas")
             self._inside += 1
 
@@ -47,8 +49,21 @@ class _SharedLimit:
         with self._lock:
             self._inside -= 1
             if self._inside == 0 and self._limits is not None:
+                _take_control()
                 self._limits.restore_original_limits()
                 self._limits = None
+                _take_control()
+
+
+def _take_control() -> None:
+    """Lets this thread change OpenBLAS's limit.
+
+    From version 3.8 on threadpoolctl ignores, without a word, all threads but the one that changed
+    it first. Ours take turns, under the lock.
+    """
+    controller: Any = getattr(threadpoolctl, "OpenBLASController", None)
+    if hasattr(controller, "clear_controlling_thread"):
+        controller.clear_controlling_thread(force=True)
 
 
 _limit = _SharedLimit()

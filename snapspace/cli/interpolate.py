@@ -139,6 +139,11 @@ def interpolate(
     pose_set = read_poses(files, options, cache)
     print_fits(pose_set.fits)
     problem = InterpolationProblem(pose_set.poses, material=material, extrapolation=extrapolation)
+    if problem.spread <= 1e-10 * problem.mesh.diagonal:
+        raise ValueError(
+            "all poses are equal up to rigid motions, so there is nothing to blend; poses must "
+            "differ by more than a rigid motion"
+        )
     if save_poses is not None:
         _save_poses(save_poses, pose_set)
     source: dict[str, Any] = {

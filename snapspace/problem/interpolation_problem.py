@@ -123,6 +123,12 @@ class InterpolationProblem:
         if "mean_shape" not in self.__dict__:
             self.mean_shape = self._solved_mean_shape(threads=threads or 0)
 
+    @property
+    def spread(self) -> float:
+        """Largest distance of a vertex in the first pose from another pose, registered to it."""
+        offsets = (self._near_poses - self.base).reshape(len(self.poses), -1, 3)
+        return float(np.linalg.norm(offsets, axis=2).max())
+
     @cached_property
     def pose_shapes(self) -> FloatArray:
         """The poses registered to the mean shape, (k, 3n): the solutions for one-hot weights."""

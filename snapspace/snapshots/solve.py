@@ -174,7 +174,7 @@ class _Run:
         solved, interrupted = run_interruptible(
             lambda control: self._solve(inputs, starts, control, wave=len(wave)),
             # slow samples are counted twice
-            lambda finished: self.progress(min(already + finished, total), total),
+            lambda finished: self.progress(already + min(finished, len(missing)), total),
         )
         shapes, reports = solved
         done = [k for k, report in enumerate(reports) if report.status != "cancelled"]

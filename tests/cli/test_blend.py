@@ -185,6 +185,11 @@ def test_validate_gives_the_keys_of_a_posing_model(
 REFUSED: dict[str, tuple[list[str], str]] = {
     "neither": ([], "give either --weights or --path"),
     "both": (["--weights", TEXT, "--path", "3"], "give either --weights or --path"),
+    "format of one file": (
+        ["--weights", TEXT, "--format", "ply"],
+        "--format is for --path; the ext",
+    ),
+    "format of nothing": (["--format", "ply"], "give either --weights or --path"),
     "count": (["--weights", "1,0"], "3 poses need 3 weights, got 2"),
     "sum": (["--weights", "0.5,0.5,0.1"], "sum to 1.1, but they must sum to 1; divide them"),
     "negative": (["--weights", "-0.1,1.1,0"], "-0.1 is below 0, the least weight that was sampled"),

@@ -99,6 +99,24 @@ def test_the_linear_blend_is_written_beside(run: Run, blend_model: Path, tmp_pat
         np.testing.assert_array_equal(straight.vertices, problem.linear_blend(weights))
 
 
+@pytest.mark.parametrize("linear", [[], ["--linear"]])
+def test_frames_of_a_longer_path_are_pointed_out(
+    run: Run, blend_model: Path, tmp_path: Path, linear: list[str]
+) -> None:
+    """They would follow those of the new path in a film."""
+    words = ("blend", blend_model, *linear, "-o", tmp_path / "frames", "--path")
+    (tmp_path / "frames").mkdir()
+    (tmp_path / "frames" / "frame-by-frame.txt").write_text("no frame")
+    for frames in (3, 5, 5):
+        assert "longer path" not in run(*words, frames).err
+    result = run(*words, 3)
+    assert result.code == 0
+    old = 2 * (1 + len(linear))
+    found = " ".join(result.err.split())
+    assert f"also holds {old} files of a longer path; delete them" in found
+    assert len(list((tmp_path / "frames").iterdir())) == 1 + 5 * (1 + len(linear)), "all are kept"
+
+
 def test_a_picture_shows_seven_frames_with_the_straight_ones_below(
     run: Run, blend_model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from snapspace import _core as core
-from snapspace.fitting import fit_poses
+from snapspace.fitting import DEVIATION, check_deviation, fit_poses
 from snapspace.generators import bar
 from snapspace.mesh.embedded_surface import EmbeddedSurface
 
@@ -62,6 +62,19 @@ def test_a_surface_without_area() -> None:
 def test_options_out_of_range(option: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         fit_poses(MESH, SURFACE, [REST], **option)
+
+
+@pytest.mark.parametrize("deviation", [0.0, -1.0, float("inf"), float("-inf"), float("nan")])
+def test_a_deviation_can_be_checked_before_anything_is_read(deviation: float) -> None:
+    with pytest.raises(ValueError, match=f"deviation is {deviation}, but it must be positive"):
+        check_deviation(deviation)
+    with pytest.raises(ValueError, match=f"deviation is {deviation}, but it must be positive"):
+        fit_poses(MESH, SURFACE, [REST], deviation=deviation)
+
+
+@pytest.mark.parametrize("deviation", [1e-300, DEVIATION, 10.0])
+def test_positive_deviations_pass(deviation: float) -> None:
+    check_deviation(deviation)
 
 
 def test_the_core_reads_nothing_that_is_not_there() -> None:

@@ -66,3 +66,24 @@ def test_an_error_of_the_callback_ends_the_fit() -> None:
 
     with pytest.raises(OSError, match="no space left"):
         fit_poses(MESH, SURFACE, TARGETS, on_finished=full)
+
+
+def test_ctrl_c_in_the_callback_loses_no_finished_pose() -> None:
+    """The pose whose call was interrupted is offered again, and so are those that were not yet."""
+    offered: list[int] = []
+    kept: dict[int, np.ndarray] = {}
+
+    def keep(index: int, shape: np.ndarray, report: PoseFit) -> None:
+        offered.append(index)
+        if len(offered) == 2:  # before this one is kept
+            raise KeyboardInterrupt
+        kept[index] = shape
+
+    with pytest.raises(KeyboardInterrupt, match=f"of {len(TARGETS)} poses are finished") as caught:
+        fit_poses(MESH, SURFACE, TARGETS, threads=1, on_finished=keep)
+    assert str(caught.value).startswith(f"{len(kept)} of ")
+    interrupted = offered[1]
+    assert offered.count(interrupted) == 2 and interrupted in kept
+    assert sorted(offered) == sorted([*kept, interrupted]), "all others are offered once"
+    whole = fit_poses(MESH, SURFACE, TARGETS[interrupted : interrupted + 1])
+    np.testing.assert_array_equal(kept[interrupted], whole.shapes[0])

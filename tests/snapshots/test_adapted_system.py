@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from snapspace import ElasticEnergy, InterpolationProblem, Poses, TetMesh
 from snapspace import _core as core
 
-from ..shapes import bent, deformed, interpolation_problem, irregular_bar
+from ..shapes import deformed, interpolation_problem, irregular_bar
 
 FloatArray = NDArray[np.float64]
 PROBLEM = interpolation_problem()
@@ -136,12 +136,12 @@ def test_adapting_adapts_anew() -> None:
 
 
 def pressed_bar() -> InterpolationProblem:
-    """A bar and a bent one whose middle is a tenth as thick: the mean stretches those tets much."""
+    """A bar, and one whose middle is a fifth as thick: the mean shape stretches those tets much."""
     mesh = irregular_bar(8, 2, 2)
-    pose = bent(mesh, 0.8)
-    x = mesh.vertices[:, 0]
-    middle = (x > 1.2) & (x < 2.8)
-    pose[middle, 2] = 0.1 * (pose[middle, 2] - 0.5) + 0.5
+    pose = mesh.vertices.copy()
+    x, z = pose[:, 0], pose[:, 2]
+    middle = (x > 0.3 * x.max()) & (x < 0.7 * x.max())
+    pose[middle, 2] = z.mean() + 0.2 * (z[middle] - z.mean())
     return InterpolationProblem(Poses(np.stack([mesh.vertices, pose]), mesh.tets))
 
 
@@ -153,4 +153,4 @@ def test_a_factor_for_the_mean_shape_needs_far_fewer_iterations() -> None:
         reports = solve(system, problem, weights).reports
         assert all(report.status.name == "converged" for report in reports)
         counts.append(sum(report.iterations for report in reports))
-    assert counts[1] < 0.6 * counts[0], counts
+    assert counts[1] < 0.4 * counts[0], counts

@@ -138,7 +138,7 @@ def test_a_slow_sample_does_not_see_its_neighbours(problem: InterpolationProblem
 
 @pytest.mark.usefixtures("impatient")
 def test_threads_do_not_change_a_bit(problem: InterpolationProblem) -> None:
-    """And the counts that are shown never go beyond the total, or back."""
+    """And the counts that are shown never go beyond the total."""
     samples, shown = weights(problem, 14), [0]
     options = SolverOptions(wave=9)
     one = solve_snapshots(problem, samples, options=options, threads=1)
