@@ -87,7 +87,7 @@ def blend(
     shapes: list[BlendedShape] = []
     for w in wanted:
         shapes.append(shape_at(model, session, w, linear=linear, extrapolate=extrapolate))
-    _warn(shapes)
+    _check(shapes)
     begin = time.perf_counter()
     written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:
@@ -159,7 +159,13 @@ def _number(frame: Path) -> int:
     return int(digits) if digits.isdecimal() else -1
 
 
-def _warn(shapes: list[BlendedShape]) -> None:
+def _check(shapes: list[BlendedShape]) -> None:
+    for shape in shapes:
+        if shape.report.status == "unbounded":
+            raise ValueError(
+                f"--weights {','.join(f'{w:g}' for w in shape.weights)}: the energy has no minimum "
+                "that far outside; choose weights nearer to the poses"
+            )
     failed = [shape for shape in shapes if not shape.report.converged]
     if failed:
         notice(

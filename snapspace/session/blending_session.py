@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -11,6 +13,10 @@ from .frame_report import FrameReport
 from .session import Session
 
 FloatArray = NDArray[np.float64]
+
+#: A solution farther from the mean shape than this many tenths of the diagonal (in the mean over
+#: the shape) is none: negative weights have let the energy fall without bound.
+FARTHEST = 100.0
 
 
 class BlendingSession(Session[InterpolationModel]):
@@ -49,7 +55,8 @@ class BlendingSession(Session[InterpolationModel]):
             holds it.
         extrapolate : bool, default False
             Also takes weights beyond the simplex that was sampled; their sum is still one. There
-            the energy may have no minimum: the report's status tells.
+            the energy may have no minimum: the report's status is then unbounded, and shape and
+            weights stay as they were.
 
         Raises
         ------
@@ -58,20 +65,28 @@ class BlendingSession(Session[InterpolationModel]):
             weight beyond the sampled simplex without `extrapolate`; the shape stays as it was.
         """
         w = self.model.problem.weights(weights, extrapolate=extrapolate)
-        self._weights = w
-        self._loop.set_weights(w)
+        before, shape = self._weights, self.q
+        self._set_weights(w)
         self._start()
-        return self.solve()
+        report = self.solve()
+        if not np.linalg.norm(self.q) <= FARTHEST * self.model.coordinate_scale:
+            self._set_weights(before)
+            self._loop.q = shape
+            return replace(report, status="unbounded")
+        return report
 
     def reset(self) -> None:
         """Back to the mean shape: equal weights."""
-        self._weights = self.model.problem.domain.center
-        self._loop.set_weights(self._weights)
+        self._set_weights(self.model.problem.domain.center)
         self._loop.q = np.zeros(self.model.dimension)
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`blend` with any weights that sum to one."""
         return self.blend(parameters, extrapolate=True)
+
+    def _set_weights(self, weights: FloatArray) -> None:
+        self._weights = weights
+        self._loop.set_weights(weights)
 
     def _start(self) -> None:
         """Takes the nearest training sample as the start if its energy is below the present one."""

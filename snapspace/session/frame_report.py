@@ -9,7 +9,8 @@ from dataclasses import dataclass
 class FrameReport:
     """How one frame was solved.
 
-    status : converged, max_iterations, line_search_failed or not_finite
+    status : converged, max_iterations, line_search_failed or not_finite; unbounded where an
+    extrapolated blend has no minimum
     iterations, evaluations : of BFGS
     value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
     seconds : of the solve, without the vertices

@@ -145,13 +145,11 @@ def test_extrapolation_is_taken_when_asked_for(
     np.testing.assert_array_equal(read_tets(path).vertices, session.vertices)
 
 
-def test_a_shape_without_a_minimum_is_pointed_out(run: Run, blend_model: Path) -> None:
-    words = ("--weights", "30,-29,0", "--extrapolate", "--json")
-    result = run("blend", blend_model, *words)
-    (frame,) = result.json["frames"]
-    assert frame["status"] != "converged"
-    wanted = f"notice: 1 of 1 solves ended with {frame['status']}; those shapes may be poor"
-    assert wanted in result.err
+def test_a_shape_without_a_minimum_is_refused(run: Run, blend_model: Path, tmp_path: Path) -> None:
+    words = ("--weights", "30,-29,0", "--extrapolate", "-o", tmp_path / "out.obj")
+    error = run("blend", blend_model, *words).error
+    assert error.startswith("--weights 30,-29,0: the energy has no minimum that far outside")
+    assert not (tmp_path / "out.obj").exists()
 
 
 def test_info_shows_the_poses(run: Run, blend_model: Path) -> None:

@@ -10,10 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from snapspace import InterpolationModel, InterpolationProblem
+from snapspace import InterpolationModel, InterpolationProblem, TetMesh
 from snapspace.generators import cylinder, helix
 
 from ..conftest import interpolation_model
+from ..shapes import irregular_bar
 
 FloatArray = NDArray[np.float64]
 TIGHT = 1e-12
@@ -155,3 +156,18 @@ def test_no_weights_bring_out_a_shape_that_is_not_finite(
     fresh = blending_model.session(tolerance=TIGHT)
     fresh.blend(w)
     assert np.abs(session.vertices - fresh.vertices).max() < 1e-4
+
+
+def test_an_energy_without_minimum_is_reported_and_the_shape_stays() -> None:
+    """A pose of half the size resists growth twice as much: 3 - 2 * 2 is less than nothing."""
+    rest = irregular_bar()
+    half = TetMesh(0.5 * rest.vertices, rest.tets)
+    model = interpolation_model(InterpolationProblem([rest, half]), samples=6, dimension=1)
+    session = model.session()
+    session.blend([0.6, 0.4])
+    before = session.vertices
+    report = session.blend([3.0, -2.0], extrapolate=True)
+    assert report.status == "unbounded" and not report.converged
+    assert np.array_equal(session.vertices, before)
+    assert session.weights.tolist() == [0.6, 0.4]
+    assert session.blend([0.3, 0.7]).converged
