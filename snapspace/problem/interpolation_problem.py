@@ -62,9 +62,8 @@ class InterpolationProblem:
         self.poses = poses if isinstance(poses, Poses) else Poses.of(poses)
         self.material = material or StVK()
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
-        self._given_mean = None if mean_shape is None else self._checked_shape(mean_shape)
-        if self._given_mean is not None:
-            self.mean_shape = self._given_mean
+        if mean_shape is not None:
+            self.mean_shape = self._checked_shape(mean_shape)
 
     @property
     def mesh(self) -> TetMesh:
@@ -147,8 +146,6 @@ class InterpolationProblem:
         }
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
         digest.update(self.poses.shapes.astype("<f8", copy=False).tobytes())
-        if self._given_mean is not None:
-            digest.update(self._given_mean.astype("<f8", copy=False).tobytes())
         return digest.hexdigest()
 
     def mass(self, *, lumped: bool = False) -> csr_array:
