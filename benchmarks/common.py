@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -61,3 +62,26 @@ def show(
             figure, f"{measured:.4g}" if isinstance(measured, float) else str(measured), goal
         )
     Console().print(table)
+
+
+def drag(
+    model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """Milliseconds of solve and of solve + all vertices along a smooth path through the domain.
+
+    The path joins random parameters of the domain by straight lines, 60 frames each: a hand that
+    moves from one end of the domain to another in a second.
+    """
+    corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
+    session = model.session()
+    session.set_parameters(corners[0])
+    solve, frame = [], []
+    for k in range(frames):
+        a, b = corners[k // 60], corners[k // 60 + 1]
+        w = a + (b - a) * (k % 60) / 60.0
+        begin = time.perf_counter()
+        report = session.set_parameters(w)
+        _ = session.vertices
+        frame.append(1e3 * (time.perf_counter() - begin))
+        solve.append(1e3 * report.seconds)
+    return np.array(solve), np.array(frame)

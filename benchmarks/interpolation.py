@@ -98,25 +98,6 @@ def read_poses(chosen: Set, names: tuple[str, ...]) -> tuple[ss.Poses, list[obje
     return ss.Poses(shapes, mesh.tets, names=labels), list(fits.reports), seconds
 
 
-def drag(model: ss.InterpolationModel, *, frames: int) -> tuple[np.ndarray, np.ndarray]:
-    """Milliseconds of solve and of solve + all vertices on straight paths between random weights.
-
-    60 frames each: a point that is dragged through the polygon of the poses in a second.
-    """
-    corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=9)
-    session = model.session()
-    session.blend(corners[0])
-    solve, frame = [], []
-    for k in range(frames):
-        a, b = corners[k // 60], corners[k // 60 + 1]
-        begin = time.perf_counter()
-        report = session.blend(a + (b - a) * (k % 60) / 60.0)
-        _ = session.vertices
-        frame.append(1e3 * (time.perf_counter() - begin))
-        solve.append(1e3 * report.seconds)
-    return np.array(solve), np.array(frame)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--set", default="helix", choices=SETS)
@@ -138,7 +119,7 @@ def main() -> None:
     subspace = ss.snapshot_pca(snapshots, dimension=chosen.dimension)
     model = ss.reduce(problem, subspace, snapshots=snapshots)
     laps.append(time.perf_counter())
-    solve, frame = drag(model, frames=600)
+    solve, frame = common.drag(model, frames=600, seed=9)
     validation = ss.validate(model, samples=args.validate, progress=common.progress)
 
     stages, total = np.diff(laps), laps[-1] - laps[0]

@@ -22,27 +22,6 @@ PAPER = {  # table 1 and 2: samples, seconds for snapshots and coefficients, ms 
 }
 
 
-def drag(model: ss.ReducedModel, *, frames: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Milliseconds of solve and of solve + all vertices along a smooth path through the domain.
-
-    The path joins random parameters of the domain by straight lines, 60 frames each: a hand that
-    moves from one end of the box to another in a second.
-    """
-    corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
-    session = model.session()
-    session.pose(corners[0])
-    solve, frame = [], []
-    for k in range(frames):
-        a, b = corners[k // 60], corners[k // 60 + 1]
-        w = a + (b - a) * (k % 60) / 60.0
-        begin = time.perf_counter()
-        report = session.pose(w)
-        _ = session.vertices
-        frame.append(1e3 * (time.perf_counter() - begin))
-        solve.append(1e3 * report.seconds)
-    return np.array(solve), np.array(frame)
-
-
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--problem", default="dragon")
@@ -67,7 +46,7 @@ def main() -> None:
         path = model.save(Path(folder) / "model.snapspace")
         size = path.stat().st_size
         model = ss.load(path)
-    solve, frame = drag(model, frames=600, seed=args.seed + 1)
+    solve, frame = common.drag(model, frames=600, seed=args.seed + 1)
     validation = ss.validate(model, samples=args.validate, progress=common.progress)
 
     stages = np.diff(laps)

@@ -31,6 +31,11 @@ inline void require(bool condition, const char* message) {
   if (!condition) throw std::invalid_argument(message);
 }
 
+inline void require_below(const IndexMatrixIn& indices, std::size_t n, const char* message) {
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    require(indices.data()[i] >= 0 && static_cast<std::size_t>(indices.data()[i]) < n, message);
+}
+
 /// A new NumPy array that owns its memory.
 template <class T>
 nb::ndarray<nb::numpy, T> new_array(std::initializer_list<std::size_t> shape) {

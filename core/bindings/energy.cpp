@@ -10,8 +10,7 @@ RestShape rest_shape(const MatrixIn& vertices, const IndexMatrixIn& tets) {
   require(vertices.shape(1) == 3, "vertices must be (n, 3)");
   require(tets.shape(1) == 4, "tets must be (m, 4)");
   const auto n = static_cast<std::int32_t>(vertices.shape(0));
-  for (std::size_t i = 0; i < tets.size(); ++i)
-    require(tets.data()[i] >= 0 && tets.data()[i] < n, "a tet has a vertex index out of range");
+  require_below(tets, vertices.shape(0), "a tet has a vertex index out of range");
   return {vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0))};
 }
 

@@ -9,11 +9,6 @@ namespace snapspace {
 
 namespace {
 
-void require_below(const IndexMatrixIn& indices, std::size_t n, const char* message) {
-  for (std::size_t i = 0; i < indices.size(); ++i)
-    require(indices.data()[i] >= 0 && static_cast<std::size_t>(indices.data()[i]) < n, message);
-}
-
 void construct(FittingSystem* self, const MatrixIn& vertices, const IndexMatrixIn& tets,
                const IndexMatrixIn& corners, const MatrixIn& weights, const VectorIn& areas) {
   require(vertices.shape(1) == 3, "vertices must be (n, 3)");

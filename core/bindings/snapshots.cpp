@@ -25,8 +25,7 @@ Samples checked_samples(const System& system, const MatrixIn& inputs, const Matr
 LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
   require(tets.shape(1) == 4, "tets must be (m, 4)");
   const auto n = static_cast<std::int32_t>(count);
-  for (std::size_t i = 0; i < tets.size(); ++i)
-    require(tets.data()[i] >= 0 && tets.data()[i] < n, "a tet has a vertex index out of range");
+  require_below(tets, count, "a tet has a vertex index out of range");
   return {vertices, n, tets.data(), static_cast<int>(tets.shape(0))};
 }
 

@@ -17,20 +17,17 @@ namespace snapspace {
 class ScalarHessian {
  public:
   explicit ScalarHessian(const RestShape& rest)
-      : tets_(rest.tets), vertex_count_(rest.vertex_count), locals_(rest.tets.size()) {
-    for (Eigen::Matrix4d& local : locals_) local.setZero();
-  }
+      : rest_(rest), locals_(rest.tets.size(), Eigen::Matrix4d::Zero()) {}
 
   /// Adds weight times the Hessian at displacements u. The energy may have another rest shape of
   /// the same tets.
   void add(const ElasticEnergy& energy, const double* u, double weight);
 
   /// The sum so far; singular, since it does not change under translations.
-  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const;
+  [[nodiscard]] Eigen::SparseMatrix<double> matrix() const { return rest_.assembled(locals_); }
 
  private:
-  const std::vector<RestTet>& tets_;
-  int vertex_count_;
+  const RestShape& rest_;
   std::vector<Eigen::Matrix4d> locals_;
 };
 

@@ -25,11 +25,7 @@ struct FittingSystem {
   [[nodiscard]] int size() const { return 3 * rest.vertex_count; }
 
   /// Energy of a strain of 1e-12 everywhere: a decrease below this is none.
-  [[nodiscard]] double negligible() const {
-    double volume = 0.0;
-    for (const RestTet& tet : rest.tets) volume += tet.volume;
-    return 1e-24 * volume;
-  }
+  [[nodiscard]] double negligible() const { return 1e-24 * rest.volume(); }
 };
 
 }  // namespace snapspace

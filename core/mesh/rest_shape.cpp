@@ -22,21 +22,39 @@ RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
   }
 }
 
+double RestShape::volume() const {
+  double sum = 0.0;
+  for (const RestTet& tet : tets) sum += tet.volume;
+  return sum;
+}
+
 Eigen::SparseMatrix<double> RestShape::laplacian() const {
+  std::vector<Eigen::Matrix4d> locals;
+  locals.reserve(tets.size());
+  for (const RestTet& tet : tets) {
+    const Eigen::Matrix<double, 4, 3> gradients = hat_gradients(tet);
+    locals.push_back(tet.volume * gradients * gradients.transpose());
+  }
+  return assembled(locals);
+}
+
+Eigen::SparseMatrix<double> RestShape::assembled(const std::vector<Eigen::Matrix4d>& locals) const {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(tets.size() * 16);
-  for (const RestTet& tet : tets) {
-    Eigen::Matrix<double, 4, 3> gradients;  // of the four hat functions; they sum to zero
-    for (int j = 0; j < 3; ++j) gradients.row(j + 1) = Eigen::RowVector3d(tet.inverse_edges[j]);
-    gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
-    const Eigen::Matrix4d local = tet.volume * gradients * gradients.transpose();
+  for (std::size_t t = 0; t < tets.size(); ++t)
     for (int a = 0; a < 4; ++a)
       for (int b = 0; b < 4; ++b)
-        entries.emplace_back(tet.vertices[a], tet.vertices[b], local(a, b));
-  }
-  Eigen::SparseMatrix<double> L(vertex_count, vertex_count);
-  L.setFromTriplets(entries.begin(), entries.end());
-  return L;
+        entries.emplace_back(tets[t].vertices[a], tets[t].vertices[b], locals[t](a, b));
+  Eigen::SparseMatrix<double> A(vertex_count, vertex_count);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+Eigen::Matrix<double, 4, 3> hat_gradients(const RestTet& tet) {
+  Eigen::Matrix<double, 4, 3> gradients;
+  for (int j = 0; j < 3; ++j) gradients.row(j + 1) = Eigen::RowVector3d(tet.inverse_edges[j]);
+  gradients.row(0) = -gradients.bottomRows<3>().colwise().sum();
+  return gradients;
 }
 
 }  // namespace snapspace

@@ -1,4 +1,5 @@
 #pragma once
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstdint>
 #include <vector>
@@ -20,9 +21,19 @@ struct RestShape {
   /// @param vertices  n x 3, row-major   @param tets  m x 4, row-major, none without volume
   RestShape(const double* vertices, int vertex_count, const std::int32_t* tets, int tet_count);
 
+  /// Volume of all tets.
+  [[nodiscard]] double volume() const;
+
   /// Scalar stiffness matrix of the linear elements (the cotangent Laplacian of tets), n x n,
   /// positive semi-definite.
   [[nodiscard]] Eigen::SparseMatrix<double> laplacian() const;
+
+  /// n x n matrix that is the sum of one 4 x 4 matrix per tet.
+  [[nodiscard]] Eigen::SparseMatrix<double> assembled(
+      const std::vector<Eigen::Matrix4d>& locals) const;
 };
+
+/// Gradients of a tet's four hat functions, one per row; they sum to zero.
+[[nodiscard]] Eigen::Matrix<double, 4, 3> hat_gradients(const RestTet& tet);
 
 }  // namespace snapspace

@@ -21,10 +21,6 @@ inline constexpr int kWideLanes = 2;
 template <class T, int Width>
 struct VectorOf;
 template <>
-struct VectorOf<double, 1> {
-  typedef double type __attribute__((vector_size(8)));
-};
-template <>
 struct VectorOf<double, 2> {
   typedef double type __attribute__((vector_size(16)));
 };
@@ -35,10 +31,6 @@ struct VectorOf<double, 4> {
 template <>
 struct VectorOf<double, 8> {
   typedef double type __attribute__((vector_size(64)));
-};
-template <>
-struct VectorOf<float, 1> {
-  typedef float type __attribute__((vector_size(4)));
 };
 template <>
 struct VectorOf<float, 2> {

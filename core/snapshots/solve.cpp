@@ -64,8 +64,7 @@ std::vector<SolveReport> solve_fast(const System& system, const Samples& samples
     if (options.lanes >= 8) return solve_in_lanes<8>(system, samples, options, control);
   if constexpr (kWideLanes >= 4)
     if (options.lanes >= 4) return solve_in_lanes<4>(system, samples, options, control);
-  if (options.lanes >= 2) return solve_in_lanes<2>(system, samples, options, control);
-  return solve_in_lanes<1>(system, samples, options, control);
+  return solve_in_lanes<2>(system, samples, options, control);
 }
 
 template <class System>

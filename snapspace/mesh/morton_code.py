@@ -27,8 +27,12 @@ def morton_codes(points: FloatArray) -> NDArray[np.uint32]:
     lower, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
     scale = (2**_BITS - 1) / size if size > 0.0 else 0.0
     steps = ((points - lower) * scale).astype(np.uint32)
-    codes = np.zeros(len(points), np.uint32)
-    for bit in range(_BITS):
-        for axis in range(3):
-            codes |= ((steps[:, axis] >> bit) & 1) << (3 * bit + 2 - axis)
-    return codes
+    x, y, z = (_spread(steps[:, axis]) for axis in range(3))
+    return x << np.uint32(2) | y << np.uint32(1) | z
+
+
+def _spread(value: NDArray[np.uint32]) -> NDArray[np.uint32]:
+    """Move bit i of a 10-bit number to bit 3 i."""
+    for shift, mask in ((16, 0x030000FF), (8, 0x0300F00F), (4, 0x030C30C3), (2, 0x09249249)):
+        value = (value | value << np.uint32(shift)) & np.uint32(mask)
+    return value

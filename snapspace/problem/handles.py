@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .names import check_names
+
 IndexArray = NDArray[np.int32]
 
 
@@ -51,7 +53,7 @@ class Handles:
     ) -> None:
         if names is None:
             names = [f"handle_{i}" for i in range(len(vertices))]
-        _check_names(names, len(vertices))
+        check_names(names, len(vertices), who="Handles", what=f"{len(vertices)} handles")
         self._handles = tuple(
             Handle(name, _as_indices(name, which))
             for name, which in zip(names, vertices, strict=True)
@@ -98,16 +100,6 @@ class Handles:
                         f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, "
                         f"the first is {common[0]}; a vertex can follow one handle only"
                     )
-
-
-def _check_names(names: Sequence[str], count: int) -> None:
-    if len(names) != count:
-        raise ValueError(f"Handles: got {len(names)} names for {count} handles")
-    for name in names:
-        if not isinstance(name, str) or not name.strip():
-            raise ValueError(f"Handles: a name must be a non-empty string, got {name!r}")
-        if list(names).count(name) > 1:
-            raise ValueError(f"Handles: the name '{name}' is used twice")
 
 
 def _as_indices(name: str, which: ArrayLike) -> IndexArray:

@@ -76,6 +76,11 @@ class InterpolationProblem:
         return 1e-9
 
     @property
+    def solutions_far_apart(self) -> bool:
+        """Yes: halfway between distant poses a linear blend shrinks and turns inside out."""
+        return True
+
+    @property
     def patience(self) -> int:
         """Iterations after which a sample gets a factor of its own.
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
 from ..mesh.quality import flat_tets
+from .names import check_names
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -174,13 +175,7 @@ def _as_shapes(shapes: ArrayLike) -> FloatArray:
 def _as_names(names: Sequence[str] | None, count: int) -> tuple[str, ...]:
     if names is None:
         return tuple(f"pose {i}" for i in range(count))
-    if len(names) != count:
-        raise ValueError(f"Poses: got {len(names)} names for {_poses(count)}")
-    for name in names:
-        if not isinstance(name, str) or not name.strip():
-            raise ValueError(f"Poses: a name must be a non-empty string, got {name!r}")
-        if list(names).count(name) > 1:
-            raise ValueError(f"Poses: the name '{name}' is used twice")
+    check_names(names, count, who="Poses", what=_poses(count))
     return tuple(names)
 
 

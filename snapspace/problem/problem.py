@@ -8,26 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..energy import StVK
 from ..mesh import TetMesh
+from ..sampling import Domain
 
 FloatArray = NDArray[np.float64]
 
 
-class ProblemDomain(Protocol):
+class ProblemDomain(Domain, Protocol):
     """A parameter domain that can be sampled and in which distances mean something."""
-
-    @property
-    def dimension(self) -> int:
-        """Axes of the unit cube that is mapped onto the domain."""
-        ...
-
-    def from_unit(self, points: FloatArray) -> FloatArray:
-        """Points (k, dimension) of the unit cube as parameters (k, p)."""
-        ...
-
-    def grid(self, count: int) -> FloatArray:
-        """At most `count` parameters at the centres of equal cells."""
-        ...
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
         """Coordinates of parameters (k, p) in which their distances are comparable."""
@@ -43,6 +32,11 @@ class Problem(Protocol):
     @property
     def mesh(self) -> TetMesh:
         """The mesh whose tets all shapes share."""
+        ...
+
+    @property
+    def material(self) -> StVK:
+        """What it is made of."""
         ...
 
     @property
@@ -78,6 +72,11 @@ class Problem(Protocol):
     @property
     def patience(self) -> int | None:
         """Iterations of the fast solver after which `system_near` helps; None if it never does."""
+        ...
+
+    @property
+    def solutions_far_apart(self) -> bool:
+        """Whether shapes interpolated between solutions may be worse starts than the nearest."""
         ...
 
     @property

@@ -36,11 +36,6 @@ class InterpolationModel(ReducedModel):
     coefficients: FloatArray
     surface: EmbeddedSurface
 
-    @property
-    def value_scale(self) -> float:
-        """Unit of energy for the termination tests: that of a strain of 10 %, 0.01 mu * volume."""
-        return 0.01 * self.problem.material.mu * self.problem.mesh.volume
-
     def elastic(self, weights: ArrayLike) -> Quartic:
         """The reduced energy for weights (poses,): the weighted sum of the poses' quartics."""
         combined = np.asarray(weights, np.float64) @ self.coefficients

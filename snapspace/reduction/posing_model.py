@@ -32,11 +32,6 @@ class PosingModel(ReducedModel):
     elastic: Quartic
     handles: HandleQuadric
 
-    @property
-    def value_scale(self) -> float:
-        """Unit of energy for the termination tests: that of a strain of 10 %, 0.01 mu * volume."""
-        return 0.01 * self.problem.material.mu * self.problem.mesh.volume
-
     def value(self, q: FloatArray, offsets: FloatArray) -> float:
         """Reduced objective at coordinates (d,) for offsets (h, 3, 4); equal to F at tau + U q."""
         return self.elastic.value(q) + self.handles.value(q, offsets)

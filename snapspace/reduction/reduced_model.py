@@ -42,9 +42,9 @@ class ReducedModel(ABC):
         return self.subspace.dimension
 
     @property
-    @abstractmethod
     def value_scale(self) -> float:
         """Unit of energy for the termination tests: that of a strain of 10 %, 0.01 mu * volume."""
+        return 0.01 * self.problem.material.mu * self.problem.mesh.volume
 
     @property
     def coordinate_scale(self) -> float:

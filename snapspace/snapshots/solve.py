@@ -168,8 +168,9 @@ class _Run:
             return
         # for the whole wave: products with fewer rows round differently, and which samples are
         # missing depends on where an earlier run was interrupted
-        starts = self._starts(wave)[np.subtract(missing, wave.start)]
-        inputs = self.problem.inputs(self.samples[missing])
+        rows = np.subtract(missing, wave.start)
+        inputs = self.problem.inputs(self.samples[wave])
+        starts, inputs = self._starts(wave, inputs)[rows], inputs[rows]
         already, total = len(self.reports), len(self.samples)
         solved, interrupted = run_interruptible(
             lambda control: self._solve(inputs, starts, control, wave=len(wave)),
@@ -190,7 +191,7 @@ class _Run:
         if interrupted:
             raise Interrupted(f"{len(self.reports)} of {total} samples are finished")
 
-    def _starts(self, wave: range) -> FloatArray:
+    def _starts(self, wave: range, inputs: FloatArray) -> FloatArray:
         """Guesses from the converged samples before the wave, and from what is known anyway."""
         known = [i for i in range(wave.start) if self.reports[i].converged]
         given, shapes = self.problem.known_solutions()
@@ -198,11 +199,12 @@ class _Run:
         parameters = scaled(np.vstack([given, self.samples[known]]))
         displacements = np.vstack([shapes - self.problem.base, self.displacements[known]])
         wanted = scaled(self.samples[wave])
-        nearest = nearest_start(parameters, displacements, wanted)
         if self.options.solver == "newton":
-            return nearest
+            return nearest_start(parameters, displacements, wanted)
         interpolated = interpolated_start(parameters, displacements, wanted)
-        inputs = self.problem.inputs(self.samples[wave])
+        if not self.problem.solutions_far_apart:
+            return interpolated
+        nearest = nearest_start(parameters, displacements, wanted)
         return lower_start(self.problem.system, inputs, interpolated, nearest)
 
     def _solve(

@@ -23,7 +23,7 @@ ALLOWED: dict[str, set[str]] = {
     "fitting": {"_core", "blas", "interruptible", "mesh", "registration"},
     "generators": {"mesh"},
     "energy": {"_core", "mesh"},
-    "problem": {"_core", "interruptible", "mesh", "energy", "registration"},
+    "problem": {"_core", "interruptible", "mesh", "energy", "registration", "sampling"},
     "snapshots": {"_core", "blas", "interruptible", "mesh", "energy", "problem"},
     "subspace": {"_core", "blas", "mesh", "problem", "snapshots"},
     "reduction": {"_core", "blas", "mesh", "energy", "problem", "snapshots", "subspace"},

@@ -1,0 +1,19 @@
+"""Names of handles and poses at the door."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+
+def check_names(names: Sequence[str], count: int, *, who: str, what: str) -> None:
+    """ValueError unless there are `count` names, none is empty and none is used twice.
+
+    `who` begins the message, and `what` is what is named, with its number: "2 handles".
+    """
+    if len(names) != count:
+        raise ValueError(f"{who}: got {len(names)} names for {what}")
+    for name in names:
+        if not isinstance(name, str) or not name.strip():
+            raise ValueError(f"{who}: a name must be a non-empty string, got {name!r}")
+        if list(names).count(name) > 1:
+            raise ValueError(f"{who}: the name '{name}' is used twice")
