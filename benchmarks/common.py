@@ -43,10 +43,10 @@ def creature_problem(tets: int) -> ss.PosingProblem:
     return ss.PosingProblem(mesh, handles, domain=domain)
 
 
-def progress(done: int, total: int) -> None:
+def progress(state: ss.SolveProgress) -> None:
     """Samples done, on standard error."""
     if sys.stderr.isatty():
-        print(f"\r{done}/{total} samples ", end="", file=sys.stderr, flush=True)
+        print(f"\r{state.done}/{state.total} samples ", end="", file=sys.stderr, flush=True)
 
 
 def show(

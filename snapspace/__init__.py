@@ -44,10 +44,15 @@ from .sampling import sample
 from .session import BlendingSession, FrameReport, PosingSession, Session
 from .snapshots import (
     Checkpoint,
+    CheckpointNotice,
+    DisplacementRows,
     Interrupted,
     SampleReport,
+    SnapshotGram,
     Snapshots,
+    SolveProgress,
     SolverOptions,
+    UnsavedSamplesError,
     solve_snapshots,
 )
 from .subspace import AffineSubspace, pca, snapshot_pca
@@ -59,6 +64,8 @@ __all__ = [
     "AffineSubspace",
     "BlendingSession",
     "Checkpoint",
+    "CheckpointNotice",
+    "DisplacementRows",
     "ElasticEnergy",
     "EmbeddedSurface",
     "FrameReport",
@@ -82,10 +89,13 @@ __all__ = [
     "SampleReport",
     "Session",
     "Simplex",
+    "SnapshotGram",
     "Snapshots",
+    "SolveProgress",
     "SolverOptions",
     "StVK",
     "TetMesh",
+    "UnsavedSamplesError",
     "Validation",
     "boundary_surface",
     "embed_surface",

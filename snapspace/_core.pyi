@@ -93,6 +93,30 @@ class SolveControl:
     @property
     def finished(self) -> int: ...
 
+class Solution:
+    """A solved sample."""
+
+    @property
+    def id(self) -> int: ...
+
+    @property
+    def report(self) -> SolveReport: ...
+
+    @property
+    def shape(self) -> NDArray[numpy.float64]:
+        """(3n,) displacement."""
+
+class SampleQueue:
+    """Samples on their way to the threads that solve them, and back."""
+
+    def __init__(self) -> None: ...
+
+    def close(self) -> None:
+        """No more samples come."""
+
+    def collect(self, seconds: float) -> list[Solution]:
+        """Solutions since the last call; waits up to so many seconds for one."""
+
 class Batch:
     """Solutions of one call."""
 
@@ -126,7 +150,16 @@ class PosingSystem:
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8) -> Batch:
+    def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
+        """Puts a sample into a queue: input (input_size,), start (3n,)."""
+
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int, single: bool) -> None:
+        """L-BFGS on the samples of a queue until it is closed and empty."""
+
+    def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
+        """Newton's method; the same arguments."""
+
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8, single: bool = False) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
@@ -156,7 +189,16 @@ class InterpolationSystem:
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8) -> Batch:
+    def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
+        """Puts a sample into a queue: input (input_size,), start (3n,)."""
+
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int, single: bool) -> None:
+        """L-BFGS on the samples of a queue until it is closed and empty."""
+
+    def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
+        """Newton's method; the same arguments."""
+
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8, single: bool = False) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:

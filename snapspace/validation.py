@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from .mesh import mass_norms
 from .reduction import ReducedModel
-from .snapshots import Snapshots, SolverOptions, solve_snapshots
-from .snapshots.solve import Progress
+from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
 
 FloatArray = NDArray[np.float64]
 
@@ -111,31 +110,42 @@ def validate(
             "validate: no full solution converged, so there is nothing to compare with"
         )
 
-    subspace = model.subspace
     session = model.session()
-    shapes, frames = [], []
+    solutions, frames = [], []
     for w in reference.parameters:
         session.reset()
         begin = time.perf_counter()
         report = session.set_parameters(w)
-        shapes.append(session.vertices.reshape(-1))
+        _ = session.vertices
         frames.append((report, 1e3 * (time.perf_counter() - begin)))
-    full = reference.shapes
-    reduced = np.array(
-        [model.problem.aligned(shape, onto) for shape, onto in zip(shapes, full.T, strict=True)]
-    ).T
-    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(full)
-    size = mass_norms(subspace.mass, full - subspace.tau[:, None])
+        solutions.append(session.q.copy())
+    errors = _errors(model, reference, np.array(solutions))
     full_values = np.array([report.value for report in reference.reports])
     return Validation(
-        error=mass_norms(subspace.mass, reduced - full) / size,
-        projection_error=mass_norms(subspace.mass, projected - full) / size,
+        error=errors[:, 0],
+        projection_error=errors[:, 1],
         energy_ratio=np.array([report.value for report, _ in frames]) / full_values,
         iterations=np.array([report.iterations for report, _ in frames]),
         solve_ms=np.array([1e3 * report.seconds for report, _ in frames]),
         frame_ms=np.array([milliseconds for _, milliseconds in frames]),
         reference=reference,
     )
+
+
+def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
+    """Errors of reduced solutions (k, d) and of projections, (k, 2); one shape at a time."""
+    problem, subspace = model.problem, model.subspace
+    rows = reference.displacements.shifted(problem.base - subspace.tau)
+    projections = subspace.row_coordinates(rows)
+    errors = np.empty((len(rows), 2))
+    for target, row, solution, projection in zip(errors, rows, solutions, projections, strict=True):
+        full = subspace.tau + row
+        reduced = problem.aligned(subspace.shape(solution), full)
+        projected = subspace.shape(projection)
+        misses = np.column_stack([reduced - full, projected - full, row])
+        norms = mass_norms(subspace.mass, misses)
+        target[:] = norms[:2] / norms[2]
+    return errors
 
 
 def _statistics(values: NDArray[Any]) -> dict[str, float]:

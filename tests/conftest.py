@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 import pytest
 
 from snapspace import (
@@ -46,3 +49,13 @@ def blending_model() -> InterpolationModel:
 def helix_model() -> InterpolationModel:
     """A cylinder and a helix in the best 20 dimensions for 30 random blends."""
     return interpolation_model(InterpolationProblem([cylinder(2, 26), helix(2, 26)]), 30, 20)
+
+
+@pytest.fixture(scope="session")
+def cluster() -> Iterator[Any]:
+    """A dask cluster of two worker processes with one thread each."""
+    distributed = pytest.importorskip("distributed", reason="needs the extra snapspace[dask]")
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address="127.0.0.1:0"
+    ) as cluster:
+        yield cluster

@@ -12,14 +12,40 @@ struct Batch {
 };
 
 template <class System>
-Samples checked_samples(const System& system, const MatrixIn& inputs, const MatrixIn& starts,
-                        double* shapes) {
+Sample checked_sample(const System& system, int id, VectorIn input, VectorIn start) {
+  require(input.size() == static_cast<std::size_t>(system.input_size()),
+          "the input must be (input_size,)");
+  require(start.size() == static_cast<std::size_t>(system.size()), "the start must be (3n,)");
+  return {
+      id, {input.data(), input.data() + input.size()}, {start.data(), start.data() + start.size()}};
+}
+
+/// Solves rows of samples, all at once, through a queue.
+template <class System, class Solve>
+Batch solve_batch(const System& system, const MatrixIn& inputs, const MatrixIn& starts,
+                  Solve solve) {
   require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
           "inputs must be (samples, input_size)");
   require(starts.shape(0) == inputs.shape(0) &&
               starts.shape(1) == static_cast<std::size_t>(system.size()),
           "starts must be (samples, 3n)");
-  return {static_cast<int>(inputs.shape(0)), inputs.data(), starts.data(), shapes};
+  const std::size_t count = inputs.shape(0), size = starts.shape(1), width = inputs.shape(1);
+  Batch batch{new_array<double>({count, size}), std::vector<SolveReport>(count)};
+  nb::gil_scoped_release release;
+  SampleQueue queue;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double* input = inputs.data() + k * width;
+    const double* start = starts.data() + k * size;
+    queue.put({static_cast<int>(k), {input, input + width}, {start, start + size}});
+  }
+  queue.close();
+  batch.linear_iterations = solve(queue, static_cast<int>(count));
+  for (const Solution& solution : queue.collect(0.0)) {
+    batch.reports[solution.id] = solution.report;
+    std::copy(solution.shape.begin(), solution.shape.end(),
+              batch.shapes.data() + solution.id * size);
+  }
+  return batch;
 }
 
 LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
@@ -52,9 +78,8 @@ void bind_solves(nb::class_<System>& system) {
             require(u.size() == static_cast<std::size_t>(self.size()) &&
                         inputs.size() == static_cast<std::size_t>(self.input_size()),
                     "needs a (3n,) vector and (input_size,) inputs");
-            const Samples samples{1, inputs.data(), nullptr, nullptr};
-            typename System::template Objective<double> objective(self, samples);
-            objective.load(0, 0);
+            typename System::template Objective<double> objective(self);
+            objective.load(0, inputs.data());
             std::vector<double> shape(u.size()), gradient(u.size());
             self.numbering.to_internal(u.data(), shape.data());
             const double value = objective.value_and_gradient(shape.data(), gradient.data());
@@ -65,29 +90,55 @@ void bind_solves(nb::class_<System>& system) {
           nb::arg("u"), nb::arg("inputs"),
           "Objective at u (3n,) for inputs (input_size,), and its gradient.")
       .def(
+          "put",
+          [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start) {
+            queue.put(checked_sample(self, id, input, start));
+          },
+          nb::arg("queue"), nb::arg("id"), nb::arg("input"), nb::arg("start"),
+          "Puts a sample into a queue: input (input_size,), start (3n,).")
+      .def(
+          "serve_fast",
+          [](const System& self, SampleQueue& queue, int expected, double tolerance,
+             int max_iterations, int threads, SolveControl& control, int lanes, bool single) {
+            nb::gil_scoped_release release;
+            solve_fast(self, queue, expected, {tolerance, max_iterations, lanes, single, threads},
+                       control);
+          },
+          nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes"),
+          nb::arg("single"), "L-BFGS on the samples of a queue until it is closed and empty.")
+      .def(
+          "serve_newton",
+          [](const System& self, SampleQueue& queue, int expected, double tolerance,
+             int max_iterations, int threads, double clamp, SolveControl& control) {
+            nb::gil_scoped_release release;
+            solve_newton(self, queue, expected, {tolerance, max_iterations, 1, false, threads},
+                         clamp, control);
+          },
+          nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
+          "Newton's method; the same arguments.")
+      .def(
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, SolveControl& control, int lanes) {
-            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
-            const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
-            nb::gil_scoped_release release;
-            batch.reports =
-                solve_fast(self, samples, {tolerance, max_iterations, lanes, threads}, control);
-            return batch;
+             int max_iterations, int threads, SolveControl& control, int lanes, bool single) {
+            const SolveOptions options{tolerance, max_iterations, lanes, single, threads};
+            return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
+              solve_fast(self, queue, count, options, control);
+              return 0L;
+            });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 8,
-          "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
+          nb::arg("single") = false, "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
              int max_iterations, int threads, double clamp, SolveControl& control) {
-            Batch batch{new_array<double>({starts.shape(0), starts.shape(1)}), {}};
-            const Samples samples = checked_samples(self, inputs, starts, batch.shapes.data());
-            nb::gil_scoped_release release;
-            batch.reports = solve_newton(self, samples, {tolerance, max_iterations, 1, threads},
-                                         clamp, control, &batch.linear_iterations);
-            return batch;
+            const SolveOptions options{tolerance, max_iterations, 1, false, threads};
+            return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
+              return solve_newton(self, queue, count, options, clamp, control);
+            });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
@@ -121,6 +172,26 @@ void bind_snapshots(nb::module_& m) {
       .def("cancel", [](SolveControl& self) { self.cancelled = true; })
       .def_prop_ro("cancelled", [](const SolveControl& self) { return self.cancelled.load(); })
       .def_prop_ro("finished", [](const SolveControl& self) { return self.finished.load(); });
+
+  nb::class_<Solution>(m, "Solution", "A solved sample.")
+      .def_ro("id", &Solution::id)
+      .def_ro("report", &Solution::report)
+      .def_prop_ro(
+          "shape",
+          [](const Solution& self) {
+            DoublesOut shape = new_array<double>({self.shape.size()});
+            std::copy(self.shape.begin(), self.shape.end(), shape.data());
+            return shape;
+          },
+          nb::rv_policy::automatic, "(3n,) displacement.");
+
+  nb::class_<SampleQueue>(m, "SampleQueue",
+                          "Samples on their way to the threads that solve them, and back.")
+      .def(nb::init<>())
+      .def("close", &SampleQueue::close, "No more samples come.")
+      .def("collect", &SampleQueue::collect, nb::call_guard<nb::gil_scoped_release>(),
+           nb::arg("seconds"),
+           "Solutions since the last call; waits up to so many seconds for one.");
 
   nb::class_<Batch>(m, "Batch", "Solutions of one call.")
       .def_prop_ro(

@@ -44,10 +44,10 @@ class BlendedEnergy {
   /// Value at u of the tets from `begin` to before `end`; `gradient` (3n) is overwritten. The
   /// vertices are read and written once for all poses. @param weights  one per pose
   template <class Real>
-  Real value_and_gradient(const Real* weights, const Real* u, Real* gradient, int begin,
-                          int end) const {
+  Sum<Real> value_and_gradient(const Real* weights, const Real* u, Real* gradient, int begin,
+                               int end) const {
     std::fill_n(gradient, size(), Real(0.0));
-    Real energy(0.0);
+    Sum<Real> energy(0.0);
     const PoseElement* pose = elements_.data() + static_cast<std::size_t>(begin) * poses();
     for (int t = begin; t < end; ++t) {
       const RestTet& tet = energies_[0].rest.tets[t];
@@ -56,7 +56,7 @@ class BlendedEnergy {
       cauchy_green(G, C);
       set_zero(S);
       for (int k = 0; k < poses(); ++k, ++pose)
-        energy += add_pose(*pose, weights[k] * Real(pose->volume), C, S);
+        energy += widened(add_pose(*pose, weights[k] * Real(pose->volume), C, S));
       S[1][0] = S[0][1];
       S[2][0] = S[0][2];
       S[2][1] = S[1][2];

@@ -4,6 +4,7 @@
 
 #include "energy/stvk.h"
 #include "mesh/rest_shape.h"
+#include "simd/lanes.h"
 
 namespace snapspace {
 
@@ -15,11 +16,11 @@ struct ElasticEnergy {
 
   /// Energy at u; `gradient` (3n) is overwritten.
   template <class Real>
-  Real value_and_gradient(const Real* u, Real* gradient) const {
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
     std::fill_n(gradient, 3 * rest.vertex_count, Real(0.0));
-    Real energy(0.0);
+    Sum<Real> energy(0.0);
     for (const RestTet& tet : rest.tets)
-      energy += stvk_energy_and_gradient(material, tet, u, gradient);
+      energy += widened(stvk_energy_and_gradient(material, tet, u, gradient));
     return energy;
   }
 

@@ -7,7 +7,7 @@
 
 namespace snapspace {
 
-/// Samples that a thread solves together at most.
+/// Samples that a thread solves together at most in double precision; in single twice as many.
 #if defined(__AVX512F__)
 inline constexpr int kWideLanes = 8;
 #elif defined(__AVX__)
@@ -33,6 +33,10 @@ struct VectorOf<double, 8> {
   typedef double type __attribute__((vector_size(64)));
 };
 template <>
+struct VectorOf<double, 16> {
+  typedef double type __attribute__((vector_size(128)));
+};
+template <>
 struct VectorOf<float, 2> {
   typedef float type __attribute__((vector_size(8)));
 };
@@ -44,11 +48,16 @@ template <>
 struct VectorOf<float, 8> {
   typedef float type __attribute__((vector_size(32)));
 };
+template <>
+struct VectorOf<float, 16> {
+  typedef float type __attribute__((vector_size(64)));
+};
 #endif
 
 template <class T, int Width>
 struct alignas(Width * sizeof(T)) Pack {
   static constexpr int kWidth = Width;
+  using Scalar = T;
 #if defined(__GNUC__)
   using Vector = typename VectorOf<T, Width>::type;
   Vector v;
@@ -98,30 +107,35 @@ struct alignas(Width * sizeof(T)) Pack {
 
 template <int Width>
 using Lanes = Pack<double, Width>;
-/// The same in single precision, for what only steers a solver and never enters its result.
 template <int Width>
 using SingleLanes = Pack<float, Width>;
 
-template <int Width>
-inline SingleLanes<Width> to_single(Lanes<Width> a) {
+/// The same numbers in another precision.
+template <class To, class From, int Width>
+inline Pack<To, Width> cast(Pack<From, Width> a) {
 #if defined(__GNUC__)
-  return SingleLanes<Width>(__builtin_convertvector(a.v, typename SingleLanes<Width>::Vector));
+  return Pack<To, Width>(__builtin_convertvector(a.v, typename Pack<To, Width>::Vector));
 #else
-  SingleLanes<Width> r;
-  for (int i = 0; i < Width; ++i) r.v[i] = static_cast<float>(a.v[i]);
+  Pack<To, Width> r;
+  for (int i = 0; i < Width; ++i) r.v[i] = static_cast<To>(a.v[i]);
   return r;
 #endif
 }
 
-template <int Width>
-inline Lanes<Width> to_double(SingleLanes<Width> a) {
-#if defined(__GNUC__)
-  return Lanes<Width>(__builtin_convertvector(a.v, typename Lanes<Width>::Vector));
-#else
-  Lanes<Width> r;
-  for (int i = 0; i < Width; ++i) r.v[i] = a.v[i];
-  return r;
-#endif
+inline void set_lane(double& x, int, double value) { x = value; }
+/// Sets one lane of a pack; a number is a pack of one.
+template <class T, int Width>
+void set_lane(Pack<T, Width>& x, int lane, double value) {
+  x.set(lane, static_cast<T>(value));
 }
+
+/// Sums of many terms are taken in double precision, also of terms in single precision.
+inline double widened(double a) { return a; }
+template <class T, int Width>
+inline Lanes<Width> widened(Pack<T, Width> a) {
+  return cast<double>(a);
+}
+template <class Real>
+using Sum = decltype(widened(Real()));
 
 }  // namespace snapspace

@@ -6,8 +6,8 @@
 #include "energy/blended_energy.h"
 #include "energy/block_hessian.h"
 #include "energy/scalar_hessian.h"
+#include "simd/lanes.h"
 #include "snapshots/numbering.h"
-#include "snapshots/samples.h"
 #include "snapshots/scalar_factor.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
@@ -88,9 +88,8 @@ template <class Real>
 class InterpolationObjective {
  public:
   /// @param threads  that it may use for itself
-  InterpolationObjective(const InterpolationSystem& system, const Samples& samples, int threads = 1)
+  explicit InterpolationObjective(const InterpolationSystem& system, int threads = 1)
       : system_(system),
-        samples_(samples),
         threads_(threads),
         weights_(system.input_size(), Real(0.0)),
         second_half_(kHalves ? system.size() : 0, Real(0.0)) {}
@@ -98,19 +97,19 @@ class InterpolationObjective {
   [[nodiscard]] int size() const { return system_.size(); }
   [[nodiscard]] double negligible() const { return negligible_; }
 
-  void load(int lane, int sample) {
-    const double* weights = samples_.inputs + static_cast<std::size_t>(sample) * weights_.size();
+  /// The lane takes the weights of a sample (input_size() numbers).
+  void load(int lane, const double* weights) {
     for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
   }
 
   /// F at u (3n); its gradient overwrites `gradient`. Few samples are a pack or two, which would
   /// leave threads idle: narrow packs go through the tets in two halves, whatever the number of
   /// threads, because sums of other parts would round differently.
-  Real value_and_gradient(const Real* u, Real* gradient) {
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient) {
     const int tets = system_.energy->tets();
     if constexpr (!kHalves)
       return system_.energy->value_and_gradient(weights_.data(), u, gradient, 0, tets);
-    Real values[2];
+    Sum<Real> values[2];
     parallel_for(2, threads_, [&](int half) {
       const FlushDenormals flush;  // as on the caller's thread
       values[half] = system_.energy->value_and_gradient(
@@ -145,7 +144,6 @@ class InterpolationObjective {
   static constexpr bool kHalves = sizeof(Real) <= 4 * sizeof(double);
 
   const InterpolationSystem& system_;
-  const Samples& samples_;
   int threads_;
   std::vector<Real> weights_;
   std::vector<Real> second_half_;  // of the gradient

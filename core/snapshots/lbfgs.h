@@ -11,52 +11,52 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "simd/lanes.h"
 #include "snapshots/lbfgs_memory.h"
 #include "snapshots/line_search.h"
+#include "snapshots/sample_queue.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
-/// @tparam Objective  has size(), negligible(), load(lane, sample), value_and_gradient(u, g) and
+/// @tparam Objective  has size(), negligible(), load(lane, input), value_and_gradient(u, g) and
 ///                    precondition(v, result, scratch)
-template <class Objective, int Width>
+/// @tparam Real       a pack, in the precision of shapes and gradients; values and inner products
+///                    are in double precision anyway
+template <class Objective, class Real>
 class LaneLbfgs {
  public:
-  using Real = Lanes<Width>;
+  static constexpr int kWidth = Real::kWidth;
 
   LaneLbfgs(Objective objective, const SolveOptions& options)
       : objective_(std::move(objective)),
         options_(options),
         size_(objective_.size()),
         memory_(size_),
-        u_(size_, 0.0),
-        gradient_(size_, 0.0),
-        direction_(size_, 0.0),
-        trial_(size_, 0.0),
-        trial_gradient_(size_, 0.0),
+        u_(size_, Real(0)),
+        gradient_(size_, Real(0)),
+        direction_(size_, Real(0)),
+        trial_(size_, Real(0)),
+        trial_gradient_(size_, Real(0)),
         work_(size_, 0.0f),
         scratch_(size_, 0.0f) {}
 
-  /// Solves samples until `take` returns -1.
+  /// Solves samples until there are no more.
   ///
-  /// @param take    () -> index of the next sample, or -1
-  /// @param start   sample -> its start (3n doubles)
-  /// @param finish  (sample, report, write) with write(double* shape) copying the lane's shape
-  template <class Take, class Start, class Finish>
-  void run(Take take, Start start, Finish finish, const SolveControl& control) {
-    for (int lane = 0; lane < Width; ++lane) load(lane, take(), start);
-    while (std::any_of(lanes_, lanes_ + Width, [](const Lane& l) { return l.sample >= 0; })) {
-      if (control.cancelled) return;
+  /// @param take    (number of samples that are being solved here) -> the next Sample, if any
+  /// @param finish  (id, report, write) with write(double* shape) copying the sample's shape
+  template <class Take, class Finish>
+  void run(Take take, Finish finish, const SolveControl& control) {
+    while (fill(take) && !control.cancelled) {
       step();
-      for (int lane = 0; lane < Width; ++lane) {
-        if (lanes_[lane].sample < 0 || !lanes_[lane].done) continue;
-        finish(lanes_[lane].sample, report(lane),
-               [&](double* shape) { copy_lane(u_, lane, shape); });
-        load(lane, take(), start);
+      for (int lane = 0; lane < kWidth; ++lane) {
+        if (!lanes_[lane].busy() || !lanes_[lane].done) continue;
+        finish(lanes_[lane].sample, report(lane), [&](double* shape) { copy_shape(lane, shape); });
+        lanes_[lane].sample = -1;
       }
     }
   }
@@ -64,6 +64,9 @@ class LaneLbfgs {
  private:
   static constexpr int kMaxShortenings = 30;
   static constexpr int kWindow = 8;
+  /// Relative error of a value: sums of many terms of the precision's rounding each.
+  static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
+  using Total = Lanes<kWidth>;
   using Clock = std::chrono::steady_clock;
 
   struct Lane {
@@ -81,6 +84,8 @@ class LaneLbfgs {
     SolveStatus status = SolveStatus::cancelled;
     Clock::time_point begin;
 
+    [[nodiscard]] bool busy() const { return sample >= 0; }
+
     /// A single small predicted decrease may be luck: the mean of the last actual ones must be
     /// small as well.
     [[nodiscard]] bool converged(double tolerance, double negligible) const {
@@ -91,50 +96,63 @@ class LaneLbfgs {
     }
   };
 
-  template <class Start>
-  void load(int lane, int sample, Start start) {
-    lanes_[lane] = Lane{};
-    lanes_[lane].sample = sample;
-    lanes_[lane].fresh = true;
-    lanes_[lane].begin = Clock::now();
-    memory_.forget(lane);
-    const double* from = sample >= 0 ? start(sample) : nullptr;
-    if (sample >= 0) objective_.load(lane, sample);
-    for (int i = 0; i < size_; ++i) {
-      u_[i].set(lane, from ? from[i] : 0.0);
-      gradient_[i].set(lane, 0.0);
-      direction_[i].set(lane, 0.0);
+  /// Gives samples to the empty lanes; whether any lane is busy then.
+  template <class Take>
+  bool fill(Take take) {
+    int busy = static_cast<int>(
+        std::count_if(lanes_, lanes_ + kWidth, [](const Lane& lane) { return lane.busy(); }));
+    for (int lane = 0; lane < kWidth && busy < kWidth; ++lane) {
+      if (lanes_[lane].busy()) continue;
+      const auto sample = take(busy);
+      if (!sample) break;
+      load(lane, *sample);
+      ++busy;
     }
+    return busy > 0;
+  }
+
+  /// What the lane's last sample has left in the vectors stays there: a fresh lane steps by zero,
+  /// and its memory has no weight. All of it is finite.
+  void load(int index, const Sample& sample) {
+    Lane& lane = lanes_[index] = Lane{};
+    lane.sample = sample.id;
+    lane.fresh = true;
+    lane.begin = Clock::now();
+    memory_.forget(index);
+    objective_.load(index, sample.input.data());
+    for (int i = 0; i < size_; ++i) set_lane(u_[i], index, sample.start[i]);
   }
 
   /// One evaluation of all lanes and what follows from it.
   void step() {
-    Real length;
-    for (int lane = 0; lane < Width; ++lane) length.set(lane, lanes_[lane].step);
-    for (int i = 0; i < size_; ++i) trial_[i] = u_[i] + length * direction_[i];
-    const Real value = objective_.value_and_gradient(trial_.data(), trial_gradient_.data());
-    Real slope(0.0);
-    for (int i = 0; i < size_; ++i) slope += trial_gradient_[i] * direction_[i];
+    Total length;
+    for (int lane = 0; lane < kWidth; ++lane)
+      length.set(lane, lanes_[lane].fresh ? 0.0 : lanes_[lane].step);
+    const Real scale = cast<typename Real::Scalar>(length);
+    for (int i = 0; i < size_; ++i) trial_[i] = u_[i] + scale * direction_[i];
+    const Total value = objective_.value_and_gradient(trial_.data(), trial_gradient_.data());
+    Total slope(0.0);
+    for (int i = 0; i < size_; ++i) slope += widened(trial_gradient_[i]) * widened(direction_[i]);
 
-    Real accepted(0.0), remembered(0.0);
-    for (int lane = 0; lane < Width; ++lane) {
+    Real accepted(0), remembered(0);
+    for (int lane = 0; lane < kWidth; ++lane) {
       const bool ok = judge(lanes_[lane], value[lane], slope[lane]);
-      accepted.set(lane, ok ? 1.0 : 0.0);
-      remembered.set(lane, ok && lanes_[lane].iterations > 0 ? 1.0 : 0.0);
+      accepted.set(lane, ok ? 1 : 0);
+      remembered.set(lane, ok && lanes_[lane].iterations > 0 ? 1 : 0);
     }
     memory_.move(accepted, remembered, length, trial_.data(), trial_gradient_.data(), u_.data(),
                  gradient_.data());
     memory_.first_loop(gradient_.data(), work_.data());
     objective_.precondition(work_.data(), work_.data(), scratch_.data());
-    const Real slopes =
+    const Total slopes =
         memory_.second_loop(accepted, gradient_.data(), work_.data(), direction_.data());
-    for (int lane = 0; lane < Width; ++lane)
-      if (accepted[lane] != 0.0) test_convergence(lane, slopes[lane]);
+    for (int lane = 0; lane < kWidth; ++lane)
+      if (accepted[lane] != 0) test_convergence(lane, slopes[lane]);
   }
 
   /// Accepts or refuses the lane's trial, and chooses a shorter step where it is refused.
   bool judge(Lane& lane, double value, double slope) {
-    if (lane.sample < 0 || lane.done) return false;
+    if (!lane.busy() || lane.done) return false;
     ++lane.evaluations;
     if (lane.fresh) {
       lane.fresh = false;
@@ -143,7 +161,7 @@ class LaneLbfgs {
       if (!std::isfinite(value)) finish(lane, SolveStatus::not_finite);
       return !lane.done;
     }
-    if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope)) {
+    if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope, kRounding)) {
       lane.decreases[lane.iterations % kWindow] = lane.value - value;
       ++lane.iterations;
       lane.restarted = false;
@@ -168,7 +186,7 @@ class LaneLbfgs {
   void test_convergence(int index, double slope) {
     Lane& lane = lanes_[index];
     lane.slope = slope;
-    if (!std::isfinite(slope)) return finish(lane, SolveStatus::not_finite);
+    if (!std::isfinite(slope)) return scrub(index);
     if (slope > 0.0) return restart(index);
     if (lane.converged(options_.tolerance, objective_.negligible()))
       return finish(lane, SolveStatus::converged);
@@ -181,18 +199,24 @@ class LaneLbfgs {
     if (lanes_[index].restarted) return finish(lanes_[index], SolveStatus::line_search_failed);
     lanes_[index].restarted = true;
     memory_.forget(index);
-    for (int i = 0; i < size_; ++i) direction_[i].set(index, 0.0);
     lanes_[index].fresh = true;
   }
 
-  void copy_lane(const std::vector<Real>& from, int lane, double* to) const {
-    for (int i = 0; i < size_; ++i) to[i] = from[i][lane];
+  /// The lane has something that is not finite, which must not reach its next sample.
+  void scrub(int index) {
+    finish(lanes_[index], SolveStatus::not_finite);
+    memory_.clear(index);
+    for (int i = 0; i < size_; ++i) set_lane(direction_[i], index, 0.0);
+  }
+
+  void copy_shape(int lane, double* to) const {
+    for (int i = 0; i < size_; ++i) to[i] = u_[i][lane];
   }
 
   SolveReport report(int index) const {
     const Lane& lane = lanes_[index];
     double square = 0.0;
-    for (int i = 0; i < size_; ++i) square += gradient_[i][index] * gradient_[i][index];
+    for (const Real& g : gradient_) square += static_cast<double>(g[index]) * g[index];
     SolveReport result;
     result.status = lane.status;
     result.iterations = lane.iterations;
@@ -207,10 +231,10 @@ class LaneLbfgs {
   Objective objective_;
   SolveOptions options_;
   int size_;
-  LbfgsMemory<Width> memory_;
-  Lane lanes_[Width];
+  LbfgsMemory<Real> memory_;
+  Lane lanes_[kWidth];
   std::vector<Real> u_, gradient_, direction_, trial_, trial_gradient_;
-  std::vector<SingleLanes<Width>> work_, scratch_;
+  std::vector<SingleLanes<kWidth>> work_, scratch_;
 };
 
 }  // namespace snapspace

@@ -7,11 +7,12 @@ namespace snapspace {
 /// Armijo's condition, or where the values no longer resolve the decrease the approximate one of
 /// Hager & Zhang (2005), which looks at slopes: near the minimum a difference of values is rounding
 /// noise while slopes still tell.
+/// @param rounding  relative error of the values
 inline bool sufficient_decrease(double value0, double slope0, double step, double value,
-                                double slope) {
+                                double slope, double rounding = 1e-12) {
   if (!std::isfinite(value) || !std::isfinite(slope)) return false;
   if (value <= value0 + 1e-4 * step * slope0) return true;
-  const double noise = 1e-12 * std::abs(value0);
+  const double noise = rounding * std::abs(value0);
   return value <= value0 + noise && std::abs(slope) <= 0.8 * std::abs(slope0);
 }
 

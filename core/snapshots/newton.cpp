@@ -31,11 +31,11 @@ Newton<Objective>::Newton(Objective objective, const SolveOptions& options, doub
 }
 
 template <class Objective>
-SolveReport Newton<Objective>::solve(int sample, const double* start, const SolveControl& control) {
+SolveReport Newton<Objective>::solve(const Sample& sample, const SolveControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   SolveReport report;
-  objective_.load(0, sample);
-  u_.assign(start, start + u_.size());
+  objective_.load(0, sample.input.data());
+  u_ = sample.start;
   report.value = objective_.value_and_gradient(u_.data(), gradient_.data());
   report.evaluations = 1;
   double previous_decrement = std::numeric_limits<double>::infinity();

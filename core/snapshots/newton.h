@@ -3,6 +3,7 @@
 
 #include "energy/block_hessian.h"
 #include "snapshots/conjugate_gradients.h"
+#include "snapshots/sample_queue.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
@@ -20,7 +21,7 @@ class Newton {
   Newton(Objective objective, const SolveOptions& options, double clamp);
 
   /// Solves one sample; its shape is left in shape().
-  SolveReport solve(int sample, const double* start, const SolveControl& control);
+  SolveReport solve(const Sample& sample, const SolveControl& control);
 
   [[nodiscard]] const std::vector<double>& shape() const { return u_; }
   [[nodiscard]] long linear_iterations() const { return linear_iterations_; }

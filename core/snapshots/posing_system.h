@@ -5,8 +5,8 @@
 
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
+#include "simd/lanes.h"
 #include "snapshots/numbering.h"
-#include "snapshots/samples.h"
 #include "snapshots/scalar_factor.h"
 
 namespace snapspace {
@@ -58,35 +58,35 @@ struct PosingSystem {
   }
 };
 
-/// The objective of the samples that are in the lanes now. Real is double (one lane) or Lanes.
+/// The objective of the samples that are in the lanes now. Real is double (one lane) or a pack of
+/// either precision.
 ///
 /// This is all that a solver knows of a problem: size, negligible, load, value_and_gradient,
 /// precondition, and for Newton's method hessian_pattern and assemble.
 template <class Real>
 class PosingObjective {
  public:
-  PosingObjective(const PosingSystem& system, const Samples& samples, int /*threads*/ = 1)
-      : system_(system), samples_(samples), targets_(system.input_size(), Real(0.0)) {}
+  explicit PosingObjective(const PosingSystem& system, int /*threads*/ = 1)
+      : system_(system), targets_(system.input_size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }
   [[nodiscard]] double negligible() const { return negligible_; }
 
-  /// The lane's targets become those of `sample`.
-  void load(int lane, int sample) {
-    const double* target = samples_.inputs + static_cast<std::size_t>(sample) * targets_.size();
+  /// The lane's targets become those of a sample (input_size() numbers).
+  void load(int lane, const double* target) {
     for (std::size_t k = 0; k < targets_.size(); ++k) set_lane(targets_[k], lane, target[k]);
   }
 
   /// F at u (3n); its gradient overwrites `gradient`.
-  Real value_and_gradient(const Real* u, Real* gradient) const {
-    Real value = system_.energy.value_and_gradient(u, gradient);
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
+    Sum<Real> value = system_.energy.value_and_gradient(u, gradient);
     for (std::size_t k = 0; k < system_.pinned.size(); ++k) {
       const std::size_t at = 3 * static_cast<std::size_t>(system_.pinned[k]);
       const Real weight(system_.weights[k]);
       for (int c = 0; c < 3; ++c) {
         const Real offset = u[at + c] - targets_[3 * k + c];
         const Real force = weight * offset;
-        value += force * offset;
+        value += widened(force * offset);
         gradient[at + c] += force + force;
       }
     }
@@ -112,7 +112,6 @@ class PosingObjective {
 
  private:
   const PosingSystem& system_;
-  const Samples& samples_;
   std::vector<Real> targets_;
   double negligible_ = system_.negligible();
 };

@@ -13,95 +13,119 @@ namespace snapspace {
 
 namespace {
 
-template <class System>
-std::size_t offset(const System& system, int sample) {
-  return static_cast<std::size_t>(sample) * system.size();
-}
-
 int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-template <int Width, class System>
-std::vector<SolveReport> solve_in_lanes(const System& system, const Samples& samples,
-                                        const SolveOptions& options, SolveControl& control) {
-  std::vector<SolveReport> reports(samples.count);
-  std::atomic<int> next{0};
-  // No more groups of lanes than hold the samples.
+/// What a solver needs of a queue, in the numbering of the system.
+template <class System>
+class Exchange {
+ public:
+  Exchange(const System& system, SampleQueue& queue, SolveControl& control)
+      : system_(system), queue_(queue), control_(control) {}
+
+  [[nodiscard]] std::optional<Sample> take(int held) const {
+    std::optional<Sample> sample = queue_.take(held, control_);
+    if (sample) {
+      std::vector<double> start(system_.size());
+      system_.numbering.to_internal(sample->start.data(), start.data());
+      sample->start.swap(start);
+    }
+    return sample;
+  }
+
+  void finish(int id, SolveReport report, const double* shape) const {
+    report.inverted_tets = system_.inverted_tets(shape);
+    std::vector<double> external(system_.size());
+    system_.numbering.to_external(shape, external.data());
+    queue_.finish({id, report, std::move(external)});
+    ++control_.finished;
+  }
+
+ private:
+  const System& system_;
+  SampleQueue& queue_;
+  SolveControl& control_;
+};
+
+template <class Real, class System>
+void solve_in_lanes(const System& system, SampleQueue& queue, int expected,
+                    const SolveOptions& options, SolveControl& control) {
+  // No more packs than the samples fill.
   const int threads = thread_count(options.threads);
-  const int groups = std::min((samples.count + Width - 1) / Width, threads);
-  parallel_for(groups, groups, [&](int) {
+  const int packs = std::clamp((expected + Real::kWidth - 1) / Real::kWidth, 1, threads);
+  const Exchange exchange(system, queue, control);
+  queue.share(packs);
+  parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
-    using Objective = typename System::template Objective<Lanes<Width>>;
-    LaneLbfgs<Objective, Width> solver(Objective(system, samples, threads / groups), options);
-    const auto take = [&] {
-      const int sample = next++;
-      return sample < samples.count ? sample : -1;
-    };
+    using Objective = typename System::template Objective<Real>;
+    LaneLbfgs<Objective, Real> solver(Objective(system, threads / packs), options);
     std::vector<double> shape(system.size());
-    const auto start = [&](int sample) {
-      system.numbering.to_internal(samples.starts + offset(system, sample), shape.data());
-      return shape.data();
-    };
-    const auto finish = [&](int sample, SolveReport report, const auto& write) {
-      write(shape.data());
-      report.inverted_tets = system.inverted_tets(shape.data());
-      system.numbering.to_external(shape.data(), samples.shapes + offset(system, sample));
-      reports[sample] = report;
-      ++control.finished;
-    };
-    solver.run(take, start, finish, control);
+    solver.run([&](int held) { return exchange.take(held); },
+               [&](int id, const SolveReport& report, const auto& write) {
+                 write(shape.data());
+                 exchange.finish(id, report, shape.data());
+               },
+               control);
   });
-  return reports;
+}
+
+/// Packs of the wanted width, or the widest that this build has.
+template <class T, class System>
+void solve_in_packs(const System& system, SampleQueue& queue, int expected,
+                    const SolveOptions& options, SolveControl& control) {
+  constexpr int kWidest = kWideLanes * static_cast<int>(sizeof(double) / sizeof(T));
+  if constexpr (kWidest >= 16)
+    if (options.lanes >= 16)
+      return solve_in_lanes<Pack<T, 16>>(system, queue, expected, options, control);
+  if constexpr (kWidest >= 8)
+    if (options.lanes >= 8)
+      return solve_in_lanes<Pack<T, 8>>(system, queue, expected, options, control);
+  if constexpr (kWidest >= 4)
+    if (options.lanes >= 4)
+      return solve_in_lanes<Pack<T, 4>>(system, queue, expected, options, control);
+  solve_in_lanes<Pack<T, 2>>(system, queue, expected, options, control);
 }
 
 }  // namespace
 
 template <class System>
-std::vector<SolveReport> solve_fast(const System& system, const Samples& samples,
-                                    const SolveOptions& options, SolveControl& control) {
-  if constexpr (kWideLanes >= 8)
-    if (options.lanes >= 8) return solve_in_lanes<8>(system, samples, options, control);
-  if constexpr (kWideLanes >= 4)
-    if (options.lanes >= 4) return solve_in_lanes<4>(system, samples, options, control);
-  return solve_in_lanes<2>(system, samples, options, control);
+void solve_fast(const System& system, SampleQueue& queue, int expected, const SolveOptions& options,
+                SolveControl& control) {
+  if (options.single)
+    solve_in_packs<float>(system, queue, expected, options, control);
+  else
+    solve_in_packs<double>(system, queue, expected, options, control);
 }
 
 template <class System>
-std::vector<SolveReport> solve_newton(const System& system, const Samples& samples,
-                                      const SolveOptions& options, double clamp,
-                                      SolveControl& control, long* linear_iterations) {
-  std::vector<SolveReport> reports(samples.count);
-  std::atomic<int> next{0};
-  std::atomic<long> total{0};
-  const int workers = std::min(samples.count, thread_count(options.threads));
+long solve_newton(const System& system, SampleQueue& queue, int expected,
+                  const SolveOptions& options, double clamp, SolveControl& control) {
+  std::atomic<long> linear_iterations{0};
+  const int workers = std::clamp(expected, 1, thread_count(options.threads));
+  const Exchange exchange(system, queue, control);
+  queue.share(workers);
   parallel_for(workers, workers, [&](int) {
     const FlushDenormals flush;
     using Objective = typename System::template Objective<double>;
-    Newton<Objective> solver(Objective(system, samples), options, clamp);
-    std::vector<double> start(system.size());
-    for (int sample = next++; sample < samples.count && !control.cancelled; sample = next++) {
-      system.numbering.to_internal(samples.starts + offset(system, sample), start.data());
-      SolveReport report = solver.solve(sample, start.data(), control);
+    Newton<Objective> solver(Objective(system), options, clamp);
+    while (const std::optional<Sample> sample = exchange.take(0)) {
+      const SolveReport report = solver.solve(*sample, control);
       if (report.status == SolveStatus::cancelled) break;
-      report.inverted_tets = system.inverted_tets(solver.shape().data());
-      system.numbering.to_external(solver.shape().data(), samples.shapes + offset(system, sample));
-      reports[sample] = report;
-      ++control.finished;
+      exchange.finish(sample->id, report, solver.shape().data());
     }
-    total += solver.linear_iterations();
+    linear_iterations += solver.linear_iterations();
   });
-  if (linear_iterations) *linear_iterations = total;
-  return reports;
+  return linear_iterations;
 }
 
-template std::vector<SolveReport> solve_fast(const PosingSystem&, const Samples&,
-                                             const SolveOptions&, SolveControl&);
-template std::vector<SolveReport> solve_fast(const InterpolationSystem&, const Samples&,
-                                             const SolveOptions&, SolveControl&);
-template std::vector<SolveReport> solve_newton(const PosingSystem&, const Samples&,
-                                               const SolveOptions&, double, SolveControl&, long*);
-template std::vector<SolveReport> solve_newton(const InterpolationSystem&, const Samples&,
-                                               const SolveOptions&, double, SolveControl&, long*);
+template void solve_fast(const PosingSystem&, SampleQueue&, int, const SolveOptions&,
+                         SolveControl&);
+template void solve_fast(const InterpolationSystem&, SampleQueue&, int, const SolveOptions&,
+                         SolveControl&);
+template long solve_newton(const PosingSystem&, SampleQueue&, int, const SolveOptions&, double,
+                           SolveControl&);
+template long solve_newton(const InterpolationSystem&, SampleQueue&, int, const SolveOptions&,
+                           double, SolveControl&);
 
 }  // namespace snapspace

@@ -3,38 +3,34 @@
 
 #include "snapshots/interpolation_system.h"
 #include "snapshots/posing_system.h"
-#include "snapshots/samples.h"
+#include "snapshots/sample_queue.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
-/// Full-space solutions of all samples by L-BFGS on the scalar factor, one sample per lane, threads
-/// over groups of lanes. One report per sample. The results do not depend on the number of threads,
-/// nor on which samples are solved together.
+/// Solves the samples of a queue until it is closed and empty, or the control cancels: by L-BFGS on
+/// the scalar factor, one sample per lane, threads over packs of lanes. The result of a sample does
+/// not depend on the number of threads, nor on which samples are solved together.
 ///
-/// @tparam System  PosingSystem or InterpolationSystem
+/// @tparam System   PosingSystem or InterpolationSystem
+/// @param expected  samples that will come in all; a few leave threads for each other
 template <class System>
-[[nodiscard]] std::vector<SolveReport> solve_fast(const System& system, const Samples& samples,
-                                                  const SolveOptions& options,
-                                                  SolveControl& control);
+void solve_fast(const System& system, SampleQueue& queue, int expected, const SolveOptions& options,
+                SolveControl& control);
 
 /// The same by the paper's Newton method, one sample per thread at a time.
-/// @param linear_iterations  receives the conjugate gradient iterations of all samples together
+/// @return  conjugate gradient iterations of all samples together
 template <class System>
-[[nodiscard]] std::vector<SolveReport> solve_newton(const System& system, const Samples& samples,
-                                                    const SolveOptions& options, double clamp,
-                                                    SolveControl& control,
-                                                    long* linear_iterations = nullptr);
+long solve_newton(const System& system, SampleQueue& queue, int expected,
+                  const SolveOptions& options, double clamp, SolveControl& control);
 
-extern template std::vector<SolveReport> solve_fast(const PosingSystem&, const Samples&,
-                                                    const SolveOptions&, SolveControl&);
-extern template std::vector<SolveReport> solve_fast(const InterpolationSystem&, const Samples&,
-                                                    const SolveOptions&, SolveControl&);
-extern template std::vector<SolveReport> solve_newton(const PosingSystem&, const Samples&,
-                                                      const SolveOptions&, double, SolveControl&,
-                                                      long*);
-extern template std::vector<SolveReport> solve_newton(const InterpolationSystem&, const Samples&,
-                                                      const SolveOptions&, double, SolveControl&,
-                                                      long*);
+extern template void solve_fast(const PosingSystem&, SampleQueue&, int, const SolveOptions&,
+                                SolveControl&);
+extern template void solve_fast(const InterpolationSystem&, SampleQueue&, int, const SolveOptions&,
+                                SolveControl&);
+extern template long solve_newton(const PosingSystem&, SampleQueue&, int, const SolveOptions&,
+                                  double, SolveControl&);
+extern template long solve_newton(const InterpolationSystem&, SampleQueue&, int,
+                                  const SolveOptions&, double, SolveControl&);
 
 }  // namespace snapspace

@@ -14,7 +14,8 @@ from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem
 from .choices import Choices, choice_options
 from .console import print_json, print_next
-from .options import FILE, json_option, threads_option
+from .dask_cluster import dask_executor
+from .options import FILE, dask_option, json_option, threads_option
 from .pipeline import build_model
 from .summary import print_summary
 
@@ -32,6 +33,7 @@ DIMENSION = 40
 @choice_options(samples=300, dimension=DIMENSION, sampling="random")
 @click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
 @threads_option
+@dask_option
 @json_option
 def build(
     mesh: Path | None,
@@ -40,6 +42,7 @@ def build(
     repair: bool,
     choices: Choices,
     threads: int | None,
+    dask: str | None,
     as_json: bool,
 ) -> None:
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
@@ -57,7 +60,8 @@ def build(
     check_output(output)
     problem, source = _read(problem_file, mesh, repair=repair)
     recipe = choices.recipe(problem.domain, dimension=DIMENSION, threads=threads)
-    built = build_model(problem, recipe, output, source=source, begin=begin)
+    executor = click.get_current_context().with_resource(dask_executor(dask))
+    built = build_model(problem, recipe, output, source=source, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     print_next(

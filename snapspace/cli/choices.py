@@ -11,7 +11,7 @@ import click
 
 from ..sampling import METHODS, Domain, Method, sample
 from ..snapshots import SOLVERS, SolverOptions
-from ..snapshots.solve import Solver
+from ..snapshots.solver_options import Solver
 from .console import notice
 from .recipe import Recipe
 

@@ -20,9 +20,10 @@ from ..registration import SCALE_POLICIES, ScalePolicy
 from .build import check_output
 from .choices import Choices, choice_options
 from .console import console, notice, print_json, print_next
+from .dask_cluster import dask_executor
 from .files import make_folder
 from .fit_cache import FitCache
-from .options import FILE, json_option, threads_option
+from .options import FILE, dask_option, json_option, threads_option
 from .pipeline import build_model
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .summary import print_summary
@@ -81,6 +82,7 @@ SAMPLES, DIMENSION = 40, 20
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None)
 @click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
 @threads_option
+@dask_option
 @json_option
 def interpolate(
     files: Sequence[Path],
@@ -97,6 +99,7 @@ def interpolate(
     choices: Choices,
     repair: bool,
     threads: int | None,
+    dask: str | None,
     as_json: bool,
 ) -> None:
     """Build a model that blends poses of one object along elastic paths.
@@ -126,6 +129,7 @@ def interpolate(
     check_deviation(deviation)
     if save_poses is not None:
         make_folder(save_poses, option="--save-poses")
+    executor = click.get_current_context().with_resource(dask_executor(dask))
     cache = FitCache.beside(output)
     options = PoseOptions(
         tets=tets,
@@ -154,7 +158,13 @@ def interpolate(
     }
     try:
         built = build_model(
-            problem, recipe, output, source=source, surface=pose_set.surface, begin=begin
+            problem,
+            recipe,
+            output,
+            source=source,
+            surface=pose_set.surface,
+            begin=begin,
+            executor=executor,
         )
     except KeyboardInterrupt as stop:
         kept = "; the fitted poses are kept" if pose_set.fits else ""

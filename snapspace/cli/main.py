@@ -13,6 +13,7 @@ import click
 
 from .. import __version__
 from ..mesh import MeshNotice
+from ..snapshots import CheckpointNotice
 from .blend import blend
 from .build import build
 from .console import notice, one_line
@@ -98,13 +99,14 @@ def _usage(error: click.ClickException) -> str:
 
 @contextmanager
 def _notices() -> Iterator[None]:
-    """Shows each `MeshNotice` as one line."""
+    """Shows each `MeshNotice` and `CheckpointNotice` as one line."""
     with warnings.catch_warnings():
         warnings.simplefilter("always", MeshNotice)
+        warnings.simplefilter("always", CheckpointNotice)
         ordinary = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
-            if issubclass(category, MeshNotice):
+            if issubclass(category, MeshNotice | CheckpointNotice):
                 notice(f"notice: {message}")
             else:
                 ordinary(message, category, *where, **to)

@@ -69,6 +69,16 @@ def threads_option(command: Command) -> Command:
     )(command)
 
 
+def dask_option(command: Command) -> Command:
+    """--dask, None for this machine."""
+    return click.option(
+        "--dask",
+        metavar="ADDRESS",
+        help="Solve the samples on the dask cluster with this scheduler, such as "
+        "tcp://127.0.0.1:8786. The result is the same.",
+    )(command)
+
+
 def leading_option(command: Command) -> Command:
     """--dimension of a model that exists already."""
     return click.option(

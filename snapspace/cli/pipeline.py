@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -66,6 +67,7 @@ def build_model(
     source: dict[str, Any],
     surface: EmbeddedSurface | None = None,
     begin: float | None = None,
+    executor: Executor | None = None,
 ) -> Built:
     """Solves the samples, makes subspace and reduced model, and writes the model file.
 
@@ -83,6 +85,8 @@ def build_model(
         Interpolation: the user's surface in the tets.
     begin : float, optional
         `time.perf_counter()` when the work began, for the total. Default: now.
+    executor : Executor, optional
+        Its workers solve the samples. Default: this machine's threads.
 
     Raises
     ------
@@ -92,7 +96,8 @@ def build_model(
         On Ctrl-C, with a line that says what is kept.
     """
     begin = time.perf_counter() if begin is None else begin
-    key = run_key(problem, recipe.parameters, solver_key(recipe.solver, problem))
+    options = solver_key(recipe.solver, problem, len(recipe.parameters))
+    key = run_key(problem, recipe.parameters, options)
     checkpoint = Checkpoint.beside(output, key)
     seconds: dict[str, float] = {}
     try:
@@ -100,7 +105,7 @@ def build_model(
             with _stage(seconds, "mean shape"), console().status("mean shape"):
                 problem.solve_mean_shape(threads=recipe.threads)
         with _stage(seconds, "snapshots"):
-            snapshots = _solved(problem, recipe, checkpoint)
+            snapshots = _solved(problem, recipe, checkpoint, executor)
         with _stage(seconds, "basis"), console().status("basis"):
             subspace = _subspace(snapshots, recipe)
         with _stage(seconds, "reduction"), console().status("reduced energy"):
@@ -113,7 +118,7 @@ def build_model(
         model = replace(model, provenance=record)
         model.save(output)
     except KeyboardInterrupt:
-        kept = len(checkpoint.load())
+        kept = len(checkpoint.numbers())
         raise KeyboardInterrupt(_resume_line(kept, len(recipe.parameters))) from None
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
@@ -121,9 +126,12 @@ def build_model(
 
 
 def _solved(
-    problem: PosingProblem | InterpolationProblem, recipe: Recipe, checkpoint: Checkpoint
+    problem: PosingProblem | InterpolationProblem,
+    recipe: Recipe,
+    checkpoint: Checkpoint,
+    executor: Executor | None,
 ) -> Snapshots:
-    total, found = len(recipe.parameters), len(checkpoint.load())
+    total, found = len(recipe.parameters), len(checkpoint.numbers())
     if found:
         notice(f"resuming: {found} of {total} samples were finished before")
     for folder in checkpoint.folder.parent.iterdir():
@@ -138,6 +146,7 @@ def _solved(
             threads=recipe.threads,
             progress=progress,
             checkpoint=checkpoint,
+            executor=executor,
         )
 
 

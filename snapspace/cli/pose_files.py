@@ -29,7 +29,7 @@ from ..registration import ScalePolicy, matched_scales, scale_factors
 from .console import console, notice
 from .files import SURFACE_INPUTS, TET_INPUTS
 from .fit_cache import FitCache
-from .progress import sample_progress
+from .progress import step_progress
 
 FloatArray = NDArray[np.float64]
 
@@ -235,7 +235,7 @@ def _fitted(
     if missing:
         done_before = len(found)
         try:
-            with sample_progress(
+            with step_progress(
                 "fitted", done=done_before, total=len(targets), unit="poses"
             ) as progress:
                 fit_poses(

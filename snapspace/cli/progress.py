@@ -1,4 +1,4 @@
-"""Progress over samples: a bar on a terminal, a line for every tenth in a log."""
+"""Progress of long work: a bar on a terminal, a line for every tenth in a log."""
 
 from __future__ import annotations
 
@@ -9,32 +9,55 @@ from contextlib import contextmanager
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn
 from rich.text import Text
 
+from ..snapshots import SolveProgress
 from .console import console, notice
 from .units import in_time
 
 Report = Callable[[int, int], None]
-# Samples end in waves, so the rate is taken over a long time.
+# Work ends in blocks, so the rate is taken over a long time.
 _RATE_PERIOD = 600.0
 
 
 @contextmanager
-def sample_progress(
+def step_progress(
     label: str, *, done: int = 0, total: int, unit: str = "samples"
 ) -> Iterator[Report]:
-    """Gives a callable(done, total) to be called now and then; `done` samples exist already."""
+    """Gives a callable(done, total) to be called now and then; `done` steps exist already."""
+    with _shown(label, done, total, unit) as show:
+        yield lambda now, _: show(now, "")
+
+
+@contextmanager
+def sample_progress(
+    label: str, *, done: int = 0, total: int
+) -> Iterator[Callable[[SolveProgress], None]]:
+    """Gives the `progress` callable of `solve_snapshots`; `done` samples exist already."""
+    with _shown(label, done, total, "samples") as show:
+        yield lambda state: show(state.done, _held_out(state))
+
+
+def _held_out(state: SolveProgress) -> str:
+    if state.held_out_error is None:
+        return ""
+    return f"unseen samples within {100 * state.held_out_error:.2g} %"
+
+
+@contextmanager
+def _shown(label: str, done: int, total: int, unit: str) -> Iterator[Callable[[int, str], None]]:
     screen = console()
     if not screen.is_terminal:
-        yield _Log(label, done, unit)
+        yield _Log(label, done, total, unit)
         return
     columns = (
         TextColumn("{task.description}"),
         BarColumn(bar_width=40),
         MofNCompleteColumn(),
         _RateColumn(),
+        TextColumn("{task.fields[note]}", style="dim"),
     )
     with Progress(*columns, console=screen, speed_estimate_period=_RATE_PERIOD) as progress:
-        task = progress.add_task(label, completed=done, total=total)
-        yield lambda now, _: progress.update(task, completed=now)
+        task = progress.add_task(label, completed=done, total=total, note="")
+        yield lambda now, note: progress.update(task, completed=now, note=note)
 
 
 class _RateColumn(ProgressColumn):
@@ -53,20 +76,23 @@ class _RateColumn(ProgressColumn):
 class _Log:
     """One line whenever another tenth is done."""
 
-    def __init__(self, label: str, done: int, unit: str) -> None:
+    def __init__(self, label: str, done: int, total: int, unit: str) -> None:
         self.label = label
+        self.total = total
         self.unit = unit
         self.before = done
         self.begin = time.perf_counter()
         self.tenths: int | None = None
 
-    def __call__(self, done: int, total: int) -> None:
-        tenths = 10 * done // total
+    def __call__(self, done: int, note: str) -> None:
+        tenths = 10 * done // self.total
         if self.tenths is None:
-            self.tenths = 10 * self.before // total
+            self.tenths = 10 * self.before // self.total
         if tenths <= self.tenths:
             return
         self.tenths = tenths
         each = (time.perf_counter() - self.begin) / max(done - self.before, 1)
-        left = f", {in_time(each * (total - done))} left" if done < total else ""
-        notice(f"{self.label}: {done} of {total} {self.unit}, {in_time(each)} each{left}")
+        left = self.total - done
+        words = [f"{self.label}: {done} of {self.total} {self.unit}", f"{in_time(each)} each"]
+        words += [f"{in_time(each * left)} left"] if left else []
+        notice(", ".join([*words, note] if note else words))

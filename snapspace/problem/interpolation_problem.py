@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -252,5 +253,30 @@ class InterpolationProblem:
         volumes = np.abs(tet_volumes(shape.reshape(-1, 3), tets))
         return mass_of_tets(tets, volumes, lumped=lumped)
 
+    def __reduce__(self) -> tuple[Callable[..., InterpolationProblem], tuple[Any, ...]]:
+        # what defines it travels, with the mean shape if it is known: that one takes long to find.
+        # The compiled system and other caches are made again where needed
+        poses = self.poses
+        inverted = bool(poses.inverted_tets.any())
+        mean_shape = vars(self).get("mean_shape")
+        definition = (poses.shapes, poses.tets, poses.names, inverted, self.material)
+        return _interpolation_problem, (*definition, self.domain.extrapolation, mean_shape)
+
     def __repr__(self) -> str:
         return f"InterpolationProblem({self.poses!r})"
+
+
+def _interpolation_problem(
+    shapes: FloatArray,
+    tets: NDArray[np.int32],
+    names: Sequence[str],
+    accept_inverted: bool,
+    material: StVK,
+    extrapolation: float,
+    mean_shape: FloatArray | None,
+) -> InterpolationProblem:
+    """The problem out of a pickle, checked again and with read-only arrays."""
+    poses = Poses(shapes, tets, names=names, accept_inverted=accept_inverted)
+    return InterpolationProblem(
+        poses, material=material, extrapolation=extrapolation, mean_shape=mean_shape
+    )

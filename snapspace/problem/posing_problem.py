@@ -5,8 +5,10 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -233,5 +235,24 @@ class PosingProblem:
         misses: FloatArray = moved - wanted
         return misses
 
+    def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[Any, ...]]:
+        # what defines it travels; the compiled system and other caches are made again where needed
+        regions = [handle.vertices for handle in self.handles]
+        definition = (self.mesh, regions, self.handles.names, self.domain, self.material)
+        return _posing_problem, (*definition, self.stiffness)
+
     def __repr__(self) -> str:
         return f"PosingProblem({self.mesh!r}, {self.handles!r}, stiffness {self.stiffness:g})"
+
+
+def _posing_problem(
+    mesh: TetMesh,
+    regions: Sequence[NDArray[np.int32]],
+    names: Sequence[str],
+    domain: HandleBox,
+    material: StVK,
+    stiffness: float,
+) -> PosingProblem:
+    """The problem out of a pickle, checked again and with read-only arrays."""
+    handles = Handles(regions, names=names)
+    return PosingProblem(mesh, handles, domain=domain, material=material, stiffness=stiffness)

@@ -121,5 +121,6 @@ def _training(
         return np.zeros((0, problem.parameter_count)), np.zeros((0, subspace.dimension))
     known, shapes = solutions_beyond_tau(problem)
     parameters = np.vstack([snapshots.parameters, known])
-    every = np.hstack([snapshots.shapes, shapes.T])
-    return parameters, np.ascontiguousarray(subspace.coordinates(every).T)
+    displacements = snapshots.displacements.followed_by(shapes - problem.base)
+    offset = problem.base - problem.tau
+    return parameters, subspace.row_coordinates(displacements.shifted(offset))

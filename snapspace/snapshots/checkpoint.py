@@ -5,21 +5,42 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Sequence
-from dataclasses import asdict
+import warnings
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from safetensors import SafetensorError
-from safetensors.numpy import load_file, save
 
-from ..mesh.atomic_file import atomic_file
 from ..problem import Problem
+from .sample_file import Samples, read_indices, read_samples, write_samples
 from .snapshots import SampleReport
 
 FloatArray = NDArray[np.float64]
+
+
+class CheckpointNotice(UserWarning):
+    """A file of a checkpoint is damaged; its samples are solved again."""
+
+
+class UnsavedSamplesError(ValueError):
+    """Finished samples could not be written; they are here, and may be saved once they can be.
+
+    indices, displacements, reports : the arguments of the `Checkpoint.save` that failed
+    """
+
+    def __init__(
+        self,
+        message: str,
+        indices: Sequence[int],
+        displacements: Sequence[FloatArray],
+        reports: Sequence[SampleReport],
+    ) -> None:
+        super().__init__(message)
+        self.indices = indices
+        self.displacements = displacements
+        self.reports = reports
 
 
 def run_key(problem: Problem, parameters: FloatArray, options: dict[str, Any]) -> str:
@@ -37,7 +58,7 @@ class Checkpoint:
     ----------
     folder : Path
         Made when the first samples are saved. Each save adds one file that is either complete or
-        not there.
+        not there, whenever the process is killed; a checksum tells later damage.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -49,54 +70,76 @@ class Checkpoint:
         return cls(output.with_name(f"{output.name}.partial-{key}"))
 
     def save(
-        self, indices: Sequence[int], shapes: FloatArray, reports: Sequence[SampleReport]
-    ) -> None:
-        """Adds finished samples: their numbers, displacements (j, 3n) and reports.
+        self,
+        indices: Sequence[int],
+        displacements: Iterable[FloatArray],
+        reports: Sequence[SampleReport],
+    ) -> list[FloatArray]:
+        """Adds finished samples: their numbers, displacements (3n,) and reports.
+
+        Returns
+        -------
+        list of (3n,)
+            The same displacements, mapped from the file and not to be written to: the caller need
+            not keep its own.
 
         Raises
         ------
-        ValueError
-            If the folder or the file cannot be written.
+        UnsavedSamplesError
+            A ValueError: the folder or the file cannot be written, for instance because the disk
+            is full. Samples saved before are kept, nothing of these is left behind.
         """
+        rows = list(displacements)
+        path = self.folder / f"samples-{min(indices):05d}-{len(indices)}.safetensors"
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise ValueError(f"{self.folder}: cannot make the checkpoint ({error})") from None
-        content = save(
-            {"indices": np.asarray(indices, np.int64), "shapes": np.ascontiguousarray(shapes)},
-            {"reports": json.dumps([asdict(report) for report in reports])},
-        )
-        with atomic_file(
-            self.folder / f"samples-{min(indices):05d}-{len(indices)}.safetensors"
-        ) as path:
-            path.write_bytes(content)
+            write_samples(path, indices, rows, reports)
+            samples = read_samples(path)
+        except (OSError, ValueError) as error:
+            reason = str(error).removeprefix(f"{path}: ")
+            size = 1e-6 * sum(row.nbytes for row in rows)
+            raise UnsavedSamplesError(
+                f"{self.folder}: {len(indices)} finished samples, {size:.1f} MB, are not saved: "
+                f"{reason}; {len(self.numbers())} samples are kept there, and when they can be "
+                "written the same call goes on from these",
+                indices,
+                rows,
+                reports,
+            ) from None
+        return [samples[int(index)][0] for index in indices]
 
-    def load(self) -> dict[int, tuple[FloatArray, SampleReport]]:
-        """All finished samples by number: displacements (3n,) and report.
+    def load(self) -> Samples:
+        """All finished samples by number: displacements (3n,) mapped from the files, and report.
 
-        Files that are not readable are skipped: their samples are solved again.
+        Files that are damaged are skipped with a `CheckpointNotice`.
         """
-        found: dict[int, tuple[FloatArray, SampleReport]] = {}
-        for path in sorted(self.folder.glob("samples-*.safetensors")):
+        found: Samples = {}
+        for path in self._files():
             try:
-                tensors = load_file(path)
-                reports = [
-                    SampleReport(**entry) for entry in json.loads(_metadata(path)["reports"])
-                ]
-                samples = zip(tensors["indices"], tensors["shapes"], reports, strict=True)
-                found.update({int(index): (shape, report) for index, shape, report in samples})
-            except (SafetensorError, OSError, KeyError, ValueError, TypeError):
-                continue
+                found.update(read_samples(path))
+            except (OSError, ValueError) as error:
+                reason = getattr(error, "strerror", None) or error
+                notice = f"{path}: not used ({reason}); its samples are solved again"
+                warnings.warn(notice, CheckpointNotice, stacklevel=2)
         return found
 
+    def numbers(self) -> set[int]:
+        """Numbers of the finished samples, from the files' headers and sizes: fast."""
+        numbers: set[int] = set()
+        for path in self._files():
+            try:
+                numbers.update(read_indices(path))
+            except (OSError, ValueError):
+                continue  # `load` tells of it
+        return numbers
+
     def remove(self) -> None:
-        """Deletes the folder, after the result is safe elsewhere."""
+        """Deletes the folder, after the result is safe elsewhere.
+
+        Rows that are still mapped can be used on; where the system does not delete mapped files
+        (Windows), these stay.
+        """
         shutil.rmtree(self.folder, ignore_errors=True)
 
-
-def _metadata(path: Path) -> dict[str, str]:
-    with path.open("rb") as file:
-        size = int.from_bytes(file.read(8), "little")
-        header: dict[str, Any] = json.loads(file.read(size))
-    metadata: dict[str, str] = header["__metadata__"]
-    return metadata
+    def _files(self) -> Iterator[Path]:
+        return iter(sorted(self.folder.glob("samples-*.safetensors")))

@@ -1,16 +1,16 @@
-"""The fast solver on a batch of samples, with a second try for the slow ones."""
+"""The fast solver on samples, with a second try for the slow ones."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
-from ..problem import Problem, lane_count
+from ..problem import Problem
 from .snapshots import SampleReport
+from .solver_options import ResolvedOptions
 
 FloatArray = NDArray[np.float64]
 
@@ -20,16 +20,13 @@ def solve_fast(
     inputs: FloatArray,
     starts: FloatArray,
     control: core.SolveControl,
+    options: ResolvedOptions,
     *,
-    tolerance: float,
-    max_iterations: int,
     threads: int,
-    wave: int,
 ) -> tuple[FloatArray, list[SampleReport]]:
     """Displacements (k, 3n) and reports by L-BFGS, samples in lanes.
 
-    A sample that has used up the problem's patience goes on alone, on a factor made for the shape
-    that it has reached. What a sample goes through does not depend on the others of the call.
+    What a sample goes through does not depend on the others of the call.
 
     Parameters
     ----------
@@ -37,35 +34,70 @@ def solve_fast(
     inputs : (k, input_size); starts : (k, 3n) displacements
     control : SolveControl
         Cancelled samples have the status cancelled.
-    tolerance, max_iterations, threads : as in `SolverOptions`; 0 threads are all
-    wave : int
-        Number of samples from which the width of the packs follows.
+    options : ResolvedOptions
+    threads : int
+        0 for all.
     """
-    options: dict[str, Any] = {"tolerance": tolerance, "threads": threads, "control": control}
-    patience = problem.patience or max_iterations
     batch = problem.system.solve_fast(
         inputs,
         starts,
-        max_iterations=min(patience, max_iterations),
-        lanes=lane_count(wave),
-        **options,
+        tolerance=options.tolerance,
+        max_iterations=first_iterations(problem, options),
+        threads=threads,
+        control=control,
+        lanes=options.lanes,
+        single=options.single,
     )
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
-    for k in range(len(reports)):
-        while reports[k].status == "max_iterations" and reports[k].iterations < max_iterations:
-            if control.cancelled:
-                reports[k] = replace(reports[k], status="cancelled")
-                break
-            again = problem.system_near(shapes[k]).solve_fast(
-                inputs[k : k + 1],
-                shapes[k : k + 1],
-                max_iterations=min(patience, max_iterations - reports[k].iterations),
-                lanes=lane_count(1),
-                **options,
+    for k, report in enumerate(reports):
+        if needs_another_try(report, options):
+            shapes[k], reports[k] = solve_on(
+                problem, inputs[k], shapes[k], report, control, options, threads=threads
             )
-            shapes[k] = again.shapes[0]
-            reports[k] = _continued(reports[k], as_sample_report(again.reports[0]))
     return shapes, reports
+
+
+def first_iterations(problem: Problem, options: ResolvedOptions) -> int:
+    """Iterations of a sample on the factor that all share."""
+    return min(problem.patience or options.max_iterations, options.max_iterations)
+
+
+def needs_another_try(report: SampleReport, options: ResolvedOptions) -> bool:
+    """Whether a sample has used up the problem's patience, but not its iterations."""
+    return report.status == "max_iterations" and report.iterations < options.max_iterations
+
+
+def solve_on(
+    problem: Problem,
+    inputs: FloatArray,
+    shape: FloatArray,
+    report: SampleReport,
+    control: core.SolveControl,
+    options: ResolvedOptions,
+    *,
+    threads: int,
+) -> tuple[FloatArray, SampleReport]:
+    """Goes on with one sample alone, on factors made for the shapes that it reaches.
+
+    inputs (input_size,); shape (3n,) and report are where it was left. Returns where it ends.
+    """
+    while needs_another_try(report, options):
+        if control.cancelled:
+            return shape, replace(report, status="cancelled")
+        left = options.max_iterations - report.iterations
+        alone = options.for_one(iterations=min(problem.patience or left, left))
+        again = problem.system_near(shape).solve_fast(
+            inputs[None],
+            shape[None],
+            tolerance=alone.tolerance,
+            max_iterations=alone.max_iterations,
+            threads=threads,
+            control=control,
+            lanes=alone.lanes,
+            single=alone.single,
+        )
+        shape, report = again.shapes[0], _continued(report, as_sample_report(again.reports[0]))
+    return shape, report
 
 
 def as_sample_report(report: core.SolveReport) -> SampleReport:

@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..problem import Problem
+from .displacement_rows import DisplacementRows
+from .snapshot_gram import SnapshotGram
 
 FloatArray = NDArray[np.float64]
 
@@ -44,17 +46,62 @@ class Snapshots:
 
     problem : Problem
     parameters : (k, p), one sample per row
-    shapes : (3n, k), one shape per column, positions x0 y0 z0 x1 ...
+    displacements : DisplacementRows (k, 3n) from problem.base, in memory or mapped from files
     reports : one SampleReport per sample
+    gram : SnapshotGram of the displacements, if it is known; it saves `snapshot_pca` its main work
+
+    Raises ValueError unless there is a row of problem.base's size and a report for each sample.
     """
 
     problem: Problem
     parameters: FloatArray
-    shapes: FloatArray
+    displacements: DisplacementRows
     reports: Sequence[SampleReport]
+    gram: SnapshotGram | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.displacements, DisplacementRows):
+            raise ValueError(
+                f"Snapshots: displacements are a {type(self.displacements).__name__}, but must be "
+                "DisplacementRows; Snapshots.from_shapes takes an array of shapes (3n, k)"
+            )
+        if self.displacements.size != self.problem.base.size:
+            raise ValueError(
+                f"Snapshots: displacements have {self.displacements.size} coordinates, but the "
+                f"problem's shapes have {self.problem.base.size}"
+            )
+        counts = len(self.parameters), len(self.displacements), len(self.reports)
+        if len(set(counts)) > 1:
+            raise ValueError(
+                f"Snapshots: got {counts[0]} parameter vectors, {counts[1]} displacements and "
+                f"{counts[2]} reports, but each sample needs one of each"
+            )
+
+    @classmethod
+    def from_shapes(
+        cls,
+        problem: Problem,
+        parameters: FloatArray,
+        shapes: FloatArray,
+        reports: Sequence[SampleReport],
+    ) -> Snapshots:
+        """From an array of shapes (3n, k), one per column; its displacements are kept in memory."""
+        displacements = np.ascontiguousarray(shapes.T) - problem.base
+        return cls(problem, parameters, DisplacementRows(displacements, problem.base.size), reports)
 
     def __len__(self) -> int:
         return len(self.reports)
+
+    @property
+    def shapes(self) -> FloatArray:
+        """All shapes, (3n, k), one per column, positions x0 y0 z0 x1 ...
+
+        A new array at each call, and a large one: 24 k n bytes. `displacements` gives one row, or
+        blocks of columns, without the others.
+        """
+        shapes = self.displacements.array()
+        shapes += self.problem.base
+        return shapes.T
 
     @property
     def converged(self) -> NDArray[np.bool_]:
@@ -62,9 +109,10 @@ class Snapshots:
         return np.array([report.converged for report in self.reports], dtype=bool)
 
     def select(self, which: NDArray[np.bool_]) -> Snapshots:
-        """The samples of a mask (k,)."""
+        """The samples of a mask (k,); displacements are shared, not copied."""
         reports = [report for report, keep in zip(self.reports, which, strict=True) if keep]
-        return Snapshots(self.problem, self.parameters[which], self.shapes[:, which], reports)
+        rows = self.displacements.select(which)
+        return Snapshots(self.problem, self.parameters[which], rows, reports)
 
     def summary(self) -> str:
         """One line: how many converged, why others did not, iterations, inverted tets."""

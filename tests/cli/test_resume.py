@@ -102,3 +102,23 @@ def test_samples_of_other_options_are_pointed_out_and_not_used(run: Run, tmp_pat
     assert f"{leftover} holds samples of other options" in result.err
     assert "resuming" not in result.err
     assert leftover.is_dir()
+
+
+def test_a_damaged_file_is_told_once_and_its_samples_are_solved_again(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
+    with monkeypatch.context() as patch:
+        patch.setattr(pipeline, "reduce", interrupted)
+        run(*words)
+    (file, *_) = sorted(tmp_path.glob("*.partial-*/samples-*"))
+    content = bytearray(file.read_bytes())
+    content[-1] ^= 1
+    file.write_bytes(content)
+    resumed = run(*words)
+    assert resumed.code == 0
+    assert resumed.err.count(f"{file.name}: not used (its content has changed); its samples") == 1

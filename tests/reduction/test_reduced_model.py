@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from snapspace import ReducedModel, Snapshots, reduce
+from snapspace import ReducedModel, SampleReport, Snapshots, reduce
 
 from ..shapes import irregular_bar, random_subspace
 
@@ -47,7 +47,8 @@ def test_training_coordinates_are_those_of_the_snapshots(posing_model: ReducedMo
     rng = np.random.default_rng(4)
     parameters, coordinates = rng.normal(size=(5, 12)), rng.normal(size=(5, 20))
     shapes = subspace.tau[:, None] + subspace.basis @ coordinates.T
-    snapshots = Snapshots(posing_model.problem, parameters, shapes, [])
+    reports = [SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 0)] * 5
+    snapshots = Snapshots.from_shapes(posing_model.problem, parameters, shapes, reports)
     model = reduce(posing_model.problem, subspace, snapshots=snapshots)
     assert np.array_equal(model.training_parameters, parameters)
     assert model.training_coordinates == pytest.approx(coordinates, abs=1e-12)

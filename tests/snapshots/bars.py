@@ -12,7 +12,7 @@ from snapspace import Handles, PosingProblem, SampleReport, Snapshots, SolverOpt
 from snapspace import _core as core
 from snapspace.generators import bar
 from snapspace.problem import HandleBox
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 FloatArray = NDArray[np.float64]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,7 @@ from snapspace import (
     TetMesh,
     solve_snapshots,
 )
-from snapspace.snapshots import run_key, solver_key
+from snapspace.snapshots import CheckpointNotice, run_key, solver_key
 
 from .bars import assert_same_bits, parameters, posing_bar
 
@@ -122,6 +123,12 @@ def too_few_reports(path: Path) -> None:
     save_file({"indices": np.array([0]), "shapes": np.zeros((1, 243))}, path, {"reports": "[]"})
 
 
+def one_bit(path: Path) -> None:
+    content = bytearray(path.read_bytes())
+    content[-5] ^= 4
+    path.write_bytes(content)
+
+
 def folder(path: Path) -> None:
     path.unlink()
     path.mkdir()
@@ -129,7 +136,18 @@ def folder(path: Path) -> None:
 
 @pytest.mark.parametrize(
     "spoil",
-    [truncate, empty, junk, text, other_arrays, no_arrays, broken_reports, too_few_reports, folder],
+    [
+        truncate,
+        empty,
+        junk,
+        text,
+        one_bit,
+        other_arrays,
+        no_arrays,
+        broken_reports,
+        too_few_reports,
+        folder,
+    ],
 )
 def test_a_spoilt_file_is_ignored_and_its_samples_are_solved_again(
     whole: Snapshots, tmp_path: Path, spoil: Callable[[Path], None]
@@ -138,10 +156,14 @@ def test_a_spoilt_file_is_ignored_and_its_samples_are_solved_again(
     resume(whole, checkpoint)
     files = sorted(checkpoint.folder.iterdir())
     spoil(files[1])
-    assert sorted(checkpoint.load()) == [0, 1, 2, 3, 8, 9]
+    notice = r"samples-00004-4\.safetensors: not used \(.+\); its samples are solved again"
+    with pytest.warns(CheckpointNotice, match=notice):
+        assert sorted(checkpoint.load()) == [0, 1, 2, 3, 8, 9]
     if spoil is folder:
         files[1].rmdir()
-    assert_same_bits(resume(whole, checkpoint), whole)
+    with nullcontext() if spoil is folder else pytest.warns(CheckpointNotice, match=notice):
+        resumed = resume(whole, checkpoint)
+    assert_same_bits(resumed, whole)
     assert sorted(checkpoint.load()) == list(range(10))
 
 
@@ -154,7 +176,7 @@ def test_other_files_in_the_folder_do_no_harm(whole: Snapshots, tmp_path: Path) 
 
 def test_a_folder_that_cannot_be_made_is_named(whole: Snapshots, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
-    with pytest.raises(ValueError, match="file/run: cannot make the checkpoint"):
+    with pytest.raises(ValueError, match=r"file/run: 4 finished samples, .* are not saved: "):
         resume(whole, Checkpoint(tmp_path / "file" / "run"))
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from snapspace import PosingProblem, SolverOptions, solve_snapshots
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from .bars import assert_same_bits, core_solve, parameters, posing_bar
 

@@ -10,7 +10,7 @@ from snapspace import InterpolationProblem, Poses, SolverOptions, sample, solve_
 from snapspace.generators import cylinder, helix
 from snapspace.mesh import tet_volumes
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from ..shapes import (
     bent,

@@ -18,7 +18,7 @@ from snapspace import (
 )
 from snapspace import _core as core
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from ..shapes import interpolation_problem
 from .bars import assert_same_bits, core_solve

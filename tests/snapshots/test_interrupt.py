@@ -17,7 +17,7 @@ from snapspace import Checkpoint, Interrupted, SolverOptions, interruptible, sol
 from snapspace import _core as core
 from snapspace.interruptible import run_interruptible
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from .bars import assert_same_bits, parameters, posing_bar
 

@@ -12,7 +12,7 @@ from scipy.optimize import minimize
 
 from snapspace import PosingProblem, Snapshots, SolverOptions, solve_snapshots
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from .bars import parameters, posing_bar, tight
 

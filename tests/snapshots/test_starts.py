@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from snapspace import SolverOptions, sample, solve_snapshots
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 from snapspace.snapshots.starts import interpolated_start, nearest_start
 
 from .bars import parameters, posing_bar

@@ -11,7 +11,7 @@ import pytest
 
 from snapspace import SolverOptions, snapshot_pca, solve_snapshots
 from snapspace.snapshots import SOLVERS, SampleReport
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from .bars import parameters, posing_bar
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from snapspace import PosingProblem, SolverOptions, TetMesh, solve_snapshots
 from snapspace.problem import rotation_matrix
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.solve import Solver
+from snapspace.snapshots.solver_options import Solver
 
 from .bars import core_solve, parameters, posing_bar, tight
 

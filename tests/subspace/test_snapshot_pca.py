@@ -24,7 +24,7 @@ def with_failures(snapshots: Snapshots, failed: list[int]) -> Snapshots:
         replace(report, status="max_iterations") if i in failed else report
         for i, report in enumerate(snapshots.reports)
     ]
-    return Snapshots(snapshots.problem, snapshots.parameters, snapshots.shapes, reports)
+    return replace(snapshots, reports=reports)
 
 
 @pytest.mark.parametrize("lumped", [False, True])
@@ -38,7 +38,8 @@ def test_is_the_pca_about_rest_with_the_mass_of_the_mesh(
     np.testing.assert_allclose(gram, np.eye(6), rtol=0, atol=1e-12)
     np.testing.assert_array_equal(subspace.tau, mesh.vertices.reshape(-1))
     same = pca(snapshots.shapes, subspace.tau, mass, dimension=6)
-    np.testing.assert_array_equal(subspace.basis, same.basis)
+    # the displacements are stored, so that shapes have lost digits to their positions
+    np.testing.assert_allclose(subspace.basis, same.basis, rtol=0, atol=1e-9)
 
 
 def test_all_snapshots_are_in_their_own_span(snapshots: Snapshots) -> None:

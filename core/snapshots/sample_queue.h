@@ -1,0 +1,92 @@
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+/// What a problem asks of a sample and where its solve starts, in the caller's numbering.
+struct Sample {
+  int id = -1;
+  std::vector<double> input;  ///< input_size() of the system
+  std::vector<double> start;  ///< 3n, a displacement
+};
+
+struct Solution {
+  int id = -1;
+  SolveReport report;
+  std::vector<double> shape;  ///< 3n, a displacement
+};
+
+/// Between those who know which samples are to be solved and the threads that solve them. Any
+/// thread may call any function.
+class SampleQueue {
+ public:
+  void put(Sample sample) {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(sample));
+    ++open_;
+    changed_.notify_all();
+  }
+
+  /// No more samples come: solvers end when none is left.
+  void close() {
+    const std::lock_guard lock(mutex_);
+    closed_ = true;
+    changed_.notify_all();
+  }
+
+  /// How many solvers share the samples.
+  void share(int solvers) {
+    const std::lock_guard lock(mutex_);
+    solvers_ = solvers;
+  }
+
+  /// The next sample for a solver that works on `held` samples. Nothing if it has its share of all
+  /// that are open, or if none waits. A solver without any is made to wait for one, and gets
+  /// nothing only when there is no more to do.
+  std::optional<Sample> take(int held, const SolveControl& control) {
+    std::unique_lock lock(mutex_);
+    if (held == 0)
+      while (waiting_.empty() && !closed_ && !control.cancelled)
+        changed_.wait_for(lock, std::chrono::milliseconds(20));
+    const int share = (open_ + solvers_ - 1) / solvers_;
+    if (waiting_.empty() || control.cancelled || (held > 0 && held >= share)) return std::nullopt;
+    Sample sample = std::move(waiting_.front());
+    waiting_.pop_front();
+    return sample;
+  }
+
+  void finish(Solution solution) {
+    const std::lock_guard lock(mutex_);
+    finished_.push_back(std::move(solution));
+    --open_;
+    changed_.notify_all();
+  }
+
+  /// What was finished since the last call; waits up to `seconds` for something.
+  std::vector<Solution> collect(double seconds) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, std::chrono::duration<double>(seconds),
+                      [&] { return !finished_.empty(); });
+    return std::exchange(finished_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Sample> waiting_;
+  std::vector<Solution> finished_;
+  int open_ = 0;  // waiting or with a solver
+  int solvers_ = 1;
+  bool closed_ = false;
+};
+
+}  // namespace snapspace

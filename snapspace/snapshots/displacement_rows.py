@@ -1,0 +1,153 @@
+"""DisplacementRows: displacements of many samples, wherever they are stored."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+#: Columns that algorithms look at together. A constant, since rounding depends on it.
+BLOCK = 3 * 1024
+
+
+class DisplacementRows(Sequence[FloatArray]):
+    """A matrix (k, 3n) of displacements whose rows are separate arrays, in memory or in files.
+
+    Samples may take more room than the memory has. What works on all of them goes through blocks
+    of columns, so that only one block is in memory at a time.
+
+    Parameters
+    ----------
+    rows : iterable of (3n,) float64
+        Not copied; for instance mapped by a `Checkpoint`. A matrix (k, 3n) is one as well.
+    size : int
+        3n, which no rows at all could not tell.
+
+    Raises
+    ------
+    ValueError
+        If a row is not float64, has another size, or its entries are not side by side in memory.
+    """
+
+    def __init__(self, rows: Iterable[FloatArray], size: int) -> None:
+        self.size = size
+        self._rows = tuple(rows)
+        self._offset: FloatArray | None = None
+        for index, row in enumerate(self._rows):
+            _check_row(row, index, size)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @overload
+    def __getitem__(self, which: int) -> FloatArray: ...
+    @overload
+    def __getitem__(self, which: slice) -> DisplacementRows: ...
+    def __getitem__(self, which: int | slice) -> FloatArray | DisplacementRows:
+        """One row (3n,), not to be written to, or some of the rows."""
+        if isinstance(which, slice):
+            return self._with(self._rows[which])
+        row = self._rows[which]
+        return _read_only(row[:] if self._offset is None else row + self._offset)
+
+    def select(self, which: ArrayLike) -> DisplacementRows:
+        """The rows of a mask (k,)."""
+        return self._with(tuple(self._rows[i] for i in np.flatnonzero(np.asarray(which, bool))))
+
+    def followed_by(self, rows: Iterable[FloatArray]) -> DisplacementRows:
+        """These rows and more of them (3n,); what these are shifted by is added to all.
+
+        Raises ValueError for rows that are shifted already: copying them would fill the memory.
+        """
+        if not isinstance(rows, DisplacementRows):
+            rows = DisplacementRows(rows, self.size)
+        if rows._offset is not None or rows.size != self.size:
+            raise ValueError(
+                f"DisplacementRows: rows of size {rows.size} that are "
+                f"{'not ' if rows._offset is None else ''}shifted cannot follow rows of size "
+                f"{self.size}; append first, then shift"
+            )
+        return self._with(self._rows + rows._rows)
+
+    def shifted(self, offset: FloatArray) -> DisplacementRows:
+        """The rows plus a vector (3n,), which is added whenever they are read."""
+        total = offset if self._offset is None else self._offset + offset
+        shifted = self._with(self._rows)
+        shifted._offset = total if total.any() else None
+        return shifted
+
+    def block(self, start: int, stop: int) -> FloatArray:
+        """Columns start to stop of all rows, (k, stop - start), not to be written to.
+
+        Only these are read. Rows that lie side by side in memory or in a file are not copied.
+        """
+        if self._side_by_side is not None:
+            block = self._side_by_side[:, start:stop]
+        else:
+            block = np.empty((len(self), min(stop, self.size) - start))
+            for target, row in zip(block, self._rows, strict=True):
+                target[:] = row[start:stop]
+        if self._offset is not None:
+            block = block + self._offset[start:stop]
+        return _read_only(block)
+
+    def blocks(self) -> Iterable[tuple[slice, FloatArray]]:
+        """All columns in blocks of `BLOCK`: which they are, and `block` of them."""
+        for start in range(0, self.size, BLOCK):
+            columns = slice(start, min(start + BLOCK, self.size))
+            yield columns, self.block(columns.start, columns.stop)
+
+    def array(self) -> FloatArray:
+        """All rows in memory, (k, 3n)."""
+        rows = np.empty((len(self), self.size))
+        for columns, block in self.blocks():
+            rows[:, columns] = block
+        return rows
+
+    @cached_property
+    def _side_by_side(self) -> FloatArray | None:
+        """The rows as a part of the matrix that owns their memory, if they are one."""
+        owner = self._rows[0].base if self._rows else None
+        if not isinstance(owner, np.ndarray) or owner.ndim != 2 or not owner.flags.c_contiguous:
+            return None
+        first = _address(self._rows[0])
+        for index, row in enumerate(self._rows):
+            if row.base is not owner or _address(row) != first + index * owner.strides[0]:
+                return None
+        # the columns too: a row may be a part of a longer one
+        begin, rest = divmod(first - _address(owner), owner.strides[0])
+        if rest or owner.shape[1] != self.size or owner.dtype != np.float64:
+            return None
+        return owner[begin : begin + len(self)].view(np.ndarray)
+
+    def _with(self, rows: tuple[FloatArray, ...]) -> DisplacementRows:
+        # the rows are checked already
+        other = DisplacementRows((), self.size)
+        other._rows, other._offset = rows, self._offset
+        return other
+
+    def __repr__(self) -> str:
+        return f"DisplacementRows({len(self)} x {self.size})"
+
+
+def _check_row(row: FloatArray, index: int, size: int) -> None:
+    if row.dtype != np.float64 or row.shape != (size,) or not row.flags.c_contiguous:
+        raise ValueError(
+            f"DisplacementRows: row {index} is {row.dtype} of shape {row.shape}, but must be a "
+            f"contiguous float64 array of shape ({size},); np.ascontiguousarray makes one"
+        )
+
+
+def _address(array: FloatArray) -> int:
+    address: int = array.__array_interface__["data"][0]
+    return address
+
+
+def _read_only(array: FloatArray) -> FloatArray:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,214 @@
+"""ExecutorBackend: blocks of samples on any concurrent.futures.Executor."""
+
+from __future__ import annotations
+
+import hashlib
+import pickle
+import uuid
+import warnings
+from collections.abc import Sequence
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from dataclasses import replace
+from itertools import count
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core as core
+from ..problem import Problem
+from .block_task import BlockAnswer, BlockTask, solve_block
+from .executor_faults import cancelled_fault, refused_fault, task_fault
+from .held_problems import HELD_PROBLEMS, Home
+from .solved import Solved
+from .solver_options import ResolvedOptions
+from .worker_names import for_worker
+
+FloatArray = NDArray[np.float64]
+
+
+class ExecutorBackend:
+    """Solves blocks of samples on an executor; each block is one task on one thread.
+
+    The problem is not sent with the tasks. A worker that does not have it says so, and gets it with
+    the next block; while it is on its way, other blocks that such a worker had are held back.
+    Workers in this process (a thread pool) share the problem itself.
+
+    Parameters
+    ----------
+    executor : Executor
+        Of threads, of processes, or of a cluster; it is not shut down.
+    problem : Problem
+        One that can be pickled. A mean shape that is not known is solved for here.
+    options : ResolvedOptions
+        A sample has the same bits here and in a local run with the same options, however it is put
+        into blocks.
+
+    Raises
+    ------
+    ValueError
+        If the problem cannot be pickled.
+
+    Notes
+    -----
+    Of use to one thread. `payloads_sent` counts the problems sent: about one per worker process.
+    """
+
+    def __init__(self, executor: Executor, problem: Problem, options: ResolvedOptions) -> None:
+        _ = problem.tau  # to be found once here, and not by every worker
+        self.payloads_sent = 0
+        self._executor = executor
+        self._options = options
+        self._payload = _pickled(problem)
+        # not its fingerprint: that leaves out a mean shape that was given
+        self._key = hashlib.sha256(self._payload).hexdigest()
+        self._run = uuid.uuid4().hex
+        self._home = Home(problem, core.SolveControl())
+        HELD_PROBLEMS.share(self._run, self._home)
+        self._numbers = count()
+        self._under_way: dict[Future[BlockAnswer], BlockTask] = {}
+        self._carriers: dict[Future[BlockAnswer], str] = {}  # and the workers that they are for
+        self._held_back: list[BlockTask] = []
+        self._collected: list[Solved] = []
+        self._cancelled = False
+
+    def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
+        """Hands a block over: k sample numbers, inputs (k, input_size), starts (k, 3n).
+
+        Raises
+        ------
+        ValueError
+            If the executor takes no more work.
+        """
+        task = BlockTask(
+            run=self._run,
+            problem=self._key,
+            number=0,
+            samples=tuple(int(sample) for sample in samples),
+            inputs=inputs,
+            starts=starts,
+            options=self._options,
+        )
+        self._send(task)
+
+    def wait(self, timeout: float) -> list[Solved]:
+        """Finished samples that were not returned before, in no order.
+
+        Returns as soon as there are any, or nothing is under way, at most after `timeout` seconds.
+        After `cancel` these are what was finished all the same.
+
+        Raises
+        ------
+        ValueError, MemoryError, RuntimeError
+            For a block that failed, with its samples in the message, or a lost worker. What else
+            is finished can still be waited for.
+        """
+        deadline = monotonic() + timeout
+        while not self._collected and self._under_way:
+            left = deadline - monotonic()
+            done, _ = wait(self._under_way, timeout=max(left, 0.0), return_when=FIRST_COMPLETED)
+            # results before errors, which would keep them from the caller
+            for future in sorted(done, key=_has_failed):
+                if self._collected and _has_failed(future):
+                    break
+                self._take(future)
+            if left <= 0:
+                break
+        solved, self._collected = self._collected, []
+        return solved
+
+    def cancel(self) -> None:
+        """Asks all tasks to end; returns at once. Other processes finish what they have begun."""
+        self._cancelled = True
+        self._home.control.cancel()
+        self._held_back.clear()
+        for future in list(self._under_way):
+            if future.cancel():
+                del self._under_way[future]
+
+    def close(self) -> None:
+        """Cancels what is under way and lets go of all results; the executor stays open."""
+        self.cancel()
+        self._under_way.clear()
+        self._carriers.clear()
+        self._collected.clear()
+
+    def _send(self, task: BlockTask, *, worker: str | None = None) -> Future[BlockAnswer]:
+        """Submits a task; to a worker of this name, where the executor can choose."""
+        numbered = replace(task, number=next(self._numbers))
+        place = {} if worker is None else for_worker(self._executor, worker)
+        try:
+            with warnings.catch_warnings():
+                # dask advises to send large data once per worker: that is what is done here
+                warnings.filterwarnings("ignore", message="Sending large graph")
+                future = self._executor.submit(solve_block, numbered, **place)
+        except Exception as error:
+            raise refused_fault(error, task.samples) from error
+        self._under_way[future] = task
+        return future
+
+    def _take(self, future: Future[BlockAnswer]) -> None:
+        """Books a future that is done."""
+        task, is_carrier = self._under_way[future], future in self._carriers
+        try:
+            answer = self._answer(future, task)
+            # before the future is let go of: Ctrl-C in between repeats samples and loses none
+            self._collected += answer.solved or [] if answer else []
+        finally:
+            del self._under_way[future]
+            self._carriers.pop(future, None)
+        if answer is None or self._cancelled:
+            return
+        if answer.solved is None:
+            self._send_problem(task, answer.worker)
+            return
+        self._send_rest(task, answer.solved)
+        if is_carrier:
+            held_back, self._held_back = self._held_back, []
+            for held in held_back:
+                self._send(held)
+
+    def _answer(self, future: Future[BlockAnswer], task: BlockTask) -> BlockAnswer | None:
+        """The answer of a task; None if it failed after `cancel`, when nobody asks for it."""
+        if future.cancelled():
+            if self._cancelled:
+                return None
+            raise cancelled_fault(task.samples)
+        error = future.exception()
+        if error is None:
+            return future.result()
+        if self._cancelled:
+            return None
+        raise task_fault(error, task.samples) from error
+
+    def _send_problem(self, task: BlockTask, worker: str) -> None:
+        """Sends a block again that a worker could not solve without the problem."""
+        if worker in self._carriers.values():
+            self._held_back.append(task)
+            return
+        carrier = self._send(replace(task, payload=self._payload), worker=worker)
+        self._carriers[carrier] = worker
+        self.payloads_sent += 1
+
+    def _send_rest(self, task: BlockTask, solved: Sequence[Solved]) -> None:
+        """Sends what Ctrl-C in a worker has left of a block."""
+        finished = {one.sample for one in solved}
+        rest = [k for k, sample in enumerate(task.samples) if sample not in finished]
+        if rest:
+            samples = tuple(task.samples[k] for k in rest)
+            inputs, starts = task.inputs[rest], task.starts[rest]
+            self._send(replace(task, samples=samples, inputs=inputs, starts=starts, payload=None))
+
+
+def _has_failed(future: Future[BlockAnswer]) -> bool:
+    return future.cancelled() or future.exception() is not None
+
+
+def _pickled(problem: Problem) -> bytes:
+    try:
+        return pickle.dumps(problem, protocol=pickle.HIGHEST_PROTOCOL)
+    except (pickle.PicklingError, TypeError, AttributeError) as error:
+        raise ValueError(
+            f"executor: the problem cannot be sent to workers ({error}); give its class a "
+            "__reduce__ with what defines it, or solve without an executor"
+        ) from None

@@ -1,0 +1,53 @@
+"""HeldOutError: what error unseen samples would have by now."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import Problem, solutions_beyond_tau
+from .snapshot_gram import SnapshotGram
+
+FloatArray = NDArray[np.float64]
+
+#: Dimension of the subspaces that errors are estimated for, or all directions while there are
+#: fewer: the size that users build.
+DIMENSION = 40
+
+
+class HeldOutError:
+    """Errors of each new block of samples in the best subspace of all samples before it.
+
+    The samples that come next are unseen ones, until they are used: an honest estimate that costs
+    inner products only, which the subspace needs anyway.
+
+    gram : SnapshotGram of all samples so far
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.gram = SnapshotGram.of(problem)
+        self._known = solutions_beyond_tau(problem)[1] - problem.base
+
+    def add(self, rows: Sequence[FloatArray]) -> None:
+        """Adds a block of displacements (3n,)."""
+        self.gram.add(rows)
+
+    def of_last(self, converged: NDArray[np.bool_], last: int) -> float | None:
+        """Median error of the last samples against all before; None where there are none.
+
+        converged (k,) tells which samples count.
+        """
+        before = len(self.gram) - last
+        training, unseen = np.flatnonzero(converged[:before]), np.flatnonzero(converged[before:])
+        known = np.arange(len(self.gram), len(self.gram) + len(self._known))
+        if len(unseen) == 0 or len(training) + len(known) == 0:
+            return None
+        gram = self.gram
+        if len(known):
+            gram = gram.copy()
+            gram.add(list(self._known))
+        training = np.append(training, known)
+        size = min(DIMENSION, len(training))
+        return float(np.median(gram.held_out_error(training, unseen + before, size)))

@@ -1,0 +1,114 @@
+"""LocalBackend: samples on the threads of this process."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core as core
+from ..problem import Problem
+from .fast_solve import as_sample_report, first_iterations, needs_another_try, solve_on
+from .solved import Solved
+from .solver_options import ResolvedOptions
+
+FloatArray = NDArray[np.float64]
+
+
+class LocalBackend:
+    """Solves samples as they come, on threads that share a queue.
+
+    Parameters
+    ----------
+    problem : Problem
+    options : ResolvedOptions
+    expected : int
+        Samples that will come in all.
+    threads : int
+        0 for all.
+    """
+
+    def __init__(
+        self, problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
+    ) -> None:
+        self._problem = problem
+        self._options = options
+        self._threads = threads
+        self._queue = core.SampleQueue()
+        self._control = core.SolveControl()
+        self._inputs: dict[int, FloatArray] = {}
+        self._again: dict[int, Future[Solved]] = {}
+        self._pool = ThreadPoolExecutor(max_workers=2)
+        self._server = self._pool.submit(self._serve, expected)
+
+    def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
+        """Adds samples: numbers, inputs (k, input_size), starts (k, 3n)."""
+        for sample, w, start in zip(samples, inputs, starts, strict=True):
+            self._inputs[sample] = w
+            self._problem.system.put(self._queue, sample, w, start)
+
+    def wait(self, timeout: float) -> list[Solved]:
+        """Samples that are finished, after at most `timeout` seconds; raises what a solver did."""
+        if self._server.done():
+            self._server.result()
+        solved = [
+            Solved(one.id, one.shape, as_sample_report(one.report))
+            for one in self._queue.collect(timeout)
+        ]
+        slow = [one for one in solved if needs_another_try(one.report, self._options)]
+        for one in slow:
+            self._again[one.sample] = self._pool.submit(self._solve_on, one)
+        done = [one for one in solved if one.sample not in self._again]
+        for sample in [sample for sample, future in self._again.items() if future.done()]:
+            done.append(self._again.pop(sample).result())
+        for one in done:
+            del self._inputs[one.sample]
+        return [one for one in done if one.report.status != "cancelled"]
+
+    def cancel(self) -> None:
+        """Ends all solves; what is not finished by then is lost. Returns at once."""
+        self._control.cancel()
+        self._queue.close()
+
+    def close(self) -> None:
+        """Cancels what is left, and waits for the threads."""
+        self.cancel()
+        self._pool.shutdown()
+
+    def _serve(self, expected: int) -> None:
+        options, system = self._options, self._problem.system
+        if options.solver == "newton":
+            system.serve_newton(
+                self._queue,
+                expected,
+                tolerance=options.tolerance,
+                max_iterations=options.max_iterations,
+                threads=self._threads,
+                clamp=options.clamp,
+                control=self._control,
+            )
+            return
+        system.serve_fast(
+            self._queue,
+            expected,
+            tolerance=options.tolerance,
+            max_iterations=first_iterations(self._problem, options),
+            threads=self._threads,
+            control=self._control,
+            lanes=options.lanes,
+            single=options.single,
+        )
+
+    def _solve_on(self, slow: Solved) -> Solved:
+        shape, report = solve_on(
+            self._problem,
+            self._inputs[slow.sample],
+            slow.displacement,
+            slow.report,
+            self._control,
+            self._options,
+            threads=self._threads,
+        )
+        return Solved(slow.sample, shape, report)

@@ -1,0 +1,217 @@
+"""Run: one call of solve_snapshots, from its first block to its last sample."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import Problem
+from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
+from .displacement_rows import DisplacementRows
+from .executor_backend import ExecutorBackend
+from .held_out import HeldOutError
+from .local_backend import LocalBackend
+from .schedule import Schedule
+from .snapshots import SampleReport, Snapshots
+from .solve_progress import Progress, SolveProgress
+from .solved import Solved
+from .solver_options import ResolvedOptions
+from .starts import interpolated_start, lower_start, nearest_start
+
+FloatArray = NDArray[np.float64]
+
+POLL_SECONDS = 0.1
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C during `solve_snapshots`; the finished samples are in its checkpoint, if any."""
+
+
+class Backend(Protocol):
+    """What solves samples: threads here, or an executor's workers."""
+
+    def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
+        """Adds samples: numbers, inputs (k, input_size), starts (k, 3n)."""
+        ...
+
+    def wait(self, timeout: float) -> list[Solved]:
+        """Samples that are finished, after at most `timeout` seconds."""
+        ...
+
+    def cancel(self) -> None:
+        """Ends all solves soon; returns at once."""
+        ...
+
+    def close(self) -> None:
+        """Cancels what is left, and lets go of everything."""
+        ...
+
+
+class Run:
+    """Samples on their way: what is submitted, what is finished, what is saved.
+
+    Parameters
+    ----------
+    problem, samples, options, progress, checkpoint, known : as for `solve_snapshots`
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        samples: FloatArray,
+        options: ResolvedOptions,
+        *,
+        progress: Progress | None,
+        checkpoint: Checkpoint | None,
+        known: Snapshots | None,
+    ) -> None:
+        self.problem = problem
+        self.samples = samples
+        self.options = options
+        self.checkpoint = checkpoint
+        self.progress = progress
+        self.schedule = Schedule(len(samples), options.block, strict=options.solver == "newton")
+        self.begin = time.perf_counter()
+        self.rows: dict[int, FloatArray] = {}
+        self.reports: dict[int, SampleReport] = {}
+        self.unsaved: list[int] = []
+        self.complete = 0  # leading blocks that are finished
+        for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
+            self.rows[index], self.reports[index] = row, report
+        self.found = len(self.reports)
+        self.held_out = HeldOutError(problem)
+        self.estimate: float | None = None
+        given, shapes = problem.known_solutions()
+        self.known_parameters = given
+        self.known_rows = DisplacementRows(shapes - problem.base, problem.base.size)
+        if known is not None:
+            self.known_parameters = np.vstack([given, known.parameters])
+            self.known_rows = self.known_rows.followed_by(known.displacements)
+
+    def solve(self, *, threads: int, executor: Executor | None) -> None:
+        """Solves what is missing."""
+        missing = len(self.samples) - self.found
+        if not missing:
+            self._advance()
+            self._tell()
+            return
+        backend: Backend
+        if executor is None:
+            backend = LocalBackend(self.problem, self.options, expected=missing, threads=threads)
+        else:
+            backend = ExecutorBackend(executor, self.problem, self.options)
+        try:
+            self._solve_on(backend)
+        except KeyboardInterrupt:
+            backend.cancel()
+            self._book(backend.wait(0.0))
+            self._save()
+            done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
+            raise Interrupted(done) from None
+        finally:
+            self._save()
+            backend.close()
+
+    def snapshots(self) -> Snapshots:
+        """All samples, once they are solved."""
+        numbers = range(len(self.samples))
+        rows = DisplacementRows([self.rows[i] for i in numbers], self.problem.base.size)
+        reports = [self.reports[i] for i in numbers]
+        return Snapshots(self.problem, self.samples, rows, reports, self.held_out.gram)
+
+    def _solve_on(self, backend: Backend) -> None:
+        submitted = 0
+        while len(self.reports) < len(self.samples):
+            self._advance()
+            while submitted < len(self.schedule) and self._ready(submitted):
+                self._submit(backend, submitted)
+                submitted += 1
+            self._tell()
+            self._book(backend.wait(POLL_SECONDS))
+            if len(self.unsaved) >= self.options.block:
+                self._save()
+        self._advance()
+        self._tell()
+
+    def _ready(self, block: int) -> bool:
+        return self.schedule.before(block).stop <= self.complete * self.schedule.block
+
+    def _advance(self) -> None:
+        """Counts the leading blocks that are finished, and learns from them."""
+        while self.complete < len(self.schedule):
+            block = self.schedule.samples(self.complete)
+            if any(i not in self.reports for i in block):
+                break
+            self.complete += 1
+            self.held_out.add([self.rows[i] for i in block])
+            if self.progress:
+                converged = np.array([self.reports[i].converged for i in range(block.stop)])
+                self.estimate = self.held_out.of_last(converged, len(block))
+
+    def _submit(self, backend: Backend, index: int) -> None:
+        block = self.schedule.samples(index)
+        missing = [i for i in block if i not in self.reports]
+        if not missing:
+            return
+        # for the whole block: products with fewer rows round differently, and which samples are
+        # missing depends on where an earlier run was interrupted
+        inputs = self.problem.inputs(self.samples[block])
+        starts = self._starts(index, inputs)
+        which = np.subtract(missing, block.start)
+        backend.submit(missing, inputs[which], starts[which])
+
+    def _starts(self, index: int, inputs: FloatArray) -> FloatArray:
+        """Guesses for a block from converged samples before it, and from what is known anyway."""
+        before = [i for i in self.schedule.before(index) if self.reports[i].converged]
+        scaled = self.problem.domain.scaled
+        parameters = scaled(np.vstack([self.known_parameters, self.samples[before]]))
+        rows = self.known_rows.followed_by([self.rows[i] for i in before])
+        wanted = scaled(self.samples[self.schedule.samples(index)])
+        if self.options.solver == "newton":
+            return nearest_start(parameters, rows, wanted)
+        interpolated = interpolated_start(parameters, rows, wanted)
+        if not self.problem.solutions_far_apart:
+            return interpolated
+        nearest = nearest_start(parameters, rows, wanted)
+        return lower_start(self.problem.system, inputs, interpolated, nearest)
+
+    def _book(self, solved: Sequence[Solved]) -> None:
+        for one in solved:
+            self.rows[one.sample] = self.problem.registered(one.displacement[None])[0]
+            self.reports[one.sample] = one.report
+            self.unsaved.append(one.sample)
+
+    def _save(self) -> None:
+        """Saves what is not saved yet; what cannot be saved stays in memory for the next time."""
+        if self.checkpoint is None or not self.unsaved:
+            return
+        places = sorted(self.unsaved)
+        try:
+            rows = self.checkpoint.save(
+                places, [self.rows[i] for i in places], [self.reports[i] for i in places]
+            )
+        except UnsavedSamplesError as error:
+            warnings.warn(str(error), CheckpointNotice, stacklevel=2)
+            return
+        self.rows.update(zip(places, rows, strict=True))
+        self.unsaved.clear()
+
+    def _tell(self) -> None:
+        if self.progress is None:
+            return
+        done = len(self.reports)
+        self.progress(
+            SolveProgress(
+                done,
+                len(self.samples),
+                time.perf_counter() - self.begin,
+                done - self.found,
+                self.estimate,
+            )
+        )

@@ -1,0 +1,147 @@
+"""Files of finished samples: safetensors layout, a checksum, and rows mapped on reading."""
+
+from __future__ import annotations
+
+import json
+import os
+import zlib
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh.atomic_file import atomic_file
+from .snapshots import SampleReport
+
+FloatArray = NDArray[np.float64]
+Samples = dict[int, tuple[FloatArray, SampleReport]]
+
+#: Bytes that are read for the checksum at a time.
+PIECE = 1 << 22
+
+
+def write_samples(
+    path: Path,
+    indices: Sequence[int],
+    displacements: Sequence[FloatArray],
+    reports: Sequence[SampleReport],
+) -> None:
+    """Writes numbers, displacements (3n,) and reports; the file is complete or not there.
+
+    No copy is made of the displacements. The layout is that of safetensors (a JSON header behind
+    its size in eight bytes, then the arrays), with an array `indices` (j,) and an array
+    `displacements` (j, 3n).
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be written.
+    """
+    numbers = np.asarray(indices, "<i8")
+    arrays = [numbers, *(np.ascontiguousarray(row, "<f8") for row in displacements)]
+    words = json.dumps([asdict(report) for report in reports])
+    checksum = zlib.crc32(words.encode())
+    for array in arrays:
+        checksum = zlib.crc32(array.data.cast("B"), checksum)
+    size, width = numbers.nbytes, arrays[-1].size
+    header = {
+        "__metadata__": {"reports": words, "crc32": f"{checksum:08x}"},
+        "indices": _entry("I64", [len(numbers)], 0),
+        "displacements": _entry("F64", [len(numbers), width], size),
+    }
+    text = json.dumps(header).encode()
+    text += b" " * (-len(text) % 8)  # the arrays are aligned
+    with atomic_file(path) as temporary, temporary.open("xb") as file:
+        file.write(len(text).to_bytes(8, "little") + text)
+        for array in arrays:
+            file.write(array.data.cast("B"))
+
+
+def read_indices(path: Path) -> list[int]:
+    """Numbers of the samples in a file whose header and size are right; nothing else is read.
+
+    Raises ValueError, which says what is wrong, and OSError.
+    """
+    with path.open("rb") as file:
+        return _head(file)[0]
+
+
+def read_samples(path: Path) -> Samples:
+    """Displacements (3n,) and reports of a file by sample number, after its checksum is verified.
+
+    The displacements are mapped: the system reads them when they are used, and may forget them
+    again. Where a file cannot be mapped they are in memory.
+
+    Raises ValueError, which says what is wrong, and OSError.
+    """
+    with path.open("rb") as file:
+        indices, shape, offset, metadata = _head(file)
+        file.seek(offset - 8 * len(indices))
+        if _checksum(file, metadata["reports"]) != metadata["crc32"]:
+            raise ValueError("its content has changed")
+        reports = _reports(metadata, len(indices))
+        rows = _rows(file, shape, offset)
+    return {i: (row, report) for i, row, report in zip(indices, rows, reports, strict=True)}
+
+
+def _rows(file: BinaryIO, shape: tuple[int, int], offset: int) -> FloatArray:
+    try:
+        mapped = np.memmap(file, "<f8", mode="r", offset=offset, shape=shape)
+    except OSError:  # the file system cannot, or too many files are mapped
+        file.seek(offset)
+        content = file.read(8 * shape[0] * shape[1])
+        return np.frombuffer(content, "<f8").reshape(shape).astype(np.float64, copy=False)
+    # a plain array: what is computed from it should not be a memmap
+    return mapped.view(np.ndarray)
+
+
+def _head(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, str]]:
+    """Numbers, shape and position of the displacements, and metadata."""
+    length = os.fstat(file.fileno()).st_size
+    size = int.from_bytes(file.read(8), "little")
+    if not 0 < size <= length - 8:
+        raise ValueError("it is not complete")
+    try:
+        header = json.loads(file.read(size))
+        metadata = header.pop("__metadata__")
+        count, width = (int(number) for number in header["displacements"]["shape"])
+        expected = {
+            "indices": _entry("I64", [count], 0),
+            "displacements": _entry("F64", [count, width], 8 * count),
+        }
+        known = header == expected and metadata.keys() == {"reports", "crc32"}
+    except (ValueError, KeyError, TypeError, AttributeError):
+        known = False
+    if not known or count < 1 or width < 1:
+        raise ValueError("it is not a file of samples of this version")
+    offset = 8 + size + 8 * count
+    if length != offset + 8 * count * width:
+        raise ValueError("it is not complete")
+    indices = np.frombuffer(file.read(8 * count), "<i8").tolist()
+    return indices, (count, width), offset, metadata
+
+
+def _reports(metadata: dict[str, str], count: int) -> list[SampleReport]:
+    try:
+        reports = [SampleReport(**entry) for entry in json.loads(metadata["reports"])]
+    except (ValueError, TypeError):
+        reports = []
+    if len(reports) != count:
+        raise ValueError("its reports are not readable")
+    return reports
+
+
+def _checksum(file: BinaryIO, reports: str) -> str:
+    """Of the reports and the rest of the file; not through a map, which would fill the memory."""
+    checksum = zlib.crc32(reports.encode())
+    while piece := file.read(PIECE):
+        checksum = zlib.crc32(piece, checksum)
+    return f"{checksum:08x}"
+
+
+def _entry(dtype: str, shape: list[int], begin: int) -> dict[str, Any]:
+    size = 8 * int(np.prod(shape))
+    return {"dtype": dtype, "shape": shape, "data_offsets": [begin, begin + size]}

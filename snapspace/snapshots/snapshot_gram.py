@@ -1,0 +1,177 @@
+"""SnapshotGram: inner products of snapshots, and what follows from them without the shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import eigh
+from scipy.sparse import csr_array
+
+from ..blas import single_threaded_blas
+from ..problem import Problem
+from .displacement_rows import BLOCK, DisplacementRows
+
+FloatArray = NDArray[np.float64]
+
+#: Rows whose products BLAS forms in one call, always so many: rounding depends on the number.
+TILE = 16
+#: Rows that are multiplied by the mass matrix, and held in memory, at a time.
+ROWS_AT_ONCE = 2 * TILE
+
+
+class SnapshotGram:
+    """Matrix (k, k) of inner products d_i^T M d_j of displacements, grown while they are solved.
+
+    The method of snapshots (paper, sec. 5.2) finds the best subspace from it, and the errors of
+    unseen samples follow as well. Memory: the matrix, and `ROWS_AT_ONCE` displacements.
+
+    Parameters
+    ----------
+    mass : csr_array, (n, n)
+        Scalar mass matrix M of the norm.
+    offset : (3n,), optional
+        Added to all displacements, so that they count from elsewhere. Default: nothing.
+    """
+
+    def __init__(self, mass: csr_array, *, offset: FloatArray | None = None) -> None:
+        self.mass = mass
+        rows = DisplacementRows((), 3 * mass.shape[0])
+        self._rows = rows if offset is None else rows.shifted(offset)
+        self._matrix = np.zeros((0, 0))
+
+    @classmethod
+    def of(cls, problem: Problem, *, lumped: bool = False) -> SnapshotGram:
+        """Of displacements from a problem's `base`, as products of those from its `tau`."""
+        return cls(problem.mass(lumped=lumped), offset=problem.base - problem.tau)
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    @property
+    def matrix(self) -> FloatArray:
+        """The inner products of all rows, (k, k), exactly symmetric; not to be written to."""
+        matrix = self._matrix.view()
+        matrix.flags.writeable = False
+        return matrix
+
+    def copy(self) -> SnapshotGram:
+        """One that can grow on its own."""
+        twin = SnapshotGram(self.mass)
+        twin._rows, twin._matrix = self._rows, self._matrix
+        return twin
+
+    @single_threaded_blas
+    def add(self, rows: Iterable[FloatArray]) -> None:
+        """Appends displacements (3n,): their products with each other and with all earlier ones.
+
+        The result is bitwise the same however the rows are split into calls. Rows are not copied,
+        and are read again by later calls: mapped ones keep the memory free.
+
+        Raises
+        ------
+        ValueError
+            If a row is not a float64 array of shape (3n,).
+        """
+        before, every = len(self), self._rows.followed_by(rows)
+        matrix = np.zeros((len(every), len(every)))
+        matrix[:before, :before] = self._matrix
+        begin = before
+        while begin < len(every):
+            # the tiles lie where they lie if all rows come at once
+            first = begin - begin % TILE
+            end = min(first + ROWS_AT_ONCE, len(every))
+            products = self._products(every, first, begin, end)
+            for i in range(begin, end):
+                matrix[i, : i + 1] = matrix[: i + 1, i] = products[: i + 1, i - first]
+            begin = end
+        self._rows, self._matrix = every, matrix
+
+    def _products(self, rows: DisplacementRows, first: int, begin: int, end: int) -> FloatArray:
+        """Products of rows begin to end with all rows up to themselves, at [j, i - first]."""
+        tiles = [_Tile(rows, start) for start in range(0, end, TILE)]
+        own = range(first // TILE, len(tiles))
+        products = np.zeros((TILE * len(tiles), TILE * len(own)))
+        # a sample that is not finite spoils its own products only
+        with np.errstate(invalid="ignore", over="ignore"):
+            weighted = [self._weighted(tiles[tile]) for tile in own]
+            for start in range(0, rows.size, BLOCK):
+                stop = min(start + BLOCK, rows.size)
+                for i, tile in enumerate(tiles):
+                    block = tile.block(start, stop)
+                    here = slice(TILE * i, TILE * (i + 1))
+                    for j, right in zip(own, weighted, strict=True):
+                        if j >= i:
+                            there = slice(TILE * (j - own.start), TILE * (j - own.start + 1))
+                            products[here, there] += block @ right[start:stop]
+        return products
+
+    def _weighted(self, tile: _Tile) -> FloatArray:
+        """M times the displacements of a tile, (3n, `TILE`): vertex by vertex, all at once."""
+        columns = np.empty((3 * self.mass.shape[0], TILE))
+        for start in range(0, len(columns), BLOCK):
+            stop = min(start + BLOCK, len(columns))
+            columns[start:stop] = tile.block(start, stop).T
+        weighted: FloatArray = self.mass @ columns.reshape(self.mass.shape[0], -1)
+        return weighted.reshape(-1, TILE)
+
+    @single_threaded_blas
+    def held_out_error(self, training: ArrayLike, unseen: ArrayLike, dimension: int) -> FloatArray:
+        """Relative errors |x - P x|_M / |x|_M of the best subspace for samples not used for it.
+
+        P is the M-projection onto the first directions of the PCA of the training rows.
+
+        Parameters
+        ----------
+        training, unseen : array_like of int, or masks (k,)
+            Which rows.
+        dimension : int
+            d; training rows that span less give all directions that they have.
+
+        Returns
+        -------
+        ndarray, one per unseen row
+            Between 0 and 1, and never larger for a larger d; 0 for a row that is zero. They come
+            from differences of squares: errors below 1e-7 are rounding.
+
+        Raises
+        ------
+        ValueError
+            For a dimension below 1, or without training rows.
+        """
+        known, new = (_indices(which, len(self)) for which in (training, unseen))
+        if dimension < 1 or len(known) == 0:
+            raise ValueError(
+                f"SnapshotGram: dimension {dimension} and {len(known)} training rows, but at least "
+                "1 of each is needed"
+            )
+        squared = self._matrix[new, new]
+        largest = [max(len(known) - dimension, 0), len(known) - 1]
+        eigenvalues, vectors = eigh(self._matrix[np.ix_(known, known)], subset_by_index=largest)
+        # rounding of the largest: directions below it are noise
+        real = eigenvalues > len(known) * np.finfo(float).eps * max(eigenvalues[-1], 0.0)
+        directions = vectors[:, real] / np.sqrt(eigenvalues[real])
+        held = ((directions.T @ self._matrix[np.ix_(known, new)]) ** 2).sum(axis=0)
+        left = np.maximum(squared - held, 0.0)
+        zero = squared == 0.0
+        errors: FloatArray = np.sqrt(left / np.where(zero, 1.0, squared))
+        return errors
+
+
+class _Tile:
+    """`TILE` consecutive rows; behind the last one there are zeros, so that the size is fixed."""
+
+    def __init__(self, rows: DisplacementRows, start: int) -> None:
+        self._rows = rows[start : start + TILE]
+
+    def block(self, start: int, stop: int) -> FloatArray:
+        block = self._rows.block(start, stop)
+        if len(block) == TILE:
+            return block
+        return np.concatenate([block, np.zeros((TILE - len(block), stop - start))])
+
+
+def _indices(which: ArrayLike, count: int) -> NDArray[np.intp]:
+    indices: NDArray[np.intp] = np.arange(count)[np.asarray(which)]
+    return indices

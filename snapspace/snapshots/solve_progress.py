@@ -1,0 +1,38 @@
+"""SolveProgress: how far a run of samples is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class SolveProgress:
+    """What `solve_snapshots` tells its `progress` callable.
+
+    done, total : samples
+    seconds : since the run began
+    solved : samples of this run; the others were finished before
+    held_out_error : relative error in the M-norm of the newest samples' projection onto the best
+        subspace of the samples before them, the median of the newest block; None before the second
+        block is finished. What a user of the subspace may expect for unseen parameters.
+    """
+
+    done: int
+    total: int
+    seconds: float
+    solved: int
+    held_out_error: float | None = None
+
+    @property
+    def rate(self) -> float | None:
+        """Samples per second in this run; None before the first."""
+        return self.solved / self.seconds if self.solved and self.seconds > 0 else None
+
+    @property
+    def eta(self) -> float | None:
+        """Seconds that the rest will take at this rate; None before the first sample."""
+        return None if self.rate is None else (self.total - self.done) / self.rate
+
+
+Progress = Callable[[SolveProgress], None]

@@ -1,0 +1,26 @@
+"""Solved: a finished sample on its way from a solver to the run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .snapshots import SampleReport
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """One finished sample.
+
+    sample : its number in the run
+    displacement : (3n,) from the problem's `base`, as the solver left it: not yet registered
+    report : SampleReport, never cancelled
+    """
+
+    sample: int
+    displacement: FloatArray
+    report: SampleReport

@@ -1,0 +1,115 @@
+"""SolverOptions: how samples are solved."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from ..problem import Problem, lane_count
+
+Solver = Literal["fast", "newton"]
+Precision = Literal["single", "double"]
+SOLVERS: tuple[Solver, ...] = ("fast", "newton")
+PRECISIONS: tuple[Precision, ...] = ("single", "double")
+
+#: Single precision resolves decreases down to about a hundredth of this share of F.
+SINGLE_TOLERANCE = 3e-6
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolverOptions:
+    """How samples are solved.
+
+    Parameters
+    ----------
+    solver : "fast" or "newton", default "fast"
+        L-BFGS on a scalar factor that all samples share, or the paper's Newton method (sec. 4.2).
+    tolerance : float, optional
+        Converged when twice the decrease that the solver's model predicts is below tolerance * F,
+        and for "fast" the mean decrease of the last 8 iterations is as well. Default: the
+        problem's `snapshot_tolerance`.
+    max_iterations : int, default 1000
+        Per sample; one that needs more ends as max_iterations.
+    clamp : float, default 0.65
+        Newton only: singular values are raised to this in the Hessian; the paper uses 0.5 to 0.8.
+    precision : "single" or "double", optional
+        "fast" only: of shapes and gradients while solving; objectives and inner products are summed
+        in double precision anyway. Default: single for tolerances of 3e-6 and more, which takes
+        half the time and changes the shapes by less than the tolerance does.
+    block : int, optional
+        Samples handed out together. They start from the samples of earlier blocks: "fast" from
+        those of the first three fifths of the blocks, so that nobody waits for a slow sample,
+        "newton" from all. Default 16 for "fast", 2 for "newton".
+
+    Raises
+    ------
+    ValueError
+        For an unknown solver or precision, or a number that is not positive or not in its range.
+    """
+
+    solver: Solver = "fast"
+    tolerance: float | None = None
+    max_iterations: int = 1000
+    clamp: float = 0.65
+    precision: Precision | None = None
+    block: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.solver not in SOLVERS:
+            raise ValueError(f"unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}")
+        if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
+            raise ValueError(f"tolerance is {self.tolerance}, but it must be positive")
+        if self.max_iterations < 1:
+            raise ValueError(f"max_iterations is {self.max_iterations}, but must be at least 1")
+        if not 0 < self.clamp <= 1:
+            raise ValueError(f"clamp is {self.clamp}, but it must be in (0, 1]")
+        if self.precision not in (None, *PRECISIONS):
+            raise ValueError(
+                f"unknown precision '{self.precision}'; known are {', '.join(PRECISIONS)}"
+            )
+        if self.block is not None and self.block < 1:
+            raise ValueError(f"block is {self.block}, but must be at least 1")
+
+    def resolved(self, problem: Problem, samples: int) -> ResolvedOptions:
+        """The options with everything decided, for a number of samples of a problem."""
+        tolerance = problem.snapshot_tolerance if self.tolerance is None else self.tolerance
+        precision = self.precision or ("single" if tolerance >= SINGLE_TOLERANCE else "double")
+        single = self.solver == "fast" and precision == "single"
+        return ResolvedOptions(
+            solver=self.solver,
+            tolerance=tolerance,
+            max_iterations=self.max_iterations,
+            clamp=self.clamp,
+            single=single,
+            lanes=lane_count(samples, single=single) if self.solver == "fast" else 1,
+            block=self.block or (16 if self.solver == "fast" else 2),
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResolvedOptions:
+    """All that the solutions of samples depend on, apart from the problem and the samples.
+
+    As in `SolverOptions`; single is whether shapes are in single precision, lanes the width of the
+    packs: samples that are solved together.
+    """
+
+    solver: Solver
+    tolerance: float
+    max_iterations: int
+    clamp: float
+    single: bool
+    lanes: int
+    block: int
+
+    def for_one(self, *, iterations: int) -> ResolvedOptions:
+        """For a single sample that is solved alone, with at most so many iterations."""
+        return replace(
+            self, lanes=lane_count(1, single=self.single), max_iterations=iterations, block=1
+        )
+
+    def as_key(self) -> dict[str, Any]:
+        """The options by name, for the record and for the key of a run."""
+        return asdict(self)

@@ -1,0 +1,31 @@
+"""Names of worker processes, and tasks for one of them."""
+
+from __future__ import annotations
+
+import os
+import socket
+import sys
+from concurrent.futures import Executor
+from typing import Any
+
+
+def worker_name() -> str:
+    """Name of this process among the workers of an executor: its address if dask runs it."""
+    distributed: Any = sys.modules.get("distributed")
+    if distributed is not None:
+        try:
+            return str(distributed.get_worker().address)
+        except ValueError:  # dask is loaded, but this is no worker of it
+            pass
+    return f"{socket.gethostname()}:{os.getpid()}"
+
+
+def for_worker(executor: Executor, name: str) -> dict[str, Any]:
+    """Arguments of `executor.submit` that send a task to the worker of this name.
+
+    Of dask's executor, and if that worker is gone the task goes to another one. Other executors
+    cannot choose: empty.
+    """
+    if type(executor).__module__.startswith("distributed."):
+        return {"workers": [name], "allow_other_workers": True}
+    return {}

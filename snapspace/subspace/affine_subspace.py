@@ -1,0 +1,86 @@
+"""AffineSubspace: the shapes tau + U q."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
+
+from .. import _core as core
+from ..blas import single_threaded_blas
+from ..mesh import apply_mass
+from ..snapshots import DisplacementRows
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class AffineSubspace:
+    """The shapes tau + U q (paper, eq. 4).
+
+    tau : (3n,) reference shape, x0 y0 z0 x1 ...
+    basis : (3n, d) U, with M-orthonormal columns, best first
+    mass : (n, n) scalar mass matrix M of the reference shape
+    eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared
+    error on the snapshots
+    """
+
+    tau: FloatArray
+    basis: FloatArray
+    mass: csr_array
+    eigenvalues: FloatArray
+
+    @property
+    def dimension(self) -> int:
+        """d."""
+        return int(self.basis.shape[1])
+
+    @property
+    def lumped(self) -> bool:
+        """Whether the mass matrix is diagonal."""
+        return bool(self.mass.nnz == self.mass.shape[0])
+
+    @property
+    def energy_fraction(self) -> float:
+        """Share of the snapshots' squared M-norm that the subspace holds (paper, sec. 5.2)."""
+        return float(self.eigenvalues[: self.dimension].sum() / self.eigenvalues.sum())
+
+    def leading(self, dimension: int) -> AffineSubspace:
+        """The first columns: the best subspace of that dimension for the same snapshots."""
+        check_dimension(dimension, self.dimension)
+        basis = np.asfortranarray(self.basis[:, :dimension])
+        return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
+
+    @single_threaded_blas
+    def coordinates(self, shapes: ArrayLike) -> FloatArray:
+        """q = U^T M (x - tau) of the M-projection of shapes (3n,) or (3n, k): (d,) or (d, k)."""
+        x = np.asarray(shapes, np.float64)
+        offset = x - (self.tau if x.ndim == 1 else self.tau[:, None])
+        coordinates: FloatArray = self.basis.T @ apply_mass(self.mass, offset)
+        return coordinates
+
+    @single_threaded_blas
+    def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:
+        """q = U^T M u, (k, d), of displacements u from tau, block by block."""
+        weighted = np.empty((self.dimension, self.tau.size))
+        for target, column in zip(weighted, self.basis.T, strict=True):
+            target[:] = apply_mass(self.mass, column)
+        coordinates = np.zeros((len(displacements), self.dimension))
+        for columns, block in displacements.blocks():
+            coordinates += block @ weighted[:, columns].T
+        return coordinates
+
+    def shape(self, q: ArrayLike) -> FloatArray:
+        """tau + U q, (3n,), for coordinates (d,)."""
+        return core.reconstruct(self.tau, self.basis.T, np.asarray(q, np.float64))
+
+
+def check_dimension(dimension: int, largest: int) -> None:
+    """ValueError unless the dimension is between 1 and the largest that there is."""
+    if not 1 <= dimension <= largest:
+        raise ValueError(
+            f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger one "
+            "takes more snapshots"
+        )

@@ -1,0 +1,118 @@
+"""Blocks of samples for the executor backend, and what they must become."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from snapspace import _core as core
+from snapspace.problem import Problem
+from snapspace.sampling import sample
+from snapspace.snapshots import SampleReport
+from snapspace.snapshots.block_task import BlockOptions
+from snapspace.snapshots.executor_backend import ExecutorBackend
+from snapspace.snapshots.fast_solve import as_sample_report, solve_fast
+from snapspace.snapshots.solved import Solved
+
+FloatArray = NDArray[np.float64]
+Outcome = tuple[FloatArray, SampleReport]
+
+OPTIONS = BlockOptions(solver="fast", tolerance=1e-10, max_iterations=1000, clamp=0.65, wave=16)
+PATIENCE = 60.0  # seconds
+
+
+@dataclass(frozen=True)
+class Work:
+    """Samples of a problem with their inputs and starts, to be cut into blocks."""
+
+    problem: Problem
+    inputs: FloatArray
+    starts: FloatArray
+
+    @classmethod
+    def of(cls, problem: Problem, count: int, *, seed: int = 3) -> Work:
+        inputs = problem.inputs(sample(problem.domain, count, seed=seed))
+        _, shapes = problem.known_solutions()
+        starts = np.repeat(shapes[:1] - problem.base, count, axis=0)
+        return cls(problem, inputs, starts)
+
+    def submit(self, backend: ExecutorBackend, size: int) -> None:
+        for begin in range(0, len(self.inputs), size):
+            rows = np.arange(begin, min(begin + size, len(self.inputs)))
+            backend.submit(rows.tolist(), self.inputs[rows], self.starts[rows])
+
+    def solved_here(self, options: BlockOptions = OPTIONS) -> dict[int, Outcome]:
+        """All samples in one call of the solver, without any task."""
+        common: dict[str, Any] = {
+            "tolerance": options.tolerance,
+            "max_iterations": options.max_iterations,
+            "threads": 2,
+        }
+        arrays, control = (self.inputs, self.starts), core.SolveControl()
+        if options.solver == "fast":
+            shapes, reports = solve_fast(
+                self.problem, *arrays, control, wave=options.wave, **common
+            )
+        else:
+            batch = self.problem.system.solve_newton(
+                *arrays, clamp=options.clamp, control=control, **common
+            )
+            shapes, reports = batch.shapes, [as_sample_report(one) for one in batch.reports]
+        return {k: (shapes[k], report) for k, report in enumerate(reports)}
+
+
+def backend_of(
+    executor: Executor, problem: Problem, options: BlockOptions = OPTIONS
+) -> ExecutorBackend:
+    return ExecutorBackend(
+        executor,
+        problem,
+        solver=options.solver,
+        tolerance=options.tolerance,
+        max_iterations=options.max_iterations,
+        clamp=options.clamp,
+        wave=options.wave,
+    )
+
+
+def collected(
+    backend: ExecutorBackend, count: int, *, after_each: Callable[[int], None] | None = None
+) -> dict[int, Outcome]:
+    """Waits until so many samples are back, each once; `after_each` gets their number."""
+    found: dict[int, Outcome] = {}
+    while len(found) < count:
+        solved = backend.wait(PATIENCE)
+        assert solved, "nothing is under way, but samples are missing"
+        fresh = outcomes(solved)
+        assert not set(fresh) & set(found), "a sample came back twice"
+        found.update(fresh)
+        if after_each is not None:
+            after_each(len(found))
+    return found
+
+
+def outcomes(solved: Iterable[Solved]) -> dict[int, Outcome]:
+    return {one.sample: (one.displacement, one.report) for one in solved}
+
+
+def assert_same_outcomes(found: dict[int, Outcome], expected: dict[int, Outcome]) -> None:
+    """The same bits, less the wall time."""
+    assert sorted(found) == sorted(expected)
+    for sample_number, (shape, report) in expected.items():
+        np.testing.assert_array_equal(found[sample_number][0], shape)
+        assert replace(found[sample_number][1], seconds=0.0) == replace(report, seconds=0.0)
+
+
+class DeadlyProblem:
+    """Ends the process that unpickles it, as one does that runs out of memory."""
+
+    tau = np.zeros(3)
+
+    def __reduce__(self) -> tuple[Callable[[int], Any], tuple[int]]:
+        return os._exit, (1,)

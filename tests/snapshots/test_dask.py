@@ -1,0 +1,139 @@
+"""Blocks on a dask cluster, of which a worker may be lost."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import SolverOptions, sample, solve_snapshots
+
+from ..shapes import interpolation_problem
+from .bars import assert_same_bits, parameters, posing_bar
+from .blocks import DeadlyProblem, Work, assert_same_outcomes, backend_of, collected
+
+distributed = pytest.importorskip("distributed", reason="needs the extra snapspace[dask]")
+
+WORKERS = 2
+PATIENCE = 60.0  # seconds
+
+
+@pytest.fixture
+def client(cluster: Any) -> Iterator[Any]:
+    """A client of the cluster with all workers there, also after a test that killed one."""
+    with distributed.Client(cluster, set_as_default=False) as client:
+        client.wait_for_workers(WORKERS, timeout=PATIENCE)
+        client.run(exec, "import snapspace")  # none idles while another one imports
+        yield client
+
+
+def test_a_cluster_gives_the_same_bits_and_has_the_problem_sent_once(client: Any) -> None:
+    work = Work.of(posing_bar(16, 3, 3, bound=0.7), 24)
+    expected = work.solved_here()
+    backend = backend_of(client.get_executor(), work.problem)
+    sent = []
+    for _ in range(3):
+        work.submit(backend, 2)
+        assert_same_outcomes(collected(backend, 24), expected)
+        sent.append(backend.payloads_sent)
+    assert WORKERS <= sent[-1] <= 2 * WORKERS
+    assert sent[-1] == sent[-2], "later blocks need none"
+
+
+def test_large_meshes_do_not_make_dask_complain(client: Any) -> None:
+    """It warns of tasks above 10 MB, and of sending them more than once; warnings are errors."""
+    dask = pytest.importorskip("dask")
+    work = Work.of(posing_bar(), 4)
+    backend = backend_of(client.get_executor(), work.problem)
+    with dask.config.set({"distributed.admin.large-graph-warning-threshold": "1 kB"}):
+        work.submit(backend, 2)
+        collected(backend, 4)
+    assert backend.payloads_sent
+
+
+def test_snapshots_of_poses_are_those_of_this_machine(client: Any) -> None:
+    problem, options = interpolation_problem(), SolverOptions(wave=4)
+    samples = sample(problem.domain, 8, seed=1)
+    here = solve_snapshots(problem, samples, options=options, threads=1)
+    there = solve_snapshots(problem, samples, options=options, executor=client.get_executor())
+    assert_same_bits(there, here)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+def test_nothing_is_lost_with_a_worker(client: Any) -> None:
+    """Killed in the middle: dask gives its blocks to the other one, which may lack the problem."""
+    work = Work.of(posing_bar(24, 4, 4, bound=0.7), 40)
+    pids: dict[str, int] = client.run(os.getpid)
+    killed: list[int] = []
+
+    def kill_one(finished: int) -> None:
+        if not killed:
+            killed.append(pids[min(pids)])
+            os.kill(killed[0], signal.SIGKILL)
+            assert finished < 20, "too late: hardly anything was left to do"
+
+    backend = backend_of(client.get_executor(), work.problem)
+    work.submit(backend, 2)
+    found = collected(backend, 40, after_each=kill_one)
+    assert_same_outcomes(found, work.solved_here())
+    client.wait_for_workers(WORKERS, timeout=PATIENCE)
+    assert killed[0] not in client.run(os.getpid).values()
+
+
+def test_a_run_that_loses_a_worker_ends_with_the_same_snapshots(client: Any) -> None:
+    problem = posing_bar(24, 4, 4, bound=0.7)
+    samples = parameters(problem, 48)
+    here = solve_snapshots(problem, samples, threads=1)
+    pids: dict[str, int] = client.run(os.getpid)
+    left = list(pids.values())[:1]
+
+    def kill_one(done: int, total: int) -> None:
+        if left and done:
+            assert done < total
+            os.kill(left.pop(), signal.SIGKILL)
+
+    executor = client.get_executor()
+    there = solve_snapshots(problem, samples, executor=executor, progress=kill_one)
+    assert not left
+    assert_same_bits(there, here)
+
+
+def test_a_problem_that_kills_every_worker_is_refused(
+    client: Any, cluster: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One worker is enough here; dask tries three more before it gives up."""
+    monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
+    deadly: Any = DeadlyProblem()
+    backend = backend_of(client.get_executor(), deadly)
+    backend.submit([2, 3], np.zeros((2, 6)), np.zeros((2, 3)))
+    with pytest.raises(ValueError, match=r"lost the worker that solved samples 2 to 3 \(Killed"):
+        backend.wait(PATIENCE)
+    backend.close()
+
+
+def test_a_connection_that_closes_is_said(cluster: Any) -> None:
+    work = Work.of(posing_bar(24, 4, 4, bound=0.7), 40)
+    client = distributed.Client(cluster, set_as_default=False)
+    backend = backend_of(client.get_executor(), work.problem)
+    work.submit(backend, 8)
+    client.close()
+    # what was under way is cancelled, what would be next is refused
+    said = r"executor: (cancelled|does not take) samples .* in the checkpoint"
+    with pytest.raises(ValueError, match=said):
+        while backend.wait(PATIENCE):
+            pass
+    backend.close()
+
+
+def test_cancelled_blocks_leave_the_cluster_free(client: Any) -> None:
+    work = Work.of(posing_bar(24, 4, 4, bound=0.7), 40)
+    backend = backend_of(client.get_executor(), work.problem)
+    work.submit(backend, 4)
+    assert backend.wait(PATIENCE)
+    backend.close()
+    assert client.submit(int, pure=False).result(timeout=PATIENCE) == 0

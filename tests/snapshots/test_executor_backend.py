@@ -1,0 +1,201 @@
+"""Blocks on an executor: same bits as at home, the problem sent once, nothing lost."""
+
+from __future__ import annotations
+
+import gc
+import multiprocessing
+import pickle
+import time
+import weakref
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from snapspace.snapshots import SOLVERS
+from snapspace.snapshots.block_task import BlockOptions
+from snapspace.snapshots.held_problems import HeldProblems
+from snapspace.snapshots.solver_options import Solver
+
+from ..shapes import interpolation_problem
+from .bars import posing_bar
+from .blocks import OPTIONS, Work, assert_same_outcomes, backend_of, collected, outcomes
+from .scripted_executor import ScriptedExecutor
+
+WORKERS = 2
+
+
+@pytest.fixture(scope="module")
+def processes() -> Iterator[ProcessPoolExecutor]:
+    """Two fresh processes, both up: they share nothing with this one."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(WORKERS, mp_context=context) as pool:
+        # none idles while another one imports
+        list(pool.map(exec, ["import snapspace, time; time.sleep(0.5)"] * WORKERS))
+        yield pool
+
+
+@pytest.fixture(scope="module")
+def work() -> Work:
+    # wide enough for refused steps, restarts and inverted tets: paths differ from sample to sample
+    return Work.of(posing_bar(bound=0.7), 22)
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+@pytest.mark.parametrize("size", [1, 5, 8])
+def test_threads_give_the_bits_of_one_call(work: Work, solver: Solver, size: int) -> None:
+    """However the samples are put into blocks: packs are as wide as the wave says."""
+    options = replace(OPTIONS, solver=solver)
+    with ThreadPoolExecutor(3) as pool:
+        backend = backend_of(pool, work.problem, options)
+        work.submit(backend, size)
+        found = collected(backend, 22)
+        assert backend.payloads_sent == 0, "they have the problem itself"
+        assert backend.wait(5.0) == []
+        backend.close()
+    assert_same_outcomes(found, work.solved_here(options))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_processes_give_the_same_bits(
+    processes: ProcessPoolExecutor, work: Work, solver: Solver
+) -> None:
+    options = replace(OPTIONS, solver=solver)
+    backend = backend_of(processes, work.problem, options)
+    work.submit(backend, 5)
+    assert_same_outcomes(collected(backend, 22), work.solved_here(options))
+
+
+def test_an_interpolation_takes_its_mean_shape_along(processes: ProcessPoolExecutor) -> None:
+    """Slow samples also get a factor of their own there."""
+    work = Work.of(interpolation_problem(), 6)
+    backend = backend_of(processes, work.problem)
+    work.submit(backend, 3)
+    assert_same_outcomes(collected(backend, 6), work.solved_here())
+
+
+def test_the_problem_is_sent_once_per_process(processes: ProcessPoolExecutor) -> None:
+    """And not again for later blocks, nor for a later run on the same problem."""
+    problem, equal = (posing_bar(16, 3, 3, bound=0.3) for _ in range(2))
+    work = Work.of(problem, 24)
+    backend = backend_of(processes, problem)
+    sent = []
+    for _ in range(3):
+        work.submit(backend, 2)
+        collected(backend, 24)
+        sent.append(backend.payloads_sent)
+    # one may reach a process that has it by now, while the other one asks again
+    assert WORKERS <= sent[-1] <= 2 * WORKERS
+    assert sent[-1] == sent[-2], "later blocks need none"
+    later = backend_of(processes, equal)
+    work.submit(later, 2)
+    collected(later, 24)
+    assert later.payloads_sent == 0
+
+
+def test_blocks_are_held_back_while_the_problem_is_on_its_way() -> None:
+    work, executor = Work.of(posing_bar(), 10), ScriptedExecutor()
+    backend = backend_of(executor, work.problem)
+    work.submit(backend, 1)
+    assert all(task.payload is None for task in executor.tasks)
+    executor.need_the_problem("one", 4)
+    executor.need_the_problem("two", 6)
+    assert backend.wait(0.0) == []
+    assert backend.payloads_sent == WORKERS
+    carriers = executor.tasks
+    assert len(carriers) == WORKERS
+    assert all(task.payload is not None for task in carriers)
+    executor.solve("one")
+    assert [one.sample for one in backend.wait(0.0)] == list(carriers[0].samples)
+    # the other carrier, then all others without the problem
+    assert [task.payload is None for task in executor.tasks] == [False] + [True] * 8
+    while executor.tasks:
+        executor.solve("one")
+    assert len(backend.wait(0.0)) == 9
+    assert backend.payloads_sent == WORKERS
+
+
+def test_no_two_tasks_are_equal() -> None:
+    """dask takes equal calls for one: a block that is sent again would get its old answer."""
+    work, executor = Work.of(posing_bar(), 1), ScriptedExecutor()
+    backend = backend_of(executor, work.problem)
+    work.submit(backend, 1)
+    before = executor.tasks[0]
+    executor.need_the_problem("one")
+    backend.wait(0.0)
+    assert executor.tasks[0].number != before.number
+
+
+def test_what_a_worker_leaves_of_a_block_goes_to_another() -> None:
+    """Ctrl-C reaches the processes of a pool as well: they return what they have finished."""
+    work, executor = Work.of(posing_bar(), 4), ScriptedExecutor()
+    backend = backend_of(executor, work.problem)
+    work.submit(backend, 4)
+    executor.solve("one", only=[0, 2])
+    assert [one.sample for one in backend.wait(0.0)] == [0, 2]
+    (rest,) = executor.tasks
+    assert rest.samples == (1, 3)
+    np.testing.assert_array_equal(rest.inputs, work.inputs[[1, 3]])
+    np.testing.assert_array_equal(rest.starts, work.starts[[1, 3]])
+
+
+def test_what_was_finished_survives_cancel() -> None:
+    work, executor = Work.of(posing_bar(), 4), ScriptedExecutor()
+    backend = backend_of(executor, work.problem)
+    work.submit(backend, 1)
+    futures = [future for _, future in executor.waiting]
+    executor.solve("one")
+    executor.fail(RuntimeError("nobody asks any more"))
+    backend.cancel()
+    assert [future.cancelled() for future in futures] == [False, False, True, True]
+    assert list(outcomes(backend.wait(5.0))) == [0]
+    assert backend.wait(5.0) == []
+    backend.close()
+    backend.close()
+
+
+def test_cancel_ends_the_solves_of_threads_at_once() -> None:
+    # minutes of work, if it were not cancelled
+    work = Work.of(posing_bar(24, 6, 6, bound=0.7), 32)
+    options = BlockOptions(
+        solver="newton", tolerance=1e-300, max_iterations=10**6, clamp=0.65, wave=2
+    )
+    with ThreadPoolExecutor(2) as pool:
+        backend = backend_of(pool, work.problem, options)
+        work.submit(backend, 2)
+        before = len(backend.wait(0.3))
+        begin = time.perf_counter()
+        backend.cancel()
+        assert time.perf_counter() - begin < 0.1
+    assert time.perf_counter() - begin < 1.0
+    solved = backend.wait(1.0)
+    assert before + len(solved) < 16
+    assert all(one.report.status != "cancelled" for one in solved)
+
+
+def test_a_problem_lives_no_longer_than_its_run() -> None:
+    work = Work.of(posing_bar(), 2)
+    with ThreadPoolExecutor(1) as pool:
+        backend = backend_of(pool, work.problem)
+        work.submit(backend, 2)
+        collected(backend, 2)
+        problem = weakref.ref(work.problem)
+        del work, backend
+        # a worker thread lets go of its last task when it takes the next one
+        pool.submit(int).result()
+        gc.collect()
+        assert problem() is None
+
+
+def test_a_worker_holds_a_few_problems_only() -> None:
+    held = HeldProblems()
+    payloads = {str(k): pickle.dumps(posing_bar(stiffness=k)) for k in (1.0, 2.0, 3.0)}
+    assert held.received("1.0", None) is None
+    first = held.received("1.0", payloads["1.0"])
+    held.received("2.0", payloads["2.0"])
+    assert held.received("1.0", None) is first, "used last, and not made again"
+    held.received("3.0", payloads["3.0"])
+    assert held.received("2.0", None) is None
+    assert held.received("1.0", None) is first
