@@ -5,6 +5,7 @@ from importlib.metadata import version as _version
 from .energy import ElasticEnergy, StVK
 from .filling import fill_surface
 from .fitting import PoseFit, PoseFits, fit_poses
+from .growing import Growth, growing_models
 from .mesh import (
     EmbeddedSurface,
     MeshNotice,
@@ -53,6 +54,7 @@ from .snapshots import (
     SolveProgress,
     SolverOptions,
     UnsavedSamplesError,
+    carried,
     solve_snapshots,
 )
 from .subspace import AffineSubspace, pca, snapshot_pca
@@ -69,6 +71,7 @@ __all__ = [
     "ElasticEnergy",
     "EmbeddedSurface",
     "FrameReport",
+    "Growth",
     "Handle",
     "HandleBox",
     "HandleQuadric",
@@ -98,9 +101,11 @@ __all__ = [
     "UnsavedSamplesError",
     "Validation",
     "boundary_surface",
+    "carried",
     "embed_surface",
     "fill_surface",
     "fit_poses",
+    "growing_models",
     "in_box",
     "in_sphere",
     "load",

@@ -114,6 +114,9 @@ class SampleQueue:
     def close(self) -> None:
         """No more samples come."""
 
+    def running(self) -> list[tuple[int, int]]:
+        """Samples that are being solved, with their evaluations so far."""
+
     def collect(self, seconds: float) -> list[Solution]:
         """Solutions since the last call; waits up to so many seconds for one."""
 
@@ -153,13 +156,13 @@ class PosingSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int, single: bool) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8, single: bool = False) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
@@ -192,13 +195,13 @@ class InterpolationSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int, single: bool) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 8, single: bool = False) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
@@ -353,6 +356,32 @@ class BlendingLoop:
     def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
 
     def solve(self, *, tolerance: float, max_iterations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+def peak_flops(*, single: bool, repeats: int = 20) -> float:
+    """Floating-point operations per second of one thread of this build."""
+
+def read_bandwidth(bytes: int, *, repeats: int = 20) -> float:
+    """Bytes per second that one thread reads from an array of this size."""
+
+class PartTimes:
+    """Seconds and operations of the parts of an L-BFGS step."""
+
+    @property
+    def kernel_seconds(self) -> float: ...
+
+    @property
+    def solve_seconds(self) -> float: ...
+
+    @property
+    def kernel_flops(self) -> float: ...
+
+    @property
+    def solve_flops(self) -> float: ...
+
+def time_parts(system: PosingSystem, u: NDArray[numpy.float64], *, single: bool, repeats: int = 20) -> PartTimes:
+    """
+    Times of one thread for the widest pack, all lanes at displacement u (3n,).
+    """
 
 BUILDS: dict[str, int]
 level: str

@@ -1,14 +1,37 @@
-"""Running a compiled solve so that Ctrl-C ends it and progress shows."""
+"""Running compiled work so that Ctrl-C ends it and progress shows."""
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from typing import Any
+from typing import Any, TypeVar
 
 from . import _core as core
 
 POLL_SECONDS = 0.1
+
+Result = TypeVar("Result")
+
+
+def run_abandonable(work: Callable[[], Result]) -> Result:
+    """Calls work() on a thread of its own, so that Ctrl-C is answered at once.
+
+    For compiled work without a way to tell it to stop, such as a factorisation. On Ctrl-C its
+    thread is left alone until it is done, and what it finds is lost.
+    """
+    outcome: Future[Result] = Future()
+
+    def run() -> None:
+        try:
+            outcome.set_result(work())
+        except BaseException as error:  # raised again by `result`
+            outcome.set_exception(error)
+
+    threading.Thread(target=run, daemon=True).start()
+    while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
+        pass
+    return outcome.result()
 
 
 def run_interruptible(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .mesh import mass_norms
 from .reduction import ReducedModel
+from .sampling import Domain
 from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
 
 FloatArray = NDArray[np.float64]
@@ -62,12 +63,11 @@ class Validation:
         }
 
 
-def unseen_parameters(model: ReducedModel, count: int, *, seed: int) -> FloatArray:
+def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
     """Uniform random parameters (count, p) from a stream that `sample` never draws from."""
     if count < 1:
         raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
-    domain = model.problem.domain
     return domain.from_unit(stream.random((count, domain.dimension)))
 
 
@@ -98,7 +98,7 @@ def validate(
     ValueError
         If no full solution converged.
     """
-    parameters = unseen_parameters(model, samples, seed=seed)
+    parameters = unseen_parameters(model.problem.domain, samples, seed=seed)
     tolerance = min(REFERENCE_TOLERANCE, 0.01 * model.problem.snapshot_tolerance)
     options = SolverOptions(tolerance=tolerance, max_iterations=5000)
     solved = solve_snapshots(

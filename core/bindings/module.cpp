@@ -7,6 +7,7 @@ void bind_snapshots(nb::module_& m);
 void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
 void bind_online(nb::module_& m);
+void bind_measure(nb::module_& m);
 }  // namespace snapspace
 
 NB_MODULE(SNAPSPACE_MODULE, m) {
@@ -19,4 +20,5 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_fitting(m);
   snapspace::bind_reduction(m);
   snapspace::bind_online(m);
+  snapspace::bind_measure(m);
 }

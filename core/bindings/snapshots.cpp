@@ -105,8 +105,9 @@ void bind_solves(nb::class_<System>& system) {
                        control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes"),
-          nb::arg("single"), "L-BFGS on the samples of a queue until it is closed and empty.")
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
+          nb::arg("single") = false,
+          "L-BFGS on the samples of a queue until it is closed and empty.")
       .def(
           "serve_newton",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
@@ -129,7 +130,7 @@ void bind_solves(nb::class_<System>& system) {
             });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 8,
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
@@ -189,6 +190,8 @@ void bind_snapshots(nb::module_& m) {
                           "Samples on their way to the threads that solve them, and back.")
       .def(nb::init<>())
       .def("close", &SampleQueue::close, "No more samples come.")
+      .def("running", &SampleQueue::running,
+           "Samples that are being solved, with their evaluations so far.")
       .def("collect", &SampleQueue::collect, nb::call_guard<nb::gil_scoped_release>(),
            nb::arg("seconds"),
            "Solutions since the last call; waits up to so many seconds for one.");
@@ -213,6 +216,7 @@ void bind_snapshots(nb::module_& m) {
         const auto n = static_cast<std::int32_t>(vertices.shape(0));
         for (std::size_t i = 0; i < pinned.size(); ++i)
           require(pinned.data()[i] >= 0 && pinned.data()[i] < n, "a pinned vertex is out of range");
+        const nb::gil_scoped_release release;
         const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
         new (self) PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
                                 {weights.data(), weights.data() + weights.size()});
@@ -229,6 +233,7 @@ void bind_snapshots(nb::module_& m) {
       "__init__",
       [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets, double lam, double mu) {
         require(poses.shape(0) >= 1 && poses.shape(2) == 3, "poses must be (k, n, 3)");
+        const nb::gil_scoped_release release;
         const LocalMesh mesh = local_mesh(poses.data(), poses.shape(1), tets);
         const Numbering numbering(mesh.order);
         const std::size_t size = 3 * poses.shape(1);

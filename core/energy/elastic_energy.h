@@ -19,7 +19,7 @@ struct ElasticEnergy {
   Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
     std::fill_n(gradient, 3 * rest.vertex_count, Real(0.0));
     Sum<Real> energy(0.0);
-    for (const RestTet& tet : rest.tets)
+    for (const auto& tet : rest.tets_in<typename ScalarOf<Real>::type>())
       energy += widened(stvk_energy_and_gradient(material, tet, u, gradient));
     return energy;
   }

@@ -17,8 +17,8 @@ struct StVK {
 
 /// Displacements of vertices 1, 2, 3 of a tet against vertex 0, as columns. Differences of nodal
 /// values come first: sums over all four vertices would lose digits on slivers.
-template <class Real>
-inline void edge_displacements(const RestTet& tet, const Real* u, Real D[3][3]) {
+template <class Real, class T>
+inline void edge_displacements(const RestTetOf<T>& tet, const Real* u, Real D[3][3]) {
   const Real* u0 = u + 3 * tet.vertices[0];
   for (int j = 0; j < 3; ++j) {
     const Real* uj = u + 3 * tet.vertices[j + 1];
@@ -27,16 +27,16 @@ inline void edge_displacements(const RestTet& tet, const Real* u, Real D[3][3]) 
 }
 
 /// G = D * inverse_edges.
-template <class Real>
-inline void gradient_of_edges(const RestTet& tet, const Real D[3][3], Real G[3][3]) {
-  const double (*B)[3] = tet.inverse_edges;
+template <class Real, class T>
+inline void gradient_of_edges(const RestTetOf<T>& tet, const Real D[3][3], Real G[3][3]) {
+  const T(*B)[3] = tet.inverse_edges;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) G[r][c] = D[r][0] * B[0][c] + D[r][1] * B[1][c] + D[r][2] * B[2][c];
 }
 
 /// Displacement gradient G = sum_j (u_j - u_0) (x) (row j of inverse_edges), constant in the tet.
-template <class Real>
-inline void displacement_gradient(const RestTet& tet, const Real* u, Real G[3][3]) {
+template <class Real, class T>
+inline void displacement_gradient(const RestTetOf<T>& tet, const Real* u, Real G[3][3]) {
   Real D[3][3];
   edge_displacements(tet, u, D);
   gradient_of_edges(tet, D, G);
@@ -63,10 +63,9 @@ inline Real stress_of_strain(const StVK& material, const Real E[3][3], Real S[3]
     S[r][r] = E[r][r] * two_mu + pressure;
     for (int c = r + 1; c < 3; ++c) S[r][c] = S[c][r] = E[r][c] * two_mu;
   }
-  const Real diagonal = E[0][0] * E[0][0] + E[1][1] * E[1][1] + E[2][2] * E[2][2];
-  const Real off_diagonal = E[0][1] * E[0][1] + E[0][2] * E[0][2] + E[1][2] * E[1][2];
-  return (diagonal + off_diagonal + off_diagonal) * Real(material.mu) +
-         trace * pressure * Real(0.5);
+  // psi = S : E / 2, quadratic in E
+  const Real diagonal = S[0][0] * E[0][0] + S[1][1] * E[1][1] + S[2][2] * E[2][2];
+  return diagonal * Real(0.5) + (S[0][1] * E[0][1] + S[0][2] * E[0][2] + S[1][2] * E[1][2]);
 }
 
 /// The same at G.
@@ -80,10 +79,10 @@ inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
 /// Adds volume * P * inverse_edges^T to `forces`, whose columns belong to vertices 1, 2, 3: P :
 /// grad(phi_j) over the tet. With the first Piola-Kirchhoff stress P that is the energy's gradient,
 /// with its differential a Hessian-vector product.
-template <class Real>
-inline void add_vertex_forces(const RestTet& tet, Real volume, const Real P[3][3],
+template <class Real, class T>
+inline void add_vertex_forces(const RestTetOf<T>& tet, Real volume, const Real P[3][3],
                               Real forces[3][3]) {
-  const double (*B)[3] = tet.inverse_edges;
+  const T(*B)[3] = tet.inverse_edges;
   for (int r = 0; r < 3; ++r) {
     const Real p0 = P[r][0] * volume;
     const Real p1 = P[r][1] * volume;
@@ -93,8 +92,8 @@ inline void add_vertex_forces(const RestTet& tet, Real volume, const Real P[3][3
 }
 
 /// Adds the forces of a tet's vertices 1, 2, 3, and their negative sum at vertex 0, to a gradient.
-template <class Real>
-inline void scatter_forces(const RestTet& tet, const Real forces[3][3], Real* gradient) {
+template <class Real, class T>
+inline void scatter_forces(const RestTetOf<T>& tet, const Real forces[3][3], Real* gradient) {
   Real* g0 = gradient + 3 * tet.vertices[0];
   Real* g1 = gradient + 3 * tet.vertices[1];
   Real* g2 = gradient + 3 * tet.vertices[2];
@@ -107,8 +106,8 @@ inline void scatter_forces(const RestTet& tet, const Real forces[3][3], Real* gr
   }
 }
 
-template <class Real>
-inline void scatter_stress(const RestTet& tet, const Real P[3][3], Real* gradient) {
+template <class Real, class T>
+inline void scatter_stress(const RestTetOf<T>& tet, const Real P[3][3], Real* gradient) {
   Real forces[3][3];
   for (auto& row : forces)
     for (Real& force : row) force = Real(0.0);
@@ -125,8 +124,8 @@ inline void first_stress(const Real G[3][3], const Real S[3][3], Real P[3][3]) {
 }
 
 /// Energy of one element at displacements u; adds its gradient to `gradient`.
-template <class Real>
-inline Real stvk_energy_and_gradient(const StVK& material, const RestTet& tet, const Real* u,
+template <class Real, class T>
+inline Real stvk_energy_and_gradient(const StVK& material, const RestTetOf<T>& tet, const Real* u,
                                      Real* gradient) {
   Real G[3][3], S[3][3], P[3][3];
   displacement_gradient(tet, u, G);
@@ -156,8 +155,8 @@ inline void stress_differential(const StVK& material, const Real G[3][3], const 
 }
 
 /// Adds H v of one element at displacements u to `product`.
-template <class Real>
-inline void stvk_hessian_product(const StVK& material, const RestTet& tet, const Real* u,
+template <class Real, class T>
+inline void stvk_hessian_product(const StVK& material, const RestTetOf<T>& tet, const Real* u,
                                  const Real* v, Real* product) {
   Real G[3][3], S[3][3], dF[3][3], dP[3][3];
   displacement_gradient(tet, u, G);

@@ -12,7 +12,7 @@ namespace snapspace {
 /// @param vertices  count x 3, finite; count >= 1
 [[nodiscard]] std::vector<std::int32_t> morton_order(const double* vertices, int count);
 
-/// A mesh renumbered by morton_order, its tets sorted by their first vertex along the curve.
+/// A mesh renumbered by morton_order, its tets sorted by their last vertices along the curve.
 struct LocalMesh {
   std::vector<std::int32_t> order;   ///< old index of every new one
   std::vector<std::int32_t> places;  ///< new index of every old one

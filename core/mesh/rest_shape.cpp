@@ -7,7 +7,7 @@
 namespace snapspace {
 
 RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
-    : tets(m), vertex_count(n) {
+    : tets(m), single_tets(m), vertex_count(n) {
   for (int i = 0; i < m; ++i) {
     RestTet& tet = tets[i];
     std::copy_n(t + 4 * i, 4, tet.vertices);
@@ -19,6 +19,10 @@ RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
     const Eigen::Matrix3d inverse = edges.inverse();
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) tet.inverse_edges[r][c] = inverse(r, c);
+    RestTetOf<float>& single = single_tets[i];
+    std::copy_n(tet.vertices, 4, single.vertices);
+    std::copy_n(&tet.inverse_edges[0][0], 9, &single.inverse_edges[0][0]);
+    single.volume = static_cast<float>(tet.volume);
   }
 }
 

@@ -2,24 +2,37 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace snapspace {
 
-/// What a tetrahedron's energy needs of its rest shape.
-struct RestTet {
-  double inverse_edges[3][3];  ///< inverse of the matrix with columns v1 - v0, v2 - v0, v3 - v0
-  double volume;               ///< positive, also where the tet is inverted in its rest shape
+/// What a tetrahedron's energy needs of its rest shape, in double or single precision.
+template <class T>
+struct RestTetOf {
+  T inverse_edges[3][3];  ///< inverse of the matrix with columns v1 - v0, v2 - v0, v3 - v0
+  T volume;               ///< positive, also where the tet is inverted in its rest shape
   std::int32_t vertices[4];
 };
+using RestTet = RestTetOf<double>;
 
 /// Rest shape of a tetrahedral mesh: shape-function gradients and volumes, tet by tet.
 struct RestShape {
   std::vector<RestTet> tets;
+  std::vector<RestTetOf<float>> single_tets;  ///< the same, for packs in single precision
   int vertex_count = 0;
 
   /// @param vertices  n x 3, row-major   @param tets  m x 4, row-major, none without volume
   RestShape(const double* vertices, int vertex_count, const std::int32_t* tets, int tet_count);
+
+  /// The tets in the precision of T, float or double.
+  template <class T>
+  [[nodiscard]] const std::vector<RestTetOf<T>>& tets_in() const {
+    if constexpr (std::is_same_v<T, float>)
+      return single_tets;
+    else
+      return tets;
+  }
 
   /// Volume of all tets.
   [[nodiscard]] double volume() const;

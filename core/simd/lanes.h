@@ -122,8 +122,18 @@ inline Pack<To, Width> cast(Pack<From, Width> a) {
 #endif
 }
 
+/// What a lane holds; a number is a pack of one.
+template <class Real>
+struct ScalarOf {
+  using type = Real;
+};
+template <class T, int Width>
+struct ScalarOf<Pack<T, Width>> {
+  using type = T;
+};
+
 inline void set_lane(double& x, int, double value) { x = value; }
-/// Sets one lane of a pack; a number is a pack of one.
+/// Sets one lane.
 template <class T, int Width>
 void set_lane(Pack<T, Width>& x, int lane, double value) {
   x.set(lane, static_cast<T>(value));

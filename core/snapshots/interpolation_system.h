@@ -92,7 +92,7 @@ class InterpolationObjective {
       : system_(system),
         threads_(threads),
         weights_(system.input_size(), Real(0.0)),
-        second_half_(kHalves ? system.size() : 0, Real(0.0)) {}
+        second_half_(system.size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const { return system_.size(); }
   [[nodiscard]] double negligible() const { return negligible_; }
@@ -103,12 +103,10 @@ class InterpolationObjective {
   }
 
   /// F at u (3n); its gradient overwrites `gradient`. Few samples are a pack or two, which would
-  /// leave threads idle: narrow packs go through the tets in two halves, whatever the number of
-  /// threads, because sums of other parts would round differently.
+  /// leave threads idle: the tets are gone through in two halves, whatever the number of threads
+  /// and the width of the pack, because sums of other parts would round differently.
   Sum<Real> value_and_gradient(const Real* u, Real* gradient) {
     const int tets = system_.energy->tets();
-    if constexpr (!kHalves)
-      return system_.energy->value_and_gradient(weights_.data(), u, gradient, 0, tets);
     Sum<Real> values[2];
     parallel_for(2, threads_, [&](int half) {
       const FlushDenormals flush;  // as on the caller's thread
@@ -141,8 +139,6 @@ class InterpolationObjective {
   }
 
  private:
-  static constexpr bool kHalves = sizeof(Real) <= 4 * sizeof(double);
-
   const InterpolationSystem& system_;
   int threads_;
   std::vector<Real> weights_;

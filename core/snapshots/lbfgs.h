@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -23,18 +24,21 @@
 
 namespace snapspace {
 
-/// @tparam Objective  has size(), negligible(), load(lane, input), value_and_gradient(u, g) and
-///                    precondition(v, result, scratch)
-/// @tparam Real       a pack, in the precision of shapes and gradients; values and inner products
-///                    are in double precision anyway
-template <class Objective, class Real>
+/// @tparam System  has an Objective<Real> with size(), negligible(), load(lane, input),
+///                 value_and_gradient(u, g) and precondition(v, result, scratch)
+/// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
+///                 in double precision anyway
+template <class System, class Real>
 class LaneLbfgs {
  public:
   static constexpr int kWidth = Real::kWidth;
 
-  LaneLbfgs(Objective objective, const SolveOptions& options)
-      : objective_(std::move(objective)),
+  /// @param threads  that the objective may use for itself
+  LaneLbfgs(const System& system, const SolveOptions& options, int threads)
+      : system_(system),
         options_(options),
+        threads_(threads),
+        objective_(system, threads),
         size_(objective_.size()),
         memory_(size_),
         u_(size_, Real(0)),
@@ -47,21 +51,35 @@ class LaneLbfgs {
 
   /// Solves samples until there are no more.
   ///
-  /// @param take    (number of samples that are being solved here) -> the next Sample, if any
-  /// @param finish  (id, report, write) with write(double* shape) copying the sample's shape
-  template <class Take, class Finish>
-  void run(Take take, Finish finish, const SolveControl& control) {
-    while (fill(take) && !control.cancelled) {
-      step();
+  /// @param exchange  has take(held) -> the next Sample, if any, for one who works on `held`
+  ///                  samples; exhausted(): no more come; tell(id, evaluations); and
+  ///                  finish(id, report, shape)
+  template <class Exchange>
+  void run(Exchange& exchange, const SolveControl& control) {
+    while (const int busy = fill(exchange)) {
+      if constexpr (kWidth > 2)
+        if (2 * busy <= kWidth && exchange.exhausted()) {
+          Half(*this).run(exchange, control);
+          return;
+        }
+      if (!step(control)) return;
       for (int lane = 0; lane < kWidth; ++lane) {
-        if (!lanes_[lane].busy() || !lanes_[lane].done) continue;
-        finish(lanes_[lane].sample, report(lane), [&](double* shape) { copy_shape(lane, shape); });
-        lanes_[lane].sample = -1;
+        if (!lanes_[lane].busy()) continue;
+        if (lanes_[lane].done)
+          hand_over(lane, exchange);
+        else
+          exchange.tell(lanes_[lane].id(), lanes_[lane].evaluations);
       }
     }
   }
 
  private:
+  template <class, class>
+  friend class LaneLbfgs;
+  /// Half as wide: for the last samples, when half of the lanes would be empty. What it computes
+  /// has the same bits.
+  using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
+
   static constexpr int kMaxShortenings = 30;
   static constexpr int kWindow = 8;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
@@ -70,7 +88,7 @@ class LaneLbfgs {
   using Clock = std::chrono::steady_clock;
 
   struct Lane {
-    int sample = -1;
+    std::optional<Sample> sample;
     bool fresh = false;      // the start itself is evaluated next
     bool restarted = false;  // since the last accepted step
     bool done = false;
@@ -84,7 +102,24 @@ class LaneLbfgs {
     SolveStatus status = SolveStatus::cancelled;
     Clock::time_point begin;
 
-    [[nodiscard]] bool busy() const { return sample >= 0; }
+    [[nodiscard]] bool busy() const { return sample.has_value(); }
+    [[nodiscard]] int id() const { return sample->id; }
+
+    /// Goes on with what another lane has, of a pack of any width.
+    template <class Other>
+    void take(Other& other) {
+      sample = std::move(other.sample);
+      fresh = other.fresh;
+      restarted = other.restarted;
+      iterations = other.iterations;
+      evaluations = other.evaluations;
+      shortenings = other.shortenings;
+      value = other.value;
+      slope = other.slope;
+      step = other.step;
+      std::copy_n(other.decreases, kWindow, decreases);
+      begin = other.begin;
+    }
 
     /// A single small predicted decrease may be luck: the mean of the last actual ones must be
     /// small as well.
@@ -96,35 +131,65 @@ class LaneLbfgs {
     }
   };
 
-  /// Gives samples to the empty lanes; whether any lane is busy then.
-  template <class Take>
-  bool fill(Take take) {
+  /// Takes over the samples of a wider pack that has at most kWidth.
+  template <class Wide>
+  explicit LaneLbfgs(Wide& from) : LaneLbfgs(from.system_, from.options_, from.threads_) {
+    std::vector<int> lanes;
+    for (int lane = 0; lane < Wide::kWidth; ++lane)
+      if (from.lanes_[lane].busy()) lanes.push_back(lane);
+    memory_.take_lanes(from.memory_, lanes);
+    for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
+      const int there = lanes[lane];
+      lanes_[lane].take(from.lanes_[there]);
+      objective_.load(lane, lanes_[lane].sample->input.data());
+      for (int i = 0; i < size_; ++i) {
+        u_[i].set(lane, from.u_[i][there]);
+        gradient_[i].set(lane, from.gradient_[i][there]);
+        direction_[i].set(lane, from.direction_[i][there]);
+      }
+    }
+  }
+
+  /// Gives samples to the empty lanes; how many are busy then.
+  template <class Exchange>
+  int fill(Exchange& exchange) {
     int busy = static_cast<int>(
         std::count_if(lanes_, lanes_ + kWidth, [](const Lane& lane) { return lane.busy(); }));
     for (int lane = 0; lane < kWidth && busy < kWidth; ++lane) {
       if (lanes_[lane].busy()) continue;
-      const auto sample = take(busy);
+      std::optional<Sample> sample = exchange.take(busy);
       if (!sample) break;
-      load(lane, *sample);
+      load(lane, std::move(*sample));
       ++busy;
     }
-    return busy > 0;
+    return busy;
+  }
+
+  template <class Exchange>
+  void hand_over(int lane, Exchange& exchange) {
+    std::vector<double> shape(size_);
+    for (int i = 0; i < size_; ++i) shape[i] = u_[i][lane];
+    exchange.finish(lanes_[lane].id(), report(lane), shape.data());
+    lanes_[lane].sample.reset();
   }
 
   /// What the lane's last sample has left in the vectors stays there: a fresh lane steps by zero,
   /// and its memory has no weight. All of it is finite.
-  void load(int index, const Sample& sample) {
+  void load(int index, Sample sample) {
     Lane& lane = lanes_[index] = Lane{};
-    lane.sample = sample.id;
     lane.fresh = true;
     lane.begin = Clock::now();
     memory_.forget(index);
     objective_.load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) set_lane(u_[i], index, sample.start[i]);
+    sample.start = {};
+    lane.sample = std::move(sample);
   }
 
-  /// One evaluation of all lanes and what follows from it.
-  void step() {
+  /// One evaluation of all lanes and what follows from it. False if the control cancels; it is
+  /// asked between the parts, which take a while on large meshes.
+  bool step(const SolveControl& control) {
+    if (control.cancelled) return false;
     Total length;
     for (int lane = 0; lane < kWidth; ++lane)
       length.set(lane, lanes_[lane].fresh ? 0.0 : lanes_[lane].step);
@@ -148,6 +213,7 @@ class LaneLbfgs {
         memory_.second_loop(accepted, gradient_.data(), work_.data(), direction_.data());
     for (int lane = 0; lane < kWidth; ++lane)
       if (accepted[lane] != 0) test_convergence(lane, slopes[lane]);
+    return true;
   }
 
   /// Accepts or refuses the lane's trial, and chooses a shorter step where it is refused.
@@ -209,10 +275,6 @@ class LaneLbfgs {
     for (int i = 0; i < size_; ++i) set_lane(direction_[i], index, 0.0);
   }
 
-  void copy_shape(int lane, double* to) const {
-    for (int i = 0; i < size_; ++i) to[i] = u_[i][lane];
-  }
-
   SolveReport report(int index) const {
     const Lane& lane = lanes_[index];
     double square = 0.0;
@@ -228,8 +290,10 @@ class LaneLbfgs {
     return result;
   }
 
-  Objective objective_;
+  const System& system_;
   SolveOptions options_;
+  int threads_;
+  typename System::template Objective<Real> objective_;
   int size_;
   LbfgsMemory<Real> memory_;
   Lane lanes_[kWidth];

@@ -36,6 +36,25 @@ class LbfgsMemory {
     }
   }
 
+  /// Takes over everything from the lanes of a wider memory.
+  template <class Wide>
+  void take_lanes(const LbfgsMemory<Wide>& from, const std::vector<int>& lanes) {
+    newest_ = from.newest_;
+    for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
+      const int there = lanes[lane];
+      for (int k = 0; k < kPairs; ++k) {
+        curvature_[k].set(lane, from.curvature_[k][there]);
+        step_gradient_[k].set(lane, from.step_gradient_[k][there]);
+        change_direction_[k].set(lane, from.change_direction_[k][there]);
+        for (int j = 0; j < kPairs; ++j) product_[k][j].set(lane, from.product_[k][j][there]);
+        for (int i = 0; i < size_; ++i) {
+          steps_[k][i].set(lane, from.steps_[k][i][there]);
+          changes_[k][i].set(lane, from.changes_[k][i][there]);
+        }
+      }
+    }
+  }
+
   /// Empties a lane: its pairs stay where they are, but have no weight.
   void forget(int lane) {
     for (int k = 0; k < kPairs; ++k) {
@@ -72,6 +91,9 @@ class LbfgsMemory {
                     Real* direction);
 
  private:
+  template <class>
+  friend class LbfgsMemory;
+
   /// In the precision of shapes.
   template <class T>
   static Real narrowed(Pack<T, kWidth> a) {

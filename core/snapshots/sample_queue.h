@@ -3,6 +3,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -64,8 +65,27 @@ class SampleQueue {
     return sample;
   }
 
+  /// Whether all samples are with solvers and no more come.
+  [[nodiscard]] bool exhausted() {
+    const std::lock_guard lock(mutex_);
+    return closed_ && waiting_.empty();
+  }
+
+  /// How many evaluations a sample has had so far.
+  void tell(int id, int evaluations) {
+    const std::lock_guard lock(mutex_);
+    running_[id] = evaluations;
+  }
+
+  /// Samples that are with solvers, and their evaluations.
+  std::vector<std::pair<int, int>> running() {
+    const std::lock_guard lock(mutex_);
+    return {running_.begin(), running_.end()};
+  }
+
   void finish(Solution solution) {
     const std::lock_guard lock(mutex_);
+    running_.erase(solution.id);
     finished_.push_back(std::move(solution));
     --open_;
     changed_.notify_all();
@@ -84,6 +104,7 @@ class SampleQueue {
   std::condition_variable changed_;
   std::deque<Sample> waiting_;
   std::vector<Solution> finished_;
+  std::map<int, int> running_;
   int open_ = 0;  // waiting or with a solver
   int solvers_ = 1;
   bool closed_ = false;

@@ -17,6 +17,9 @@ int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
+/// Packs of two samples or more: alone in a pack, a sample would cost nearly as much as two.
+int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
+
 /// What a solver needs of a queue, in the numbering of the system.
 template <class System>
 class Exchange {
@@ -33,6 +36,10 @@ class Exchange {
     }
     return sample;
   }
+
+  [[nodiscard]] bool exhausted() const { return queue_.exhausted(); }
+
+  void tell(int id, int evaluations) const { queue_.tell(id, evaluations); }
 
   void finish(int id, SolveReport report, const double* shape) const {
     report.inverted_tets = system_.inverted_tets(shape);
@@ -51,39 +58,29 @@ class Exchange {
 template <class Real, class System>
 void solve_in_lanes(const System& system, SampleQueue& queue, int expected,
                     const SolveOptions& options, SolveControl& control) {
-  // No more packs than the samples fill.
-  const int threads = thread_count(options.threads);
-  const int packs = std::clamp((expected + Real::kWidth - 1) / Real::kWidth, 1, threads);
+  const int threads = thread_count(options.threads), packs = pack_count(expected, threads);
   const Exchange exchange(system, queue, control);
   queue.share(packs);
   parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
-    using Objective = typename System::template Objective<Real>;
-    LaneLbfgs<Objective, Real> solver(Objective(system, threads / packs), options);
-    std::vector<double> shape(system.size());
-    solver.run([&](int held) { return exchange.take(held); },
-               [&](int id, const SolveReport& report, const auto& write) {
-                 write(shape.data());
-                 exchange.finish(id, report, shape.data());
-               },
-               control);
+    LaneLbfgs<System, Real>(system, options, threads / packs).run(exchange, control);
   });
 }
 
-/// Packs of the wanted width, or the widest that this build has.
+/// Packs that hold the samples, as wide as is wanted and as this build has. Width does not change
+/// results; packs get narrower by themselves towards the end.
 template <class T, class System>
 void solve_in_packs(const System& system, SampleQueue& queue, int expected,
                     const SolveOptions& options, SolveControl& control) {
   constexpr int kWidest = kWideLanes * static_cast<int>(sizeof(double) / sizeof(T));
+  const int packs = pack_count(expected, thread_count(options.threads));
+  const int width = std::min(options.lanes, (expected + packs - 1) / packs);
   if constexpr (kWidest >= 16)
-    if (options.lanes >= 16)
-      return solve_in_lanes<Pack<T, 16>>(system, queue, expected, options, control);
+    if (width > 8) return solve_in_lanes<Pack<T, 16>>(system, queue, expected, options, control);
   if constexpr (kWidest >= 8)
-    if (options.lanes >= 8)
-      return solve_in_lanes<Pack<T, 8>>(system, queue, expected, options, control);
+    if (width > 4) return solve_in_lanes<Pack<T, 8>>(system, queue, expected, options, control);
   if constexpr (kWidest >= 4)
-    if (options.lanes >= 4)
-      return solve_in_lanes<Pack<T, 4>>(system, queue, expected, options, control);
+    if (width > 2) return solve_in_lanes<Pack<T, 4>>(system, queue, expected, options, control);
   solve_in_lanes<Pack<T, 2>>(system, queue, expected, options, control);
 }
 

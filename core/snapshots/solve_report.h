@@ -26,7 +26,7 @@ struct SolveReport {
 struct SolveOptions {
   double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value; L-BFGS asks more
   int max_iterations = 500;
-  int lanes = 8;        ///< samples in a pack at most; results of other widths agree up to rounding
+  int lanes = 16;       ///< samples in a pack at most
   bool single = false;  ///< packs in single precision
   int threads = 0;      ///< 0: as many as the machine has
 };

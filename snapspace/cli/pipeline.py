@@ -96,7 +96,7 @@ def build_model(
         On Ctrl-C, with a line that says what is kept.
     """
     begin = time.perf_counter() if begin is None else begin
-    options = solver_key(recipe.solver, problem, len(recipe.parameters))
+    options = solver_key(recipe.solver, problem)
     key = run_key(problem, recipe.parameters, options)
     checkpoint = Checkpoint.beside(output, key)
     seconds: dict[str, float] = {}
@@ -111,7 +111,7 @@ def build_model(
         with _stage(seconds, "reduction"), console().status("reduced energy"):
             usable = np.ones(len(snapshots), bool)
             if not recipe.include_unconverged:
-                usable = snapshots.converged
+                usable = snapshots.usable
             used = snapshots.select(usable)
             model = _reduced(problem, subspace, used, surface, threads=recipe.threads)
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}

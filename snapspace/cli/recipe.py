@@ -67,7 +67,7 @@ def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
             "core": _core.level,
         },
         "sampling": recipe.sampling,
-        "solver": solver_key(recipe.solver, snapshots.problem, len(recipe.parameters)),
+        "solver": solver_key(recipe.solver, snapshots.problem),
         "basis": {
             "dimension": recipe.dimension,
             "energy_fraction": recipe.energy_fraction,

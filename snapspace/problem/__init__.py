@@ -3,8 +3,7 @@
 from .handle_box import HandleBox
 from .handles import Handle, Handles
 from .interpolation_problem import InterpolationProblem
-from .lanes import lane_count
-from .motion import affine_offset, rigid_offset, rotation_matrix
+from .motion import affine_offset, euler_of_rotation, rigid_offset, rotation_matrix
 from .poses import Poses
 from .posing_problem import PosingProblem
 from .problem import Problem, solutions_beyond_tau
@@ -22,9 +21,9 @@ __all__ = [
     "Problem",
     "Simplex",
     "affine_offset",
+    "euler_of_rotation",
     "in_box",
     "in_sphere",
-    "lane_count",
     "problem_content",
     "read_problem",
     "rigid_offset",

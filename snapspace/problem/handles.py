@@ -46,6 +46,8 @@ class Handles:
     >>> handles = Handles([[0, 1], [7, 8]], names=["foot", "head"])
     >>> handles["head"].vertices
     array([7, 8], dtype=int32)
+    >>> handles.adding("tail", [3, 4]).without("head")
+    Handles(foot: 2, tail: 2)
     """
 
     def __init__(
@@ -78,6 +80,31 @@ class Handles:
             )
         return self.names.index(name)
 
+    def adding(self, name: str, vertices: ArrayLike) -> Handles:
+        """These handles and, after them, one more; ValueError as for the constructor."""
+        return Handles([*(handle.vertices for handle in self), vertices], names=[*self.names, name])
+
+    def replacing(self, name: str, vertices: ArrayLike) -> Handles:
+        """The same with other vertices for one of them; ValueError if there is no such handle."""
+        chosen: list[ArrayLike] = [handle.vertices for handle in self]
+        chosen[self.index(name)] = vertices
+        return Handles(chosen, names=self.names)
+
+    def without(self, name: str) -> Handles:
+        """All but one; ValueError if there is no such handle, or only one would be left.
+
+        Without the first the next one is fixed while sampling.
+        """
+        self.index(name)
+        return _handles([handle for handle in self if handle.name != name])
+
+    def fixing(self, name: str) -> Handles:
+        """The same with one of them as the first, which is fixed while sampling.
+
+        ValueError if there is no such handle.
+        """
+        return _handles([self[name], *(handle for handle in self if handle.name != name)])
+
     def __len__(self) -> int:
         return len(self._handles)
 
@@ -100,6 +127,10 @@ class Handles:
                         f"Handles: '{a.name}' and '{b.name}' overlap in {common.size} vertices, "
                         f"the first is {common[0]}; a vertex can follow one handle only"
                     )
+
+
+def _handles(chosen: Sequence[Handle]) -> Handles:
+    return Handles([h.vertices for h in chosen], names=[h.name for h in chosen])
 
 
 def _as_indices(name: str, which: ArrayLike) -> IndexArray:

@@ -14,6 +14,7 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..energy import StVK
+from ..interruptible import run_abandonable
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
 from .mean_shape import mean_displacement
@@ -187,7 +188,8 @@ class InterpolationProblem:
 
     def system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""
-        return self._rest_system.adapted(np.ascontiguousarray(displacement)[None, :])
+        rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
+        return run_abandonable(lambda: rest.adapted(shapes))
 
     def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
@@ -232,8 +234,9 @@ class InterpolationProblem:
     def _rest_system(self) -> core.InterpolationSystem:
         # energies do not depend on the poses' frames, but far apart the differences lose digits
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        return core.InterpolationSystem(
-            shapes, self.poses.tets, self.material.lam, self.material.mu
+        tets, material = self.poses.tets, self.material
+        return run_abandonable(
+            lambda: core.InterpolationSystem(shapes, tets, material.lam, material.mu)
         )
 
     @cached_property

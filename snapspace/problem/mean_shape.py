@@ -7,7 +7,6 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
-from .lanes import lane_count
 
 FloatArray = NDArray[np.float64]
 
@@ -72,7 +71,6 @@ def _stage(
             max_iterations=_STAGE,
             threads=threads,
             control=control,
-            lanes=lane_count(len(starts)),
         ),
         lambda finished: None,
     )

@@ -21,6 +21,36 @@ def rotation_matrix(euler: ArrayLike) -> FloatArray:
     return matrices.reshape(*angles.shape, 3)
 
 
+def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
+    """Extrinsic Euler angles (alpha, beta, gamma) of a rotation: the inverse of `rotation_matrix`.
+
+    Parameters
+    ----------
+    rotation : array_like, (..., 3, 3)
+        Orthogonal matrices with determinant 1.
+
+    Returns
+    -------
+    ndarray, (..., 3)
+        In radians, with |beta| <= pi / 2 and the others in [-pi, pi]. Their `rotation_matrix` is
+        `rotation` to rounding, everywhere. At beta = pi / 2 and -pi / 2 (gimbal lock) only
+        alpha - gamma or alpha + gamma is determined, and alpha is zero.
+    """
+    R = np.asarray(rotation, np.float64)
+    # row 2 of R is (-sin beta, cos beta sin alpha, cos beta cos alpha)
+    level = np.hypot(R[..., 2, 1], R[..., 2, 2])
+    locked = level <= 4.0 * np.finfo(float).eps
+    alpha = np.where(locked, 0.0, np.arctan2(R[..., 2, 1], R[..., 2, 2]))
+    beta = np.arctan2(-R[..., 2, 0], level)
+    # gamma from R Rx(-alpha) = Rz Ry: near gimbal lock alpha is mostly rounding, and this gamma
+    # makes up for it, while one from column 0 of R would have a rounding of its own
+    sine, cosine = np.sin(alpha), np.cos(alpha)
+    gamma = np.arctan2(
+        sine * R[..., 0, 2] - cosine * R[..., 0, 1], cosine * R[..., 1, 1] - sine * R[..., 1, 2]
+    )
+    return np.stack([alpha, beta, gamma], axis=-1)
+
+
 def rigid_offset(euler: ArrayLike, translation: ArrayLike) -> FloatArray:
     """Offsets [R - I | t], (..., 3, 4), of rigid motions about a centroid.
 

@@ -16,6 +16,7 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..energy import ElasticEnergy, StVK
+from ..interruptible import run_abandonable
 from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
 from .handles import Handles
@@ -80,6 +81,40 @@ class PosingProblem:
                 "PosingProblem: the vertices of all handles lie on one line, so the shape could "
                 "turn about it; give the handles more vertices"
             )
+
+    def with_handles(self, handles: Handles, *, domain: HandleBox | None = None) -> PosingProblem:
+        """The same body, of the same material and stiffness, moved by other handles.
+
+        What solutions for the old handles are worth for the new ones is told by `carried`.
+
+        Parameters
+        ----------
+        handles : Handles
+            For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
+            `fixing`.
+        domain : HandleBox, optional
+            Default: the bounds of this problem, for each moving handle.
+
+        Returns
+        -------
+        PosingProblem
+            A new one; it shares the mesh and the compiled energy with this one, which stays as it
+            is.
+
+        Raises
+        ------
+        ValueError
+            As for the constructor.
+        """
+        other = PosingProblem(
+            self.mesh,
+            handles,
+            domain=domain or self.domain,
+            material=self.material,
+            stiffness=self.stiffness,
+        )
+        other.energy = self.energy
+        return other
 
     @property
     def snapshot_tolerance(self) -> float:
@@ -163,8 +198,11 @@ class PosingProblem:
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
         mesh, material = self.mesh, self.material
-        return core.PosingSystem(
-            mesh.vertices, mesh.tets, material.lam, material.mu, self.pinned, self.pin_weights
+        pinned, weights = self.pinned, self.pin_weights
+        return run_abandonable(
+            lambda: core.PosingSystem(
+                mesh.vertices, mesh.tets, material.lam, material.mu, pinned, weights
+            )
         )
 
     def offsets(self, parameters: ArrayLike) -> FloatArray:

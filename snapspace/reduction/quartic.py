@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..energy import ElasticEnergy
+from ..interruptible import run_abandonable
 from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
 
@@ -96,5 +97,7 @@ def _coefficients(
     energy: core.ElasticEnergy, rest: FloatArray, subspace: AffineSubspace, *, threads: int | None
 ) -> FloatArray:
     modes = np.ascontiguousarray(np.vstack([subspace.tau - rest, subspace.basis.T]))
-    coefficients: FloatArray = core.quartic_coefficients(energy, modes, threads=threads or 0)
+    coefficients: FloatArray = run_abandonable(
+        lambda: core.quartic_coefficients(energy, modes, threads=threads or 0)
+    )
     return coefficients

@@ -1,5 +1,6 @@
 """Snapshots: full-space solutions at sampled parameters."""
 
+from .carry import carried
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .displacement_rows import DisplacementRows
 from .run import Interrupted
@@ -23,6 +24,7 @@ __all__ = [
     "SolveProgress",
     "SolverOptions",
     "UnsavedSamplesError",
+    "carried",
     "run_key",
     "solve_snapshots",
     "solver_key",

@@ -117,6 +117,13 @@ class ExecutorBackend:
         solved, self._collected = self._collected, []
         return solved
 
+    def running(self) -> dict[int, int]:
+        """Nothing: workers do not tell how far their samples are."""
+        return {}
+
+    def no_more(self) -> None:
+        """All samples are submitted."""
+
     def cancel(self) -> None:
         """Asks all tasks to end; returns at once. Other processes finish what they have begun."""
         self._cancelled = True

@@ -45,7 +45,6 @@ def solve_fast(
         max_iterations=first_iterations(problem, options),
         threads=threads,
         control=control,
-        lanes=options.lanes,
         single=options.single,
     )
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
@@ -85,16 +84,14 @@ def solve_on(
         if control.cancelled:
             return shape, replace(report, status="cancelled")
         left = options.max_iterations - report.iterations
-        alone = options.for_one(iterations=min(problem.patience or left, left))
         again = problem.system_near(shape).solve_fast(
             inputs[None],
             shape[None],
-            tolerance=alone.tolerance,
-            max_iterations=alone.max_iterations,
+            tolerance=options.tolerance,
+            max_iterations=min(problem.patience or left, left),
             threads=threads,
             control=control,
-            lanes=alone.lanes,
-            single=alone.single,
+            single=options.single,
         )
         shape, report = again.shapes[0], _continued(report, as_sample_report(again.reports[0]))
     return shape, report

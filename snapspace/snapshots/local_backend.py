@@ -67,6 +67,14 @@ class LocalBackend:
             del self._inputs[one.sample]
         return [one for one in done if one.report.status != "cancelled"]
 
+    def running(self) -> dict[int, int]:
+        """Samples that are being solved, and how many evaluations they have had."""
+        return dict(self._queue.running())
+
+    def no_more(self) -> None:
+        """All samples are submitted: packs may get narrower."""
+        self._queue.close()
+
     def cancel(self) -> None:
         """Ends all solves; what is not finished by then is lost. Returns at once."""
         self._control.cancel()
@@ -97,7 +105,6 @@ class LocalBackend:
             max_iterations=first_iterations(self._problem, options),
             threads=self._threads,
             control=self._control,
-            lanes=options.lanes,
             single=options.single,
         )
 

@@ -44,6 +44,14 @@ class Backend(Protocol):
         """Samples that are finished, after at most `timeout` seconds."""
         ...
 
+    def running(self) -> dict[int, int]:
+        """Evaluations so far of samples that are not finished, as far as it is known."""
+        ...
+
+    def no_more(self) -> None:
+        """Tells that all samples are submitted."""
+        ...
+
     def cancel(self) -> None:
         """Ends all solves soon; returns at once."""
         ...
@@ -82,6 +90,7 @@ class Run:
         self.reports: dict[int, SampleReport] = {}
         self.unsaved: list[int] = []
         self.complete = 0  # leading blocks that are finished
+        self.quick: list[list[int]] = []  # of leading blocks: samples that others start from
         for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
             self.rows[index], self.reports[index] = row, report
         self.found = len(self.reports)
@@ -91,6 +100,7 @@ class Run:
         self.known_parameters = given
         self.known_rows = DisplacementRows(shapes - problem.base, problem.base.size)
         if known is not None:
+            known = known.select(known.usable)
             self.known_parameters = np.vstack([given, known.parameters])
             self.known_rows = self.known_rows.followed_by(known.displacements)
 
@@ -129,9 +139,11 @@ class Run:
         submitted = 0
         while len(self.reports) < len(self.samples):
             self._advance()
-            while submitted < len(self.schedule) and self._ready(submitted):
+            while submitted < len(self.schedule) and self._ready(submitted, backend):
                 self._submit(backend, submitted)
                 submitted += 1
+                if submitted == len(self.schedule):
+                    backend.no_more()
             self._tell()
             self._book(backend.wait(POLL_SECONDS))
             if len(self.unsaved) >= self.options.block:
@@ -139,8 +151,16 @@ class Run:
         self._advance()
         self._tell()
 
-    def _ready(self, block: int) -> bool:
-        return self.schedule.before(block).stop <= self.complete * self.schedule.block
+    def _ready(self, index: int, backend: Backend) -> bool:
+        """Whether it is known which samples a block starts from."""
+        before = self.schedule.before(index)
+        finished = {i: report.evaluations for i, report in self.reports.items()}
+        while len(self.quick) < len(before):
+            quick = self.schedule.quick(len(self.quick), finished, backend.running())
+            if quick is None:
+                return False
+            self.quick.append(quick)
+        return True
 
     def _advance(self) -> None:
         """Counts the leading blocks that are finished, and learns from them."""
@@ -168,7 +188,8 @@ class Run:
 
     def _starts(self, index: int, inputs: FloatArray) -> FloatArray:
         """Guesses for a block from converged samples before it, and from what is known anyway."""
-        before = [i for i in self.schedule.before(index) if self.reports[i].converged]
+        quick = [i for block in self.schedule.before(index) for i in self.quick[block]]
+        before = [i for i in quick if self.reports[i].converged]
         scaled = self.problem.domain.scaled
         parameters = scaled(np.vstack([self.known_parameters, self.samples[before]]))
         rows = self.known_rows.followed_by([self.rows[i] for i in before])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 
@@ -9,14 +10,14 @@ from dataclasses import dataclass
 class Schedule:
     """Blocks of samples in order, each with the earlier blocks that its starts come from.
 
-    Starts depend on the numbers of samples only, never on what happens to be finished, so that
-    results do not depend on threads, executors or interruptions.
+    Starts depend on the samples only, never on what happens to be finished, so that results do not
+    depend on threads, executors or interruptions.
 
     count : number of samples
     block : samples per block
-    strict : a block starts from all earlier blocks and has to wait for them; otherwise from the
-        first three fifths. The rest may still be in work: with two fifths of slack nobody waits
-        for a slow sample, and early blocks do not go without starts.
+    strict : a block starts from all earlier blocks and has to wait for them. Otherwise it starts
+        from the first three quarters of the blocks before it, and of each of these from the three
+        quarters of the samples that took the fewest evaluations: nobody waits for slow samples.
     """
 
     count: int
@@ -32,6 +33,28 @@ class Schedule:
         return range(begin, min(begin + self.block, self.count))
 
     def before(self, index: int) -> range:
-        """The samples that a block's starts come from: they are finished before it begins."""
-        blocks = index if self.strict else 3 * index // 5
-        return range(0, blocks * self.block)
+        """The blocks that a block's starts come from."""
+        return range(index if self.strict else 3 * index // 4)
+
+    def waited_for(self, index: int) -> int:
+        """How many samples of a block later blocks wait for."""
+        size = len(self.samples(index))
+        return size if self.strict else -(-3 * size // 4)
+
+    def quick(
+        self, index: int, finished: Mapping[int, int], running: Mapping[int, int]
+    ) -> list[int] | None:
+        """The samples of a block that later blocks start from; None while that is not certain.
+
+        finished, running : evaluations of samples, at the end or so far
+        """
+        done = sorted((finished[i], i) for i in self.samples(index) if i in finished)
+        wanted = self.waited_for(index)
+        if len(done) < wanted:
+            return None
+        last = done[wanted - 1]
+        # a sample that is not finished might still have had fewer
+        for i in self.samples(index):
+            if i not in finished and running.get(i, 0) <= last[0]:
+                return None
+        return sorted(i for _, i in done[:wanted])

@@ -23,6 +23,10 @@ class SampleReport:
     objective F at the shape, gradient_norm the Euclidean norm of its gradient, decrement twice the
     decrease that the solver's model still predicted, seconds the wall time, inverted_tets the
     number of tets with det F <= 0.
+
+    The status carried is that of a shape that was not solved for these parameters, see `carried`:
+    it took no iterations, evaluations nor time, and the other numbers are those of a solve that
+    would start there.
     """
 
     status: str
@@ -39,10 +43,15 @@ class SampleReport:
         """Whether the solver's test was met."""
         return self.status == "converged"
 
+    @property
+    def carried(self) -> bool:
+        """Whether the shape comes from a problem with other handles, where it was a solution."""
+        return self.status == "carried"
+
 
 @dataclass(frozen=True)
 class Snapshots:
-    """Solutions of a problem at sampled parameters.
+    """Solutions of a problem at sampled parameters, and shapes that are worth as much to a basis.
 
     problem : Problem
     parameters : (k, p), one sample per row
@@ -108,18 +117,49 @@ class Snapshots:
         """Mask (k,) of the samples that met the solver's test."""
         return np.array([report.converged for report in self.reports], dtype=bool)
 
+    @property
+    def usable(self) -> NDArray[np.bool_]:
+        """Mask (k,) of the samples for a basis and for starts: converged ones and carried ones."""
+        return np.array([r.converged or r.carried for r in self.reports], dtype=bool)
+
     def select(self, which: NDArray[np.bool_]) -> Snapshots:
         """The samples of a mask (k,); displacements are shared, not copied."""
         reports = [report for report, keep in zip(self.reports, which, strict=True) if keep]
         rows = self.displacements.select(which)
         return Snapshots(self.problem, self.parameters[which], rows, reports)
 
+    def joined(self, others: Snapshots) -> Snapshots:
+        """These samples and then those of another run.
+
+        Raises
+        ------
+        ValueError
+            If the others are of another problem.
+        """
+        if others.problem.fingerprint != self.problem.fingerprint:
+            raise ValueError(
+                f"Snapshots.joined: the others are of another problem, {others.problem!r} instead "
+                f"of {self.problem!r}; `carried` brings them to the handles of this one"
+            )
+        return Snapshots(
+            self.problem,
+            np.vstack([self.parameters, others.parameters]),
+            self.displacements.followed_by(others.displacements),
+            [*self.reports, *others.reports],
+        )
+
     def summary(self) -> str:
-        """One line: how many converged, why others did not, iterations, inverted tets."""
+        """One line: how many converged, why others did not, iterations, inverted tets.
+
+        Carried samples are told apart: they count among those neither for how many converged nor
+        for the iterations.
+        """
+        solved = [report for report in self.reports if not report.carried]
         good = int(self.converged.sum())
-        parts = [f"{good} of {len(self)} samples converged"]
+        parts = [f"{good} of {len(solved)} samples converged"] if solved else []
         for status in sorted({r.status for r in self.reports if not r.converged}):
             parts.append(f"{sum(r.status == status for r in self.reports)} {status}")
-        parts.append(f"{np.mean([r.iterations for r in self.reports]):.0f} iterations on average")
+        if solved:
+            parts.append(f"{np.mean([r.iterations for r in solved]):.0f} iterations on average")
         parts.append(f"at most {max(r.inverted_tets for r in self.reports)} inverted tets")
         return ", ".join(parts)

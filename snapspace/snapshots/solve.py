@@ -76,7 +76,7 @@ def solve_snapshots(
     run = Run(
         problem,
         samples,
-        (options or SolverOptions()).resolved(problem, len(samples)),
+        (options or SolverOptions()).resolved(problem),
         progress=progress,
         checkpoint=checkpoint,
         known=known,
@@ -85,9 +85,9 @@ def solve_snapshots(
     return run.snapshots()
 
 
-def solver_key(options: SolverOptions, problem: Problem, samples: int) -> dict[str, Any]:
-    """What of the options the solutions of so many samples of a problem depend on."""
-    return options.resolved(problem, samples).as_key()
+def solver_key(options: SolverOptions, problem: Problem) -> dict[str, Any]:
+    """What of the options the solutions of a problem depend on."""
+    return options.resolved(problem).as_key()
 
 
 def _checked(problem: Problem, parameters: ArrayLike) -> FloatArray:

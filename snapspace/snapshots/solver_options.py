@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 import numpy as np
 
-from ..problem import Problem, lane_count
+from ..problem import Problem
 
 Solver = Literal["fast", "newton"]
 Precision = Literal["single", "double"]
@@ -39,9 +39,9 @@ class SolverOptions:
         in double precision anyway. Default: single for tolerances of 3e-6 and more, which takes
         half the time and changes the shapes by less than the tolerance does.
     block : int, optional
-        Samples handed out together. They start from the samples of earlier blocks: "fast" from
-        those of the first three fifths of the blocks, so that nobody waits for a slow sample,
-        "newton" from all. Default 16 for "fast", 2 for "newton".
+        Samples handed out together. They start from the samples of earlier blocks, see `Schedule`:
+        larger ones keep more cores busy, smaller ones give better starts. Default 16 for "fast", 2
+        for "newton".
 
     Raises
     ------
@@ -72,8 +72,8 @@ class SolverOptions:
         if self.block is not None and self.block < 1:
             raise ValueError(f"block is {self.block}, but must be at least 1")
 
-    def resolved(self, problem: Problem, samples: int) -> ResolvedOptions:
-        """The options with everything decided, for a number of samples of a problem."""
+    def resolved(self, problem: Problem) -> ResolvedOptions:
+        """The options with everything decided, for a problem."""
         tolerance = problem.snapshot_tolerance if self.tolerance is None else self.tolerance
         precision = self.precision or ("single" if tolerance >= SINGLE_TOLERANCE else "double")
         single = self.solver == "fast" and precision == "single"
@@ -83,7 +83,6 @@ class SolverOptions:
             max_iterations=self.max_iterations,
             clamp=self.clamp,
             single=single,
-            lanes=lane_count(samples, single=single) if self.solver == "fast" else 1,
             block=self.block or (16 if self.solver == "fast" else 2),
         )
 
@@ -92,8 +91,7 @@ class SolverOptions:
 class ResolvedOptions:
     """All that the solutions of samples depend on, apart from the problem and the samples.
 
-    As in `SolverOptions`; single is whether shapes are in single precision, lanes the width of the
-    packs: samples that are solved together.
+    As in `SolverOptions`; single is whether shapes are in single precision.
     """
 
     solver: Solver
@@ -101,14 +99,7 @@ class ResolvedOptions:
     max_iterations: int
     clamp: float
     single: bool
-    lanes: int
     block: int
-
-    def for_one(self, *, iterations: int) -> ResolvedOptions:
-        """For a single sample that is solved alone, with at most so many iterations."""
-        return replace(
-            self, lanes=lane_count(1, single=self.single), max_iterations=iterations, block=1
-        )
 
     def as_key(self) -> dict[str, Any]:
         """The options by name, for the record and for the key of a run."""

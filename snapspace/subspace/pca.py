@@ -28,8 +28,9 @@ def snapshot_pca(
 ) -> AffineSubspace:
     """Subspace through tau that fits the snapshots best in the M-norm (paper, sec. 5).
 
-    Solutions that the problem knows without solving, the poses of an interpolation, count as
-    snapshots. Memory: the basis and blocks; the snapshots stay where they are.
+    Those that are converged or carried count, see `Snapshots.usable`, and so do the solutions that
+    the problem knows without solving, the poses of an interpolation. Memory: the basis and blocks;
+    the snapshots stay where they are.
 
     Parameters
     ----------
@@ -57,7 +58,7 @@ def snapshot_pca(
         no snapshot is usable, or the Gram matrix is of other snapshots.
     """
     _check_size(dimension, energy_fraction)
-    which = np.ones(len(snapshots), bool) if include_unconverged else snapshots.converged
+    which = np.ones(len(snapshots), bool) if include_unconverged else snapshots.usable
     if not which.any():
         raise ValueError(
             f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "

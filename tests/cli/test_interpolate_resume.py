@@ -49,7 +49,7 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
 
     with monkeypatch.context() as patch:
         patch.setattr(interruptible, "POLL_SECONDS", 0.002)
-        patch.setattr(pose_files, "sample_progress", stop_after_the_first)
+        patch.setattr(pose_files, "step_progress", stop_after_the_first)
         result = run(*surface_words, "--threads", 1, "-o", path, "--json")
     assert (result.code, result.out) == (130, "")
     line = result.err.splitlines()[-1]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from snapspace.cli.progress import sample_progress
+from snapspace import SolveProgress
+from snapspace.cli.progress import sample_progress, step_progress
 from snapspace.cli.units import in_bytes, in_time
 
 
 def test_a_log_has_one_line_for_every_tenth(capsys: pytest.CaptureFixture[str]) -> None:
-    with sample_progress("snapshots", total=40) as progress:
+    with step_progress("snapshots", total=40) as progress:
         for done in range(41):
             progress(done, 40)
             progress(done, 40)
@@ -25,11 +26,27 @@ def test_samples_that_were_there_before_are_no_progress(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with sample_progress("snapshots", done=35, total=40) as progress:
-        progress(35, 40)
-        progress(36, 40)
+        progress(SolveProgress(35, 40, 0.0, 0))
+        progress(SolveProgress(36, 40, 1.0, 1))
     assert [line.split(",")[0] for line in capsys.readouterr().err.splitlines()] == [
         "snapspace: snapshots: 36 of 40 samples"
     ]
+
+
+def test_samples_tell_what_unseen_ones_may_expect(capsys: pytest.CaptureFixture[str]) -> None:
+    with sample_progress("snapshots", total=40) as progress:
+        progress(SolveProgress(16, 40, 1.0, 16))
+        progress(SolveProgress(32, 40, 2.0, 32, held_out_error=0.01234))
+    before, after = capsys.readouterr().err.splitlines()
+    assert "unseen" not in before
+    assert after.startswith("snapspace: snapshots: 32 of 40 samples, ")
+    assert after.endswith(" left, unseen samples within 1.2 %")
+
+
+def test_steps_have_a_unit(capsys: pytest.CaptureFixture[str]) -> None:
+    with step_progress("fits", total=2, unit="poses") as progress:
+        progress(1, 2)
+    assert capsys.readouterr().err.startswith("snapspace: fits: 1 of 2 poses, ")
 
 
 @pytest.mark.parametrize(

@@ -45,8 +45,12 @@ def core_solve(
     *,
     tolerance: float,
     max_iterations: int,
+    **widths: int,
 ) -> core.Batch:
-    """One call of the compiled solver, on one thread: targets (k, p, 3), starts (k, 3n)."""
+    """One call of the compiled solver, on one thread: targets (k, p, 3), starts (k, 3n).
+
+    `widths` are lanes and single of the fast solver.
+    """
     options: dict[str, Any] = {
         "tolerance": tolerance,
         "max_iterations": max_iterations,
@@ -57,7 +61,7 @@ def core_solve(
         return problem.system.solve_newton(
             targets.reshape(len(targets), -1), starts, clamp=0.6, **options
         )
-    return problem.system.solve_fast(targets.reshape(len(targets), -1), starts, **options)
+    return problem.system.solve_fast(targets.reshape(len(targets), -1), starts, **widths, **options)
 
 
 def without_seconds(snapshots: Snapshots) -> list[SampleReport]:

@@ -15,15 +15,22 @@ from snapspace import _core as core
 from snapspace.problem import Problem
 from snapspace.sampling import sample
 from snapspace.snapshots import SampleReport
-from snapspace.snapshots.block_task import BlockOptions
 from snapspace.snapshots.executor_backend import ExecutorBackend
 from snapspace.snapshots.fast_solve import as_sample_report, solve_fast
 from snapspace.snapshots.solved import Solved
+from snapspace.snapshots.solver_options import ResolvedOptions
 
 FloatArray = NDArray[np.float64]
 Outcome = tuple[FloatArray, SampleReport]
 
-OPTIONS = BlockOptions(solver="fast", tolerance=1e-10, max_iterations=1000, clamp=0.65, wave=16)
+OPTIONS = ResolvedOptions(
+    solver="fast",
+    tolerance=1e-10,
+    max_iterations=1000,
+    clamp=0.65,
+    single=False,
+    block=16,
+)
 PATIENCE = 60.0  # seconds
 
 
@@ -47,38 +54,28 @@ class Work:
             rows = np.arange(begin, min(begin + size, len(self.inputs)))
             backend.submit(rows.tolist(), self.inputs[rows], self.starts[rows])
 
-    def solved_here(self, options: BlockOptions = OPTIONS) -> dict[int, Outcome]:
+    def solved_here(self, options: ResolvedOptions = OPTIONS) -> dict[int, Outcome]:
         """All samples in one call of the solver, without any task."""
-        common: dict[str, Any] = {
-            "tolerance": options.tolerance,
-            "max_iterations": options.max_iterations,
-            "threads": 2,
-        }
         arrays, control = (self.inputs, self.starts), core.SolveControl()
         if options.solver == "fast":
-            shapes, reports = solve_fast(
-                self.problem, *arrays, control, wave=options.wave, **common
-            )
+            shapes, reports = solve_fast(self.problem, *arrays, control, options, threads=2)
         else:
             batch = self.problem.system.solve_newton(
-                *arrays, clamp=options.clamp, control=control, **common
+                *arrays,
+                tolerance=options.tolerance,
+                max_iterations=options.max_iterations,
+                clamp=options.clamp,
+                threads=2,
+                control=control,
             )
             shapes, reports = batch.shapes, [as_sample_report(one) for one in batch.reports]
         return {k: (shapes[k], report) for k, report in enumerate(reports)}
 
 
 def backend_of(
-    executor: Executor, problem: Problem, options: BlockOptions = OPTIONS
+    executor: Executor, problem: Problem, options: ResolvedOptions = OPTIONS
 ) -> ExecutorBackend:
-    return ExecutorBackend(
-        executor,
-        problem,
-        solver=options.solver,
-        tolerance=options.tolerance,
-        max_iterations=options.max_iterations,
-        clamp=options.clamp,
-        wave=options.wave,
-    )
+    return ExecutorBackend(executor, problem, options)
 
 
 def collected(

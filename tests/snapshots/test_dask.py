@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import SolverOptions, sample, solve_snapshots
+from snapspace import SolveProgress, SolverOptions, sample, solve_snapshots
 
 from ..shapes import interpolation_problem
 from .bars import assert_same_bits, parameters, posing_bar
@@ -57,7 +57,7 @@ def test_large_meshes_do_not_make_dask_complain(client: Any) -> None:
 
 
 def test_snapshots_of_poses_are_those_of_this_machine(client: Any) -> None:
-    problem, options = interpolation_problem(), SolverOptions(wave=4)
+    problem, options = interpolation_problem(), SolverOptions(block=4)
     samples = sample(problem.domain, 8, seed=1)
     here = solve_snapshots(problem, samples, options=options, threads=1)
     there = solve_snapshots(problem, samples, options=options, executor=client.get_executor())
@@ -92,9 +92,9 @@ def test_a_run_that_loses_a_worker_ends_with_the_same_snapshots(client: Any) -> 
     pids: dict[str, int] = client.run(os.getpid)
     left = list(pids.values())[:1]
 
-    def kill_one(done: int, total: int) -> None:
-        if left and done:
-            assert done < total
+    def kill_one(state: SolveProgress) -> None:
+        if left and state.done:
+            assert state.done < state.total
             os.kill(left.pop(), signal.SIGKILL)
 
     executor = client.get_executor()

@@ -26,7 +26,7 @@ def problem() -> PosingProblem:
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_threads_do_not_change_a_bit(problem: PosingProblem, solver: Solver) -> None:
     samples = parameters(problem, 21)
-    options = SolverOptions(solver=solver, wave=9)
+    options = SolverOptions(solver=solver, block=9)
     runs = [
         solve_snapshots(problem, samples, options=options, threads=threads) for threads in (1, 2, 4)
     ]

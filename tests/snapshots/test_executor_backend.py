@@ -3,38 +3,25 @@
 from __future__ import annotations
 
 import gc
-import multiprocessing
 import pickle
 import time
 import weakref
-from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from snapspace import InterpolationProblem
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.block_task import BlockOptions
 from snapspace.snapshots.held_problems import HeldProblems
 from snapspace.snapshots.solver_options import Solver
 
 from ..shapes import interpolation_problem
 from .bars import posing_bar
 from .blocks import OPTIONS, Work, assert_same_outcomes, backend_of, collected, outcomes
+from .conftest import WORKERS, WORKERS_PATIENCE
 from .scripted_executor import ScriptedExecutor
-
-WORKERS = 2
-
-
-@pytest.fixture(scope="module")
-def processes() -> Iterator[ProcessPoolExecutor]:
-    """Two fresh processes, both up: they share nothing with this one."""
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(WORKERS, mp_context=context) as pool:
-        # none idles while another one imports
-        list(pool.map(exec, ["import snapspace, time; time.sleep(0.5)"] * WORKERS))
-        yield pool
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +33,7 @@ def work() -> Work:
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("size", [1, 5, 8])
 def test_threads_give_the_bits_of_one_call(work: Work, solver: Solver, size: int) -> None:
-    """However the samples are put into blocks: packs are as wide as the wave says."""
+    """However the samples are put into blocks and packs."""
     options = replace(OPTIONS, solver=solver)
     with ThreadPoolExecutor(3) as pool:
         backend = backend_of(pool, work.problem, options)
@@ -68,12 +55,17 @@ def test_processes_give_the_same_bits(
     assert_same_outcomes(collected(backend, 22), work.solved_here(options))
 
 
-def test_an_interpolation_takes_its_mean_shape_along(processes: ProcessPoolExecutor) -> None:
+def test_an_interpolation_takes_its_mean_shape_along(
+    processes: ProcessPoolExecutor, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Slow samples also get a factor of their own there."""
+    monkeypatch.setattr(InterpolationProblem, "patience", WORKERS_PATIENCE)
     work = Work.of(interpolation_problem(), 6)
     backend = backend_of(processes, work.problem)
     work.submit(backend, 3)
-    assert_same_outcomes(collected(backend, 6), work.solved_here())
+    here = work.solved_here()
+    assert all(report.iterations > WORKERS_PATIENCE for _, report in here.values())
+    assert_same_outcomes(collected(backend, 6), here)
 
 
 def test_the_problem_is_sent_once_per_process(processes: ProcessPoolExecutor) -> None:
@@ -159,9 +151,7 @@ def test_what_was_finished_survives_cancel() -> None:
 def test_cancel_ends_the_solves_of_threads_at_once() -> None:
     # minutes of work, if it were not cancelled
     work = Work.of(posing_bar(24, 6, 6, bound=0.7), 32)
-    options = BlockOptions(
-        solver="newton", tolerance=1e-300, max_iterations=10**6, clamp=0.65, wave=2
-    )
+    options = replace(OPTIONS, solver="newton", tolerance=1e-300, max_iterations=10**6)
     with ThreadPoolExecutor(2) as pool:
         backend = backend_of(pool, work.problem, options)
         work.submit(backend, 2)

@@ -12,6 +12,7 @@ from snapspace import (
     Checkpoint,
     InterpolationProblem,
     Interrupted,
+    SolveProgress,
     SolverOptions,
     sample,
     solve_snapshots,
@@ -38,7 +39,7 @@ def weights(problem: InterpolationProblem, count: int) -> FloatArray:
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_threads_do_not_change_a_bit(problem: InterpolationProblem, solver: Solver) -> None:
     samples = weights(problem, 21)
-    options = SolverOptions(solver=solver, wave=9)
+    options = SolverOptions(solver=solver, block=9)
     one, two, four = (
         solve_snapshots(problem, samples, options=options, threads=threads) for threads in (1, 2, 4)
     )
@@ -104,19 +105,19 @@ def test_a_sample_that_overflows_leaves_the_others_alone(
 def test_a_resumed_run_ends_like_one_that_was_not_interrupted(
     problem: InterpolationProblem, solver: Solver, tmp_path: Path
 ) -> None:
-    samples = weights(problem, 14)
-    options = SolverOptions(solver=solver, wave=4)
+    samples = weights(problem, 30)
+    options = SolverOptions(solver=solver, block=4)
     checkpoint = Checkpoint(tmp_path / "run")
 
-    def progress(done: int, total: int) -> None:
-        if done >= 4:
+    def progress(state: SolveProgress) -> None:
+        if state.done >= 4:  # of at most 24 that are handed out by then
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted):
         solve_snapshots(
             problem, samples, options=options, threads=1, progress=progress, checkpoint=checkpoint
         )
-    assert 4 <= len(checkpoint.load()) < 14
+    assert 4 <= len(checkpoint.load()) < 30
     resumed = solve_snapshots(
         interpolation_problem(extrapolation=0.3),
         samples,
@@ -131,7 +132,7 @@ def test_a_resumed_run_ends_like_one_that_was_not_interrupted(
 def test_any_finished_samples_lead_to_the_same_end(
     problem: InterpolationProblem, tmp_path: Path, indices: list[int]
 ) -> None:
-    samples, options = weights(problem, 10), SolverOptions(wave=4)
+    samples, options = weights(problem, 10), SolverOptions(block=4)
     everything, some = Checkpoint(tmp_path / "everything"), Checkpoint(tmp_path / "some")
     whole = solve_snapshots(problem, samples, options=options, threads=1, checkpoint=everything)
     found = everything.load()

@@ -13,10 +13,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import Checkpoint, Interrupted, SolverOptions, interruptible, solve_snapshots
+from snapspace import (
+    Checkpoint,
+    Interrupted,
+    SolveProgress,
+    SolverOptions,
+    interruptible,
+    solve_snapshots,
+)
 from snapspace import _core as core
 from snapspace.interruptible import run_interruptible
-from snapspace.snapshots import SOLVERS
+from snapspace.snapshots import SOLVERS, local_backend, run
 from snapspace.snapshots.solver_options import Solver
 
 from .bars import assert_same_bits, parameters, posing_bar
@@ -123,21 +130,24 @@ def test_an_error_of_the_solve_reaches_the_caller() -> None:
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solver) -> None:
     problem = posing_bar()
-    samples = parameters(problem, 12)
-    options = SolverOptions(solver=solver, wave=4)
+    samples = parameters(problem, 32)
+    options = SolverOptions(solver=solver, block=4)
     checkpoint = Checkpoint(tmp_path / "run")
+    seen = 0
 
-    def progress(done: int, total: int) -> None:
-        if done > 4:  # in the second wave, wherever it is then
+    def progress(state: SolveProgress) -> None:
+        nonlocal seen
+        seen = state.done
+        if seen > 4:  # of at most 24 that are handed out by then
             raise KeyboardInterrupt
 
-    with pytest.raises(Interrupted, match=r"of 12 samples are finished") as caught:
+    with pytest.raises(Interrupted, match=r"of 32 samples are finished") as caught:
         solve_snapshots(
             problem, samples, options=options, threads=1, progress=progress, checkpoint=checkpoint
         )
     saved = checkpoint.load()
-    assert set(range(4)) < set(saved) < set(range(9))
-    assert str(caught.value) == f"{len(saved)} of 12 samples are finished"
+    assert seen <= len(saved) < 32
+    assert str(caught.value) == f"{len(saved)} of 32 samples are finished"
 
     first_call: list[int] = []
     resumed = solve_snapshots(
@@ -145,21 +155,21 @@ def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solv
         samples,
         options=options,
         threads=2,
-        progress=lambda done, total: first_call.append(done),
+        progress=lambda state: first_call.append(state.done),
         checkpoint=checkpoint,
     )
-    assert first_call[0] >= len(saved), "progress counts what was kept"
+    assert first_call[0] == len(saved), "progress counts what was kept"
     assert_same_bits(resumed, solve_snapshots(problem, samples, options=options, threads=1))
 
 
 def test_a_solve_of_the_core_ends_soon_after_ctrl_c(tmp_path: Path) -> None:
-    """A wave of many seconds, interrupted by a signal after a twentieth of one."""
+    """A block of many seconds, interrupted by a signal after a twentieth of one."""
     problem = posing_bar(16, 4, 4, bound=1.0)
-    options = SolverOptions(tolerance=1e-14, wave=1000)
+    options = SolverOptions(tolerance=1e-14, block=1000)
     checkpoint = Checkpoint(tmp_path / "run")
     timer = threading.Timer(0.05, _thread.interrupt_main)
 
-    def progress(done: int, total: int) -> None:
+    def progress(state: SolveProgress) -> None:
         if not timer.is_alive():
             timer.start()
 
@@ -175,6 +185,39 @@ def test_a_solve_of_the_core_ends_soon_after_ctrl_c(tmp_path: Path) -> None:
         )
     assert time.monotonic() - begin < 5.0
     assert len(checkpoint.load()) < 1000
+
+
+def test_a_sample_that_is_finished_while_ctrl_c_comes_is_not_lost(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The signal waits for the call that gives the sample back, and is raised behind it."""
+    controls: list[core.SolveControl] = []
+
+    def control() -> core.SolveControl:
+        controls.append(core.SolveControl())
+        return controls[-1]
+
+    stand_in = SimpleNamespace(SolveControl=control, SampleQueue=core.SampleQueue)
+    monkeypatch.setattr(local_backend, "core", stand_in)
+    monkeypatch.setattr(run, "POLL_SECONDS", PATIENCE)
+    problem, checkpoint = posing_bar(16, 5, 5, bound=0.7), Checkpoint(tmp_path / "run")
+    _ = problem.system
+    timer = threading.Timer(0.01, _thread.interrupt_main)
+
+    def progress(state: SolveProgress) -> None:
+        if not state.done:
+            timer.start()
+
+    with pytest.raises(Interrupted):
+        solve_snapshots(
+            problem,
+            parameters(problem, 4),
+            options=SolverOptions(solver="newton", block=1),  # one at a time
+            threads=1,
+            progress=progress,
+            checkpoint=checkpoint,
+        )
+    assert len(checkpoint.numbers()) == controls[0].finished
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -210,7 +253,7 @@ def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
     """Callers that know nothing of Interrupted still stop."""
     problem = posing_bar()
 
-    def progress(done: int, total: int) -> None:
+    def progress(state: SolveProgress) -> None:
         raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):

@@ -117,8 +117,8 @@ def test_a_tighter_tolerance_is_nearer_to_the_limit(minimisers: Snapshots, solve
     """And the tolerance is what it says: a bound on the excess of F, relative to F."""
     errors = []
     for tolerance in 10.0 ** np.arange(-2, -11, -2):
-        # one wave: warm starts would mix the tolerance of other samples in
-        options = SolverOptions(solver=solver, tolerance=tolerance, wave=8)
+        # one block: warm starts would mix the tolerance of other samples in
+        options = SolverOptions(solver=solver, tolerance=tolerance, block=8)
         solved = solve_snapshots(
             minimisers.problem, minimisers.parameters, options=options, threads=1
         )
@@ -154,8 +154,8 @@ def test_newton_is_superlinear_near_the_minimum(problem: PosingProblem) -> None:
 
 def test_nine_decades_cost_newton_few_steps(minimisers: Snapshots) -> None:
     """Linear convergence at its first rate would need three times the steps; so does L-BFGS."""
-    loose = SolverOptions(solver="newton", tolerance=1e-4, wave=8)
-    tighter = SolverOptions(solver="newton", tolerance=1e-13, wave=8)
+    loose = SolverOptions(solver="newton", tolerance=1e-4, block=8)
+    tighter = SolverOptions(solver="newton", tolerance=1e-13, block=8)
     few, more = (
         [r.iterations for r in solve_snapshots(minimisers.problem, minimisers.parameters,
                                                options=options, threads=1).reports]
@@ -179,11 +179,12 @@ def test_warm_starts_change_iterations_not_energies(minimisers: Snapshots) -> No
     samples = parameters(problem, 48)
     cold, warm = (
         solve_snapshots(
-            problem, samples, options=SolverOptions(tolerance=1e-10, wave=wave), threads=1
+            problem, samples, options=SolverOptions(tolerance=1e-10, block=block), threads=1
         )
-        for wave in (48, 12)
+        for block in (48, 12)
     )
-    np.testing.assert_array_equal(cold.shapes[:, :12], warm.shapes[:, :12])
+    # the first two of four blocks have none before them that they wait for
+    np.testing.assert_array_equal(cold.shapes[:, :24], warm.shapes[:, :24])
     np.testing.assert_allclose(values(warm), values(cold), rtol=1e-10)
-    iterations = [[r.iterations for r in s.reports[12:]] for s in (cold, warm)]
+    iterations = [[r.iterations for r in s.reports[24:]] for s in (cold, warm)]
     assert np.mean(iterations[1]) < np.mean(iterations[0])

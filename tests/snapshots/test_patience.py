@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,12 +10,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from snapspace import InterpolationProblem, SampleReport, SolverOptions, sample, solve_snapshots
+from snapspace import (
+    InterpolationProblem,
+    SampleReport,
+    SolveProgress,
+    SolverOptions,
+    sample,
+    solve_snapshots,
+)
 from snapspace import _core as core
 from snapspace.snapshots.fast_solve import solve_fast
 
 from ..shapes import interpolation_problem
 from .bars import assert_same_bits, without_seconds
+from .blocks import OPTIONS
 
 FloatArray = NDArray[np.float64]
 PATIENCE = 17  # iterations; the samples below need 40 to 50
@@ -39,10 +48,10 @@ def weights(problem: InterpolationProblem, count: int = 9) -> FloatArray:
 def solved(
     problem: InterpolationProblem, samples: FloatArray, *, max_iterations: int = 1000
 ) -> Solution:
-    """The samples from the mean shape, in packs as if they were part of a wave of nine."""
+    """The samples from the mean shape."""
     starts = np.repeat((problem.tau - problem.base)[None], len(samples), axis=0)
-    options: dict[str, Any] = {"tolerance": 1e-11, "max_iterations": max_iterations}
-    return solve_fast(problem, samples, starts, core.SolveControl(), threads=1, wave=9, **options)
+    options = replace(OPTIONS, tolerance=1e-11, max_iterations=max_iterations)
+    return solve_fast(problem, samples, starts, core.SolveControl(), options, threads=1)
 
 
 def solved_patiently(problem: InterpolationProblem, samples: FloatArray) -> Solution:
@@ -140,11 +149,13 @@ def test_a_slow_sample_does_not_see_its_neighbours(problem: InterpolationProblem
 def test_threads_do_not_change_a_bit(problem: InterpolationProblem) -> None:
     """And the counts that are shown never go beyond the total."""
     samples, shown = weights(problem, 14), [0]
-    options = SolverOptions(wave=9)
+    options = SolverOptions(block=9)
+
+    def show(state: SolveProgress) -> None:
+        shown.append(state.done)
+
     one = solve_snapshots(problem, samples, options=options, threads=1)
-    two = solve_snapshots(
-        problem, samples, options=options, threads=2, progress=lambda done, _: shown.append(done)
-    )
+    two = solve_snapshots(problem, samples, options=options, threads=2, progress=show)
     assert one.converged.all()
     assert min(report.iterations for report in without_seconds(one)) > PATIENCE
     assert_same_bits(two, one)
@@ -164,8 +175,8 @@ def cancelled_after_the_first_try(samples: FloatArray) -> tuple[Solution, Spy]:
     problem.__dict__.update(system=SimpleNamespace(solve_fast=solve), system_near=spy)
     starts = np.repeat((problem.tau - problem.base)[None], len(samples), axis=0)
     starts[0] = problem.pose_shapes[1] - problem.base
-    options: dict[str, Any] = {"tolerance": 1e-9, "max_iterations": 1000, "threads": 1}
-    return solve_fast(problem, samples, starts, control, wave=9, **options), spy
+    options = replace(OPTIONS, tolerance=1e-9)
+    return solve_fast(problem, samples, starts, control, options, threads=1), spy
 
 
 @pytest.mark.usefixtures("impatient")
@@ -192,7 +203,7 @@ def test_ctrl_c_during_a_second_try_makes_no_third(
 
     monkeypatch.setattr(InterpolationProblem, "system_near", near)
     starts = np.repeat((problem.tau - problem.base)[None], 5, axis=0)
-    options: dict[str, Any] = {"tolerance": 1e-9, "max_iterations": 1000, "threads": 1}
-    _, reports = solve_fast(problem, weights(problem, 5), starts, control, wave=9, **options)
+    options = replace(OPTIONS, tolerance=1e-9)
+    _, reports = solve_fast(problem, weights(problem, 5), starts, control, options, threads=1)
     assert [report.status for report in reports] == ["cancelled"] * 5
     assert len(spy.shapes) == 2

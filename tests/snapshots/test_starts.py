@@ -6,20 +6,28 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from snapspace import SolverOptions, sample, solve_snapshots
-from snapspace.snapshots import SOLVERS
+from snapspace.snapshots import SOLVERS, DisplacementRows
 from snapspace.snapshots.solver_options import Solver
 from snapspace.snapshots.starts import interpolated_start, nearest_start
 
 from .bars import parameters, posing_bar
+
+FloatArray = NDArray[np.float64]
+
+
+def rows_of(shapes: FloatArray) -> DisplacementRows:
+    return DisplacementRows(shapes, shapes.shape[1])
 
 
 def test_nearest_takes_the_nearest() -> None:
     known = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     shapes = np.arange(12.0).reshape(3, 4)
     wanted = np.array([[0.9, 0.2], [0.1, 0.2], [0.4, 0.6], [0.0, 0.0]])
-    np.testing.assert_array_equal(nearest_start(known, shapes, wanted), shapes[[1, 0, 2, 0]])
+    found = nearest_start(known, rows_of(shapes), wanted)
+    np.testing.assert_array_equal(found, shapes[[1, 0, 2, 0]])
 
 
 @settings(deadline=None)
@@ -27,20 +35,21 @@ def test_nearest_takes_the_nearest() -> None:
 def test_interpolation_reproduces_what_is_known(seed: int, count: int, dimension: int) -> None:
     rng = np.random.default_rng(seed)
     known, shapes = rng.random((count, dimension)), rng.normal(size=(count, 9))
-    np.testing.assert_allclose(interpolated_start(known, shapes, known), shapes, atol=1e-8)
+    found = interpolated_start(known, rows_of(shapes), known)
+    np.testing.assert_allclose(found, shapes, atol=1e-8)
 
 
 def test_interpolation_between_equal_shapes_is_that_shape() -> None:
     """The weights of a start add up to one: it does not fade towards rest away from the samples."""
     rng = np.random.default_rng(1)
     shapes = np.tile(rng.normal(size=9), (20, 1))
-    starts = interpolated_start(rng.random((20, 6)), shapes, rng.random((5, 6)))
+    starts = interpolated_start(rng.random((20, 6)), rows_of(shapes), rng.random((5, 6)))
     np.testing.assert_allclose(starts, shapes[:5], atol=1e-12)
 
 
 def test_one_known_sample_is_every_start() -> None:
     shapes = np.ones((1, 9))
-    starts = interpolated_start(np.full((1, 6), 0.5), shapes, np.zeros((3, 6)))
+    starts = interpolated_start(np.full((1, 6), 0.5), rows_of(shapes), np.zeros((3, 6)))
     np.testing.assert_array_equal(starts, np.ones((3, 9)))
 
 
@@ -48,13 +57,13 @@ def test_repeated_samples_count_once() -> None:
     rng = np.random.default_rng(2)
     known, shapes, wanted = rng.random((8, 6)), rng.normal(size=(8, 9)), rng.random((4, 6))
     twice = interpolated_start(
-        np.vstack([known, known[:3]]), np.vstack([shapes, shapes[:3]]), wanted
+        np.vstack([known, known[:3]]), rows_of(np.vstack([shapes, shapes[:3]])), wanted
     )
-    np.testing.assert_allclose(twice, interpolated_start(known, shapes, wanted), atol=1e-12)
+    once = interpolated_start(known, rows_of(shapes), wanted)
+    np.testing.assert_allclose(twice, once, atol=1e-12)
     same = np.tile(known[:1], (5, 1))
-    np.testing.assert_array_equal(
-        interpolated_start(same, np.tile(shapes[:1], (5, 1)), wanted), np.tile(shapes[:1], (4, 1))
-    )
+    one = interpolated_start(same, rows_of(np.tile(shapes[:1], (5, 1))), wanted)
+    np.testing.assert_array_equal(one, np.tile(shapes[:1], (4, 1)))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -63,7 +72,7 @@ def test_samples_that_repeat_each_other_or_rest_are_solved(solver: Solver) -> No
     problem = posing_bar()
     samples = sample(problem.domain, 6, method="sobol", scramble=False)
     assert not samples[1].any()
-    options = SolverOptions(solver=solver, wave=3)
+    options = SolverOptions(solver=solver, block=3)
     repeated = np.vstack([samples, samples[[0, 2]]])
     solved = solve_snapshots(problem, repeated, options=options, threads=1)
     assert solved.converged.all()
@@ -72,21 +81,21 @@ def test_samples_that_repeat_each_other_or_rest_are_solved(solver: Solver) -> No
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_the_rest_pose_in_a_later_wave_converges(solver: Solver) -> None:
+def test_the_rest_pose_in_a_later_block_converges(solver: Solver) -> None:
     """As in the middle of an odd grid: F vanishes there, so that no share of it is ever reached."""
     problem = posing_bar()
-    samples = np.vstack([parameters(problem, 4), np.zeros((1, 6))])
-    options = SolverOptions(solver=solver, wave=4)
-    report = solve_snapshots(problem, samples, options=options, threads=1).reports[4]
+    samples = np.vstack([parameters(problem, 8), np.zeros((1, 6))])
+    options = SolverOptions(solver=solver, block=4)
+    report = solve_snapshots(problem, samples, options=options, threads=1).reports[8]
     assert report.value < 1e-20
     assert report.converged
 
 
 def test_known_samples_start_where_they_end() -> None:
-    """A sample asked for again in a later wave has no way to go."""
+    """A sample asked for again in a later block has no way to go."""
     problem = posing_bar()
     samples = parameters(problem, 8)
-    options = SolverOptions(solver="newton", wave=8, tolerance=1e-8)
+    options = SolverOptions(solver="newton", block=8, tolerance=1e-8)
     again = solve_snapshots(problem, np.vstack([samples, samples]), options=options, threads=1)
     assert all(report.iterations == 0 for report in again.reports[8:])
     np.testing.assert_array_equal(again.shapes[:, 8:], again.shapes[:, :8])

@@ -35,7 +35,7 @@ def test_figures_are_what_their_definitions_say(
     """Recomputed from the reference: solve from the mean shape, register, measure in the M-norm."""
     model, subspace, problem = blending_model, blending_model.subspace, blending_model.problem
     session = model.session()
-    for i, w in enumerate(unseen_parameters(model, COUNT, seed=4)):
+    for i, w in enumerate(unseen_parameters(model.problem.domain, COUNT, seed=4)):
         full = checked.reference.shapes[:, i]
         assert checked.reference.reports[i].converged
         size = mass_norm(subspace.mass, full - subspace.tau)
@@ -134,7 +134,7 @@ def test_the_same_seed_gives_the_same_figures(
 
 
 def test_unseen_weights_are_in_the_simplex_and_unseen(blending_model: InterpolationModel) -> None:
-    drawn = unseen_parameters(blending_model, 400, seed=1)
+    drawn = unseen_parameters(blending_model.problem.domain, 400, seed=1)
     assert drawn.shape == (400, 3)
     assert drawn.sum(axis=1) == pytest.approx(np.ones(400), abs=1e-12)
     assert drawn.min() >= 0

@@ -67,7 +67,7 @@ def test_no_reduced_solution_has_less_energy_than_the_full_one(checked: Validati
 def test_figures_are_what_their_definitions_say(model: ReducedModel, checked: Validation) -> None:
     """Recomputed from the reference: solve from rest, project, measure in the M-norm."""
     subspace, session = model.subspace, model.session()
-    for i, w in enumerate(unseen_parameters(model, COUNT, seed=4)):
+    for i, w in enumerate(unseen_parameters(model.problem.domain, COUNT, seed=4)):
         full = checked.reference.shapes[:, i]
         assert checked.reference.reports[i].converged
         size = mass_norm(subspace.mass, full - subspace.tau)
@@ -182,7 +182,7 @@ def test_samples_that_did_not_converge_are_not_compared(
 def test_unseen_parameters_are_in_the_box_and_unseen(model: ReducedModel) -> None:
     """No seed of `sample` gives them, whatever the seed of the validation: other streams."""
     domain = model.problem.domain
-    drawn = {seed: unseen_parameters(model, 40, seed=seed) for seed in range(20)}
+    drawn = {seed: unseen_parameters(model.problem.domain, 40, seed=seed) for seed in range(20)}
     for points in drawn.values():
         assert points.shape == (40, 6)
         assert (np.abs(points) <= domain.half_widths).all()
@@ -190,12 +190,16 @@ def test_unseen_parameters_are_in_the_box_and_unseen(model: ReducedModel) -> Non
     unseen = np.concatenate(list(drawn.values()))
     assert not np.isin(unseen, training).any()
     assert len(np.unique(unseen)) == unseen.size
-    np.testing.assert_array_equal(unseen_parameters(model, 40, seed=3), drawn[3])
-    np.testing.assert_array_equal(unseen_parameters(model, 10, seed=3), drawn[3][:10])
+    np.testing.assert_array_equal(unseen_parameters(model.problem.domain, 40, seed=3), drawn[3])
+    np.testing.assert_array_equal(
+        unseen_parameters(model.problem.domain, 10, seed=3), drawn[3][:10]
+    )
 
 
 def test_unseen_parameters_are_uniform(model: ReducedModel) -> None:
-    points = unseen_parameters(model, 4000, seed=1) / model.problem.domain.half_widths
+    points = (
+        unseen_parameters(model.problem.domain, 4000, seed=1) / model.problem.domain.half_widths
+    )
     np.testing.assert_allclose(points.mean(axis=0), 0.0, atol=0.05)
     np.testing.assert_allclose(points.var(axis=0), 1 / 3, atol=0.03)
 

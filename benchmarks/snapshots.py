@@ -1,0 +1,274 @@
+"""The snapshot engine: speed, first model, hardware limits, growth with the mesh, all problems.
+
+    python benchmarks/snapshots.py --part speed      # against Newton's method, and the subspace
+    python benchmarks/snapshots.py --part first      # from handles to the first usable model
+    python benchmarks/snapshots.py --part limits     # of the processor, and how near the loops are
+    python benchmarks/snapshots.py --part growth     # cost of a sample, 25k to 1M tets
+    python benchmarks/snapshots.py --part problems   # every problem of the meshes' folder
+    python benchmarks/snapshots.py --part handles    # a handle is added to a problem that is solved
+
+Times of one run are compared with each other: ratios hold, seconds depend on the machine.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import sys
+import time
+from typing import Any
+
+import common
+import numpy as np
+
+import snapspace as ss
+from snapspace import _core as core
+from snapspace.mesh import mass_norms
+from snapspace.validation import unseen_parameters
+
+Rows = list[tuple[str, Any, str]]
+
+
+def solved(problem: ss.PosingProblem, parameters: np.ndarray, **how: Any) -> ss.Snapshots:
+    """Snapshots with options, and the usual progress."""
+    options = ss.SolverOptions(**how)
+    return ss.solve_snapshots(problem, parameters, options=options, progress=common.progress)
+
+
+def unseen(problem: ss.PosingProblem, count: int) -> np.ndarray:
+    """Parameters that no sample has, for reference solutions."""
+    return unseen_parameters(problem.domain, count, seed=1)
+
+
+def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> np.ndarray:
+    """Relative M-norm errors of the projections of full solutions."""
+    shapes = reference.shapes
+    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(shapes)
+    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
+    errors: np.ndarray = mass_norms(subspace.mass, projected - shapes) / size
+    return errors
+
+
+def reduced_errors(model: ss.PosingModel, reference: ss.Snapshots) -> np.ndarray:
+    """Relative M-norm errors of reduced solutions from rest."""
+    session, misses = model.session(), []
+    for w, row in zip(reference.parameters, reference.displacements, strict=True):
+        session.reset()
+        session.set_parameters(w)
+        misses.append(session.vertices.reshape(-1) - reference.problem.base - row)
+    size = mass_norms(model.subspace.mass, reference.displacements.array().T)
+    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses).T) / size
+    return errors
+
+
+def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """All samples by the fast solver, some of them by Newton's method, and the two subspaces."""
+    problem = common.read_problem(args.problem)
+    samples = ss.sample(problem.domain, args.samples, seed=args.seed)
+    begin = time.perf_counter()
+    fast = solved(problem, samples)
+    fast_seconds = time.perf_counter() - begin
+    begin = time.perf_counter()
+    few = solved(problem, samples[: args.newton], solver="newton")
+    newton_seconds = time.perf_counter() - begin
+    ratio = (newton_seconds / len(few)) / (fast_seconds / len(fast))
+    result = {
+        "samples": len(fast),
+        "fast_seconds": fast_seconds,
+        "fast_iterations": float(np.mean([r.iterations for r in fast.reports])),
+        "fast_evaluations": float(np.mean([r.evaluations for r in fast.reports])),
+        "fast_converged": int(fast.converged.sum()),
+        "newton_samples": len(few),
+        "newton_seconds_each": newton_seconds / len(few),
+        "ratio": ratio,
+    }
+    rows: Rows = [
+        ("samples, all", len(fast), ""),
+        ("fast, s (with the factor)", fast_seconds, "<= 30, then 15"),
+        ("fast, evaluations each", result["fast_evaluations"], ""),
+        ("converged", f"{result['fast_converged']} of {len(fast)}", "all"),
+        ("newton, s each", newton_seconds / len(few), f"{len(few)} samples"),
+        ("newton / fast, per sample", ratio, ">= 200"),
+    ]
+    if args.tight:
+        reference = solved(problem, unseen(problem, 30), tolerance=1e-9, max_iterations=5000)
+        tight = solved(problem, samples, tolerance=1e-7, max_iterations=5000)
+        for name, snapshots in (("fast", fast), ("tight", tight)):
+            errors = projection_errors(ss.snapshot_pca(snapshots, dimension=40), reference)
+            mean, median = float(errors.mean()), float(np.median(errors))
+            result[f"{name}_projection_error"] = {"mean": mean, "median": median}
+            goal = "" if name == "tight" else "within 5 % of tight"
+            rows.append((f"projection error, {name}: mean", mean, goal))
+            rows.append((f"projection error, {name}: median", median, goal))
+    return result, rows
+
+
+def first(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """Models of more and more samples, with the time at which they are there."""
+    problem = common.read_problem(args.problem)
+    samples = ss.sample(problem.domain, args.samples, seed=args.seed)
+    fresh = common.read_problem(args.problem)  # nothing of it is computed yet
+    models = list(ss.growing_models(fresh, samples, dimension=40))
+    reference = solved(problem, unseen(problem, 30), tolerance=1e-9, max_iterations=5000)
+    result: dict[str, Any] = {"models": []}
+    rows: Rows = []
+    for growth in models:
+        errors = reduced_errors(growth.model, reference)
+        entry = {
+            "seconds": growth.seconds,
+            "samples": len(growth.snapshots),
+            "dimension": growth.model.dimension,
+            "median": float(np.median(errors)),
+            "mean": float(errors.mean()),
+        }
+        result["models"].append(entry)
+        label = f"{entry['samples']} samples, d = {entry['dimension']}"
+        is_first = growth is models[0]
+        rows.append((f"{label}: s since the start", growth.seconds, "<= 3" if is_first else ""))
+        rows.append(
+            (f"{label}: reduced error, median", entry["median"], "<= 0.1" if is_first else "")
+        )
+        rows.append((f"{label}: reduced error, mean", entry["mean"], ""))
+    return result, rows
+
+
+def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """The element kernel and the triangular solves against what a core can do."""
+    problem = common.read_problem(args.problem)
+    u = 0.01 * np.random.default_rng(args.seed).standard_normal(problem.base.size)
+    result: dict[str, Any] = {
+        "read_bytes_per_second": core.read_bandwidth(1 << 28),
+        "factor_nonzeros": problem.system.factor_nonzeros,
+    }
+    rows: Rows = [("reads from memory, GB/s", result["read_bytes_per_second"] / 1e9, "")]
+    for single in (True, False):
+        name = "single" if single else "double"
+        peak = core.peak_flops(single=single)
+        # the preconditioner is in single precision always
+        solve_peak = core.peak_flops(single=True)
+        parts = core.time_parts(problem.system, u, single=single)
+        kernel = parts.kernel_flops / parts.kernel_seconds
+        solve = parts.solve_flops / parts.solve_seconds
+        result[name] = {
+            "peak": peak,
+            "kernel_seconds": parts.kernel_seconds,
+            "kernel_share": kernel / peak,
+            "solve_seconds": parts.solve_seconds,
+            "solve_share": solve / solve_peak,
+        }
+        rows += [
+            (f"{name}: multiply-adds in registers, GFLOP/s", peak / 1e9, ""),
+            (f"{name}: element kernel, ms a pack", 1e3 * parts.kernel_seconds, ""),
+            (f"{name}: element kernel, GFLOP/s", kernel / 1e9, ""),
+            (f"{name}: element kernel, share of peak", kernel / peak, ">= 0.5"),
+            (f"{name}: triangular solves, ms a pack", 1e3 * parts.solve_seconds, ""),
+            (f"{name}: triangular solves, GFLOP/s", solve / 1e9, ""),
+            (f"{name}: triangular solves, share of peak", solve / solve_peak, ">= 0.5"),
+        ]
+    return result, rows
+
+
+def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """Seconds per sample for creatures of several sizes, and the exponent that fits them."""
+    sizes, seconds, entries = [], [], []
+    rows: Rows = []
+    for tets in args.sizes:
+        problem = common.creature_problem(tets)
+        begin = time.perf_counter()
+        factor = problem.system.factor_nonzeros
+        factor_seconds = time.perf_counter() - begin
+        samples = ss.sample(problem.domain, args.samples, seed=args.seed)
+        begin = time.perf_counter()
+        snapshots = solved(problem, samples)
+        spent = time.perf_counter() - begin
+        evaluations = float(np.mean([r.evaluations for r in snapshots.reports]))
+        sizes.append(len(problem.mesh.tets))
+        seconds.append(spent / len(samples))
+        memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+        entries.append(
+            {
+                "vertices": len(problem.mesh.vertices),
+                "tets": sizes[-1],
+                "factor_nonzeros": factor,
+                "factor_seconds": factor_seconds,
+                "seconds_each": seconds[-1],
+                "evaluations": evaluations,
+                "converged": int(snapshots.converged.sum()),
+                "peak_memory_bytes": memory,
+            }
+        )
+        rows.append(
+            (f"{sizes[-1]} tets: factor, s", factor_seconds, f"{factor / 1e6:.1f}M entries")
+        )
+        rows.append(
+            (f"{sizes[-1]} tets: s a sample", seconds[-1], f"{evaluations:.0f} evaluations")
+        )
+        rows.append((f"{sizes[-1]} tets: peak memory so far, GiB", memory / 2**30, "< 16"))
+    exponent = float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
+    rows.append(("exponent of the cost of a sample", exponent, "<= 1.15"))
+    return {"sizes": entries, "exponent": exponent, "samples": args.samples}, rows
+
+
+def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """Share of converged samples, iterations and inverted tets of all problems."""
+    folder = common.meshes_folder() / "problems"
+    result: dict[str, Any] = {}
+    rows: Rows = []
+    for path in sorted(folder.glob("*.json")):
+        problem = common.read_problem(path.stem)
+        samples = ss.sample(problem.domain, args.samples, seed=args.seed)
+        begin = time.perf_counter()
+        snapshots = solved(problem, samples)
+        seconds = time.perf_counter() - begin
+        iterations = [r.iterations for r in snapshots.reports]
+        inverted = [r.inverted_tets for r in snapshots.reports]
+        result[path.stem] = {
+            "vertices": len(problem.mesh.vertices),
+            "tets": len(problem.mesh.tets),
+            "parameters": problem.parameter_count,
+            "samples": len(snapshots),
+            "converged": int(snapshots.converged.sum()),
+            "seconds": seconds,
+            "iterations_mean": float(np.mean(iterations)),
+            "iterations_max": max(iterations),
+            "inverted_mean": float(np.mean(inverted)),
+            "inverted_max": max(inverted),
+        }
+        figures = (
+            f"{seconds:.1f} s, {np.mean(iterations):.0f} / {max(iterations)} iterations, "
+            f"{np.mean(inverted):.0f} / {max(inverted)} inverted of {len(problem.mesh.tets)}"
+        )
+        done = f"{snapshots.converged.sum()} of {len(snapshots)} converged"
+        rows.append((path.stem, figures, done))
+    return result, rows
+
+
+PARTS = {f.__name__: f for f in (speed, first, limits, growth, problems)}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--part", choices=PARTS, default="speed")
+    parser.add_argument("--problem", default="dragon")
+    parser.add_argument("--samples", type=int, help="default: 300; growth 32; problems 64")
+    parser.add_argument("--newton", type=int, default=10, help="samples for Newton's method")
+    parser.add_argument("--tight", action="store_true", help="speed: also compare the subspaces")
+    parser.add_argument(
+        "--sizes", type=int, nargs="+", default=[25_000, 75_000, 250_000, 1_000_000]
+    )
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+    if args.samples is None:
+        args.samples = {"growth": 32, "problems": 64}.get(args.part, 300)
+    result, rows = PARTS[args.part](args)
+    title = (
+        f"{args.part}: {args.problem}" if args.part in ("speed", "first", "limits") else args.part
+    )
+    common.show(title, rows, {"part": args.part, **result}, args.json)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,47 @@
+#include "bindings/arrays.h"
+#include "measure/machine_peak.h"
+#include "measure/solver_parts.h"
+
+namespace snapspace {
+
+void bind_measure(nb::module_& m) {
+  m.def(
+      "peak_flops",
+      [](bool single, int repeats) {
+        double sink = 1.0 - 1e-9;
+        const nb::gil_scoped_release release;
+        return single ? peak_flops<SingleLanes<2 * kWideLanes>>(repeats, sink)
+                      : peak_flops<Lanes<kWideLanes>>(repeats, sink);
+      },
+      nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
+      "Floating-point operations per second of one thread of this build.");
+  m.def(
+      "read_bandwidth",
+      [](std::size_t bytes, int repeats) {
+        double sink = 0.0;
+        const nb::gil_scoped_release release;
+        return read_bandwidth(bytes, repeats, sink);
+      },
+      nb::arg("bytes"), nb::kw_only(), nb::arg("repeats") = 20,
+      "Bytes per second that one thread reads from an array of this size.");
+
+  nb::class_<PartTimes>(m, "PartTimes", "Seconds and operations of the parts of an L-BFGS step.")
+      .def_ro("kernel_seconds", &PartTimes::kernel_seconds)
+      .def_ro("solve_seconds", &PartTimes::solve_seconds)
+      .def_ro("kernel_flops", &PartTimes::kernel_flops)
+      .def_ro("solve_flops", &PartTimes::solve_flops);
+  m.def(
+      "time_parts",
+      [](const PosingSystem& system, VectorIn u, bool single, int repeats) {
+        require(u.size() == static_cast<std::size_t>(system.size()), "u must be (3n,)");
+        std::vector<double> shape(u.size());
+        system.numbering.to_internal(u.data(), shape.data());
+        const nb::gil_scoped_release release;
+        return single ? time_parts<SingleLanes<2 * kWideLanes>>(system, shape, repeats)
+                      : time_parts<Lanes<kWideLanes>>(system, shape, repeats);
+      },
+      nb::arg("system"), nb::arg("u"), nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
+      "Times of one thread for the widest pack, all lanes at displacement u (3n,).");
+}
+
+}  // namespace snapspace

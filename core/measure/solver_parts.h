@@ -1,0 +1,49 @@
+#pragma once
+#include <vector>
+
+#include "measure/machine_peak.h"
+#include "snapshots/posing_system.h"
+#include "threads/flush_denormals.h"
+
+namespace snapspace {
+
+/// Seconds that the two large parts of an L-BFGS step take on one thread for a pack of samples, and
+/// the floating-point operations that they need.
+struct PartTimes {
+  double kernel_seconds = 0.0;  ///< objective and gradient
+  double solve_seconds = 0.0;   ///< both triangular solves
+  double kernel_flops = 0.0;
+  double solve_flops = 0.0;
+};
+
+/// Sums and products of an element's energy and gradient for one sample: differences of nodal
+/// values 9, their gradient 45, strain 48, stress and density 30, first stress 54, forces 63,
+/// scattering 18.
+inline constexpr double kKernelFlopsPerTet = 267.0;
+
+/// @tparam Real  a pack   @param shape  3n displacements in the system's numbering, in all lanes
+template <class Real>
+[[nodiscard]] PartTimes time_parts(const PosingSystem& system, const std::vector<double>& shape,
+                                   int repeats) {
+  const FlushDenormals flush;
+  using Single = SingleLanes<Real::kWidth>;
+  const std::size_t size = shape.size();
+  std::vector<Real> u(size), gradient(size);
+  for (std::size_t i = 0; i < size; ++i) u[i] = Real(static_cast<typename Real::Scalar>(shape[i]));
+  std::vector<Single> vector(size, Single(1.0f)), scratch(size);
+  PosingObjective<Real> objective(system);
+  PartTimes times;
+  times.kernel_seconds = shortest_time(
+      repeats, [&] { (void)objective.value_and_gradient(u.data(), gradient.data()); });
+  times.solve_seconds = shortest_time(repeats, [&] {
+    std::fill(vector.begin(), vector.end(), Single(1.0f));
+    objective.precondition(vector.data(), vector.data(), scratch.data());
+  });
+  times.kernel_flops =
+      kKernelFlopsPerTet * static_cast<double>(system.energy.rest.tets.size()) * Real::kWidth;
+  // a product and a sum per entry, component, lane and direction
+  times.solve_flops = 12.0 * static_cast<double>(system.factor.nonzeros()) * Real::kWidth;
+  return times;
+}
+
+}  // namespace snapspace

@@ -1,0 +1,124 @@
+"""growing_models: a first model within seconds, and better ones while it is in use."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .problem import InterpolationProblem, PosingProblem
+from .reduction import InterpolationModel, PosingModel, reduce
+from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
+from .subspace import snapshot_pca
+
+FloatArray = NDArray[np.float64]
+
+#: Samples and dimension of the first model. On the Dragon it is within 10 % of the full solutions.
+FIRST_SAMPLES, FIRST_DIMENSION = 32, 16
+#: Dimension of the second model: its coefficients take an eighth of the time of d = 40.
+MIDDLE_DIMENSION = 24
+#: Times the tolerance, for the first model's samples: they are solved to the end afterwards.
+FIRST_SLACK = 100.0
+
+
+@dataclass(frozen=True)
+class Growth:
+    """One of the models of `growing_models`.
+
+    model : PosingModel or InterpolationModel
+    snapshots : what it is made of; samples of earlier stages come first
+    seconds : since `growing_models` began
+    final : whether all samples are in it, to the wanted tolerance and dimension
+    """
+
+    model: PosingModel | InterpolationModel
+    snapshots: Snapshots
+    seconds: float
+    final: bool
+
+
+def growing_models(
+    problem: PosingProblem | InterpolationProblem,
+    parameters: ArrayLike,
+    *,
+    dimension: int = 40,
+    options: SolverOptions | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    executor: Executor | None = None,
+    known: Snapshots | None = None,
+) -> Iterator[Growth]:
+    """Models of more and more samples: the first after 32 loosely solved ones, the last after all.
+
+    Stages: 32 samples at a hundred times the tolerance; a third of the samples, where these are 64
+    or more; all of them. What a stage has solved the next one does not solve again, and the loose
+    samples go on from where they are.
+
+    Parameters
+    ----------
+    problem : PosingProblem or InterpolationProblem
+    parameters : array_like, (k, problem.parameter_count)
+        For example from `sample`. Their order matters: the first model is made of the first ones.
+    dimension : int, default 40
+        d of the last model.
+    options, threads, progress, executor, known : as for `solve_snapshots`
+
+    Yields
+    ------
+    Growth
+        The last one is what `solve_snapshots`, `snapshot_pca` and `reduce` make of the same
+        samples, up to the tolerance and the choice among several minima.
+
+    Raises
+    ------
+    ValueError
+        For bad samples, or a dimension that exceeds them.
+    """
+    begin = time.perf_counter()
+    samples = np.atleast_2d(np.asarray(parameters, np.float64))
+    wanted = options or SolverOptions()
+    tolerance = wanted.resolved(problem).tolerance
+    loose = replace(wanted, tolerance=FIRST_SLACK * tolerance)
+    done: Snapshots | None = None
+    starts = known
+    for stage in _stages(len(samples), dimension):
+        first = 0 if done is None else len(done)
+        snapshots = solve_snapshots(
+            problem,
+            samples[first : stage.samples],
+            options=loose if stage.loose else wanted,
+            threads=threads,
+            progress=progress,
+            executor=executor,
+            known=starts,
+        )
+        if done is not None:
+            snapshots = done.joined(snapshots)
+        if not stage.loose:
+            done = snapshots
+        starts = snapshots if known is None else known.joined(snapshots)
+        subspace = snapshot_pca(snapshots, dimension=stage.dimension)
+        model = reduce(problem, subspace, snapshots=snapshots, threads=threads)
+        yield Growth(model, snapshots, time.perf_counter() - begin, stage.final)
+
+
+@dataclass(frozen=True)
+class _Stage:
+    samples: int
+    dimension: int
+    loose: bool = False
+    final: bool = False
+
+
+def _stages(samples: int, dimension: int) -> list[_Stage]:
+    last = _Stage(samples, dimension, final=True)
+    if samples <= FIRST_SAMPLES:
+        return [last]
+    first = _Stage(FIRST_SAMPLES, min(dimension, FIRST_DIMENSION), loose=True)
+    if samples < 6 * FIRST_SAMPLES:
+        return [first, last]
+    return [first, _Stage(samples // 3, min(dimension, MIDDLE_DIMENSION)), last]

@@ -1,0 +1,30 @@
+"""Worker processes, which cost a second and are made once."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+
+import pytest
+
+WORKERS = 2
+#: Iterations until an interpolation in a worker gets a factor of its own: fewer than any needs.
+WORKERS_PATIENCE = 17
+#: What a worker does first: none idles while another one imports.
+READY = f"""
+import snapspace, time
+snapspace.InterpolationProblem.patience = {WORKERS_PATIENCE}
+time.sleep(0.3)
+"""
+
+
+@pytest.fixture(scope="package")
+def processes() -> Iterator[ProcessPoolExecutor]:
+    """Two fresh processes, both up: they share nothing with this one."""
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(
+        WORKERS, mp_context=context, initializer=exec, initargs=(READY,)
+    ) as pool:
+        list(pool.map(exec, ["import time; time.sleep(0.2)"] * WORKERS))
+        yield pool

@@ -1,0 +1,106 @@
+"""A backend that gives samples back when the test says, one at a time."""
+
+from __future__ import annotations
+
+import random
+import weakref
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import _core as core
+from snapspace.problem import Problem
+from snapspace.snapshots import run
+from snapspace.snapshots.fast_solve import as_sample_report, solve_fast
+from snapspace.snapshots.solved import Solved
+from snapspace.snapshots.solver_options import ResolvedOptions
+
+FloatArray = NDArray[np.float64]
+
+
+def nothing(_: int) -> None:
+    """Lets the run go on."""
+
+
+@dataclass
+class Script:
+    """What happens to a run.
+
+    seed : of the order in which samples under way are finished
+    before_wait : is told how many samples were given back, and may raise
+    given : the samples that were given back, in order
+    arrays : their displacements, as long as someone holds them
+    """
+
+    seed: int = 0
+    before_wait: Callable[[int], None] = nothing
+    given: list[int] = field(default_factory=list)
+    arrays: list[weakref.ref[FloatArray]] = field(default_factory=list)
+
+    @contextmanager
+    def plays(self) -> Iterator[None]:
+        """Runs without an executor are solved by a `ScriptedBackend`."""
+
+        def backend(
+            problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
+        ) -> ScriptedBackend:
+            return ScriptedBackend(problem, options, self)
+
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(run, "LocalBackend", backend)
+            yield
+
+
+class ScriptedBackend:
+    """Solves samples when they are handed over, and tells of one at each `wait`."""
+
+    def __init__(self, problem: Problem, options: ResolvedOptions, script: Script) -> None:
+        self._problem = problem
+        self._options = options
+        self._script = script
+        self._order = random.Random(script.seed)
+        self._under_way: list[Solved] = []
+
+    def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
+        options, control = self._options, core.SolveControl()
+        if options.solver == "fast":
+            shapes, reports = solve_fast(self._problem, inputs, starts, control, options, threads=1)
+        else:
+            batch = self._problem.system.solve_newton(
+                inputs,
+                starts,
+                tolerance=options.tolerance,
+                max_iterations=options.max_iterations,
+                clamp=options.clamp,
+                threads=1,
+                control=control,
+            )
+            shapes, reports = batch.shapes, [as_sample_report(one) for one in batch.reports]
+        for sample, shape, report in zip(samples, shapes, reports, strict=True):
+            self._under_way.append(Solved(sample, shape.copy(), report))
+
+    def running(self) -> dict[int, int]:
+        """Those under way, far enough for nobody to wait for them without need."""
+        return {one.sample: one.report.evaluations - 1 for one in self._under_way}
+
+    def no_more(self) -> None:
+        pass
+
+    def wait(self, timeout: float) -> list[Solved]:
+        if not self._under_way:
+            return []
+        self._script.before_wait(len(self._script.given))
+        one = self._under_way.pop(self._order.randrange(len(self._under_way)))
+        self._script.given.append(one.sample)
+        self._script.arrays.append(weakref.ref(one.displacement))
+        return [one]
+
+    def cancel(self) -> None:
+        self._under_way.clear()
+
+    def close(self) -> None:
+        self.cancel()

@@ -1,0 +1,148 @@
+"""Single precision: the shapes of double to less than the tolerance, and as deterministic."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import (
+    HandleBox,
+    Handles,
+    PosingProblem,
+    Snapshots,
+    SolverOptions,
+    TetMesh,
+    solve_snapshots,
+)
+from snapspace.mesh import mass_norms
+from snapspace.snapshots.solver_options import SINGLE_TOLERANCE, Precision
+
+from ..shapes import irregular_bar
+from .bars import parameters, posing_bar
+
+FloatArray = NDArray[np.float64]
+
+
+def solved(
+    problem: PosingProblem, samples: FloatArray, precision: Precision, **options: Any
+) -> Snapshots:
+    """From the rest shape: starts would mix the precision of other samples in."""
+    options = {"block": len(samples), "precision": precision, **options}
+    return solve_snapshots(problem, samples, options=SolverOptions(**options), threads=1)
+
+
+def distances(a: Snapshots, b: Snapshots) -> FloatArray:
+    """Of shapes, in the M-norm relative to the displacements, (k,)."""
+    mass, rest = a.problem.mass(), a.problem.base[:, None]
+    norms: FloatArray = mass_norms(mass, a.shapes - b.shapes) / mass_norms(mass, b.shapes - rest)
+    return norms
+
+
+def values(snapshots: Snapshots) -> FloatArray:
+    return np.array([report.value for report in snapshots.reports])
+
+
+def assert_single_is_good_enough(problem: PosingProblem, samples: FloatArray) -> None:
+    """A hundredth of what the tolerance leaves of shapes, a tenth of it in F, on the same way."""
+    single, double = (solved(problem, samples, p) for p in ("single", "double"))  # type: ignore[arg-type]
+    limit = solved(problem, samples, "double", tolerance=1e-12)
+    assert single.converged.all() and double.converged.all() and limit.converged.all()
+    left = distances(double, limit)
+    assert distances(single, double).max() < 0.01 * left.mean()
+    assert np.abs(values(single) / values(double) - 1.0).max() < 1e-6
+    for ours, theirs in zip(single.reports, double.reports, strict=True):
+        assert abs(ours.iterations - theirs.iterations) <= 1
+
+
+@pytest.mark.parametrize("bound", [0.05, 0.25, 0.7])
+def test_bars(bound: float) -> None:
+    problem = posing_bar(bound=bound)
+    assert_single_is_good_enough(problem, parameters(problem, 16))
+
+
+@pytest.mark.parametrize("stiffness", [1.0, 1e6])
+def test_soft_and_hard_handles(stiffness: float) -> None:
+    problem = posing_bar(stiffness=stiffness)
+    assert_single_is_good_enough(problem, parameters(problem, 8))
+
+
+def bar_with_a_flat_tet(height: float) -> PosingProblem:
+    """One corner of a tet pressed towards the opposite face, to this share of its height."""
+    mesh = irregular_bar(8, 2, 2)
+    vertices, (corner, *face) = mesh.vertices.copy(), np.roll(mesh.tets[60], -1)
+    a, b, c = vertices[face]
+    normal = np.cross(b - a, c - a) / np.linalg.norm(np.cross(b - a, c - a))
+    vertices[corner] -= (1.0 - height) * ((vertices[corner] - a) @ normal) * normal
+    x, flat = vertices[:, 0], TetMesh(vertices, mesh.tets)
+    assert flat.volumes.min() < 3.0 * height * np.median(flat.volumes)
+    domain = HandleBox(translation=0.7, angle=0.7)
+    return PosingProblem(flat, Handles([x < 0.6, x > 3.4]), domain=domain)
+
+
+@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-6])
+def test_slivers(height: float) -> None:
+    """Edge vectors of a flat tet have their digits, but its inverse is large."""
+    problem = bar_with_a_flat_tet(height)
+    assert_single_is_good_enough(problem, parameters(problem, 12))
+
+
+@pytest.mark.parametrize("size", [1e-3, 1e-7, 1e-10])
+def test_tiny_motions(size: float) -> None:
+    """Displacements have all their digits however small they are: rest is where they count from.
+
+    Strains below 1e-12 are none in either precision.
+    """
+    problem = posing_bar()
+    single, double = (
+        solved(problem, size * parameters(problem, 8), p) for p in ("single", "double")
+    )  # type: ignore[arg-type]
+    assert single.converged.all()
+    rows = [run.displacements.array() for run in (single, double)]
+    assert np.abs(rows[0] - rows[1]).max() < 1e-6 * np.abs(rows[1]).max()
+    assert [r.iterations for r in single.reports] == [r.iterations for r in double.reports]
+
+
+@pytest.mark.parametrize("size", [1e-18, 1e-25, 1e-42, 1e-310])
+def test_motions_that_single_precision_does_not_see(size: float) -> None:
+    """Denormal or zero: the answer is the rest shape, as in double precision."""
+    problem = posing_bar()
+    single = solved(problem, size * parameters(problem, 4), "single")
+    assert single.converged.all()
+    np.testing.assert_array_equal(single.displacements.array(), 0.0)
+
+
+@pytest.mark.parametrize("scale", [1e-12, 1e-11, 1e-8, 1e-3, 1e6, 1e12])
+def test_units_do_not_matter_or_are_told_of(scale: float) -> None:
+    """A copy in other units has the same solutions. Volumes beyond the range must not be silent."""
+    here = posing_bar()
+    there = PosingProblem(
+        TetMesh(scale * here.mesh.vertices, here.mesh.tets),
+        here.handles,
+        domain=here.domain,
+        stiffness=here.stiffness / scale**2,
+    )
+    samples = parameters(here, 8)
+    factors = np.array([scale, scale, scale, 1.0, 1.0, 1.0])
+    expected = solved(here, samples, "double", tolerance=1e-12)
+    options = SolverOptions(block=8)  # the precision is the library's choice
+    found = solve_snapshots(there, samples * factors, options=options, threads=1)
+    excess = values(found) / scale**3 / values(expected) - 1.0
+    assert np.abs(excess[found.converged]).max(initial=0.0) < 1e-4
+    away = np.abs(found.shapes / scale - expected.shapes).max(axis=0)
+    assert away[found.converged].max(initial=0.0) < 2e-3
+
+
+def test_the_default_is_single_where_it_resolves_the_tolerance() -> None:
+    problem = posing_bar()
+    loose, tight, newton = (
+        SolverOptions(**options).resolved(problem)
+        for options in (
+            {"tolerance": SINGLE_TOLERANCE},
+            {"tolerance": np.nextafter(SINGLE_TOLERANCE, 0.0)},
+            {"solver": "newton"},
+        )
+    )
+    assert (loose.single, tight.single, newton.single) == (True, False, False)

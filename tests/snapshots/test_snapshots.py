@@ -1,0 +1,70 @@
+"""Collections of samples: which of them count, and samples of several runs together."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from snapspace import Snapshots, carried, snapshot_pca, solve_snapshots
+
+from ..shapes import bar_problem
+from .bars import parameters
+
+PROBLEM = bar_problem()
+SMALLER = PROBLEM.with_handles(PROBLEM.handles.without("belly"))
+
+
+@pytest.fixture(scope="module")
+def fresh() -> Snapshots:
+    return solve_snapshots(PROBLEM, parameters(PROBLEM, 4), threads=1)
+
+
+@pytest.fixture(scope="module")
+def from_before() -> Snapshots:
+    before = solve_snapshots(SMALLER, parameters(SMALLER, 3), threads=1)
+    return carried(before, PROBLEM)
+
+
+def test_joined_are_the_samples_of_both_in_order(fresh: Snapshots, from_before: Snapshots) -> None:
+    both = fresh.joined(from_before)
+    assert len(both) == 7 and both.problem is PROBLEM
+    for part, samples in ((fresh, np.arange(7) < 4), (from_before, np.arange(7) >= 4)):
+        chosen = both.select(samples)
+        np.testing.assert_array_equal(chosen.parameters, part.parameters)
+        np.testing.assert_array_equal(chosen.shapes, part.shapes)
+        assert chosen.reports == list(part.reports)
+
+
+def test_samples_of_another_problem_are_not_joined(fresh: Snapshots) -> None:
+    before = solve_snapshots(SMALLER, parameters(SMALLER, 2), threads=1)
+    with pytest.raises(ValueError, match="joined: the others are of another problem") as caught:
+        fresh.joined(before)
+    assert "`carried` brings them to the handles" in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_carried_ones_are_usable_but_not_converged(
+    fresh: Snapshots, from_before: Snapshots
+) -> None:
+    both = fresh.joined(from_before)
+    assert both.converged.tolist() == [True] * 4 + [False] * 3
+    assert both.usable.all()
+
+
+def test_carried_ones_are_part_of_the_basis(fresh: Snapshots, from_before: Snapshots) -> None:
+    both = fresh.joined(from_before)
+    subspace = snapshot_pca(both, dimension=7)
+    again = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(both.shapes)
+    np.testing.assert_allclose(again, both.shapes, rtol=0, atol=1e-9)
+
+
+def test_the_summary_tells_carried_ones_apart(fresh: Snapshots, from_before: Snapshots) -> None:
+    """They neither failed to converge nor took iterations."""
+    both = fresh.joined(from_before)
+    mean = np.mean([report.iterations for report in fresh.reports])
+    most = max(report.inverted_tets for report in both.reports)
+    assert both.summary() == (
+        f"4 of 4 samples converged, 3 carried, {mean:.0f} iterations on average, "
+        f"at most {most} inverted tets"
+    )
+    assert from_before.summary() == "3 carried, at most 0 inverted tets"
