@@ -243,7 +243,40 @@ def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     return result, rows
 
 
-PARTS = {f.__name__: f for f in (speed, first, limits, growth, problems)}
+def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """A handle is added to a problem with 100 samples: starting over against carrying them on."""
+    old = common.read_problem("dragon")
+    before = solved(old, ss.sample(old.domain, 100, seed=args.seed))
+    vertices = old.mesh.vertices
+    tail = np.flatnonzero((vertices[:, 0] < -3.9) & (vertices[:, 1] > 0))
+    reference, result = None, {}
+    rows: Rows = []
+    for name, fresh in (("starting over", 100), ("carried on", 25)):
+        begin = time.perf_counter()
+        problem = old.with_handles(old.handles.adding("tail", tail))
+        known = None if name == "starting over" else ss.carried(before, problem)
+        samples = ss.sample(problem.domain, fresh, seed=args.seed + 7)
+        snapshots = ss.solve_snapshots(problem, samples, known=known)
+        used = snapshots if known is None else snapshots.joined(known)
+        model = ss.reduce(problem, ss.snapshot_pca(used, dimension=30), snapshots=used)
+        seconds = time.perf_counter() - begin
+        if reference is None:
+            reference = solved(problem, unseen(problem, 20), tolerance=1e-9, max_iterations=5000)
+        errors = reduced_errors(model, reference)
+        median, mean = float(np.median(errors)), float(errors.mean())
+        result[name] = {"seconds": seconds, "samples": fresh, "median": median, "mean": mean}
+        rows += [
+            (f"{name}, {fresh} samples: s to the model", seconds, ""),
+            (f"{name}: reduced error, median", median, ""),
+            (f"{name}: reduced error, mean", mean, ""),
+        ]
+    over, carried = result["starting over"], result["carried on"]
+    rows.append(("times faster", over["seconds"] / carried["seconds"], ""))
+    rows.append(("times the median error", carried["median"] / over["median"], "<= 1.5"))
+    return result, rows
+
+
+PARTS = {f.__name__: f for f in (speed, first, limits, growth, problems, handles)}
 
 
 def main() -> None:

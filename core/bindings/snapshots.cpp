@@ -192,9 +192,19 @@ void bind_snapshots(nb::module_& m) {
       .def("close", &SampleQueue::close, "No more samples come.")
       .def("running", &SampleQueue::running,
            "Samples that are being solved, with their evaluations so far.")
-      .def("collect", &SampleQueue::collect, nb::call_guard<nb::gil_scoped_release>(),
-           nb::arg("seconds"),
-           "Solutions since the last call; waits up to so many seconds for one.");
+      .def(
+          "collect",
+          [](SampleQueue& self, nb::list into, double seconds) {
+            std::vector<Solution> finished;
+            {
+              const nb::gil_scoped_release release;
+              finished = self.collect(seconds);
+            }
+            for (Solution& solution : finished) into.append(std::move(solution));
+          },
+          nb::arg("into"), nb::arg("seconds"),
+          "Appends the solutions since the last call to a list; waits up to so many seconds for "
+          "one. Not returned: a KeyboardInterrupt would lose what a call returns.");
 
   nb::class_<Batch>(m, "Batch", "Solutions of one call.")
       .def_prop_ro(

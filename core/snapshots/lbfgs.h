@@ -10,13 +10,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "simd/lanes.h"
+#include "snapshots/lane.h"
 #include "snapshots/lbfgs_memory.h"
 #include "snapshots/line_search.h"
 #include "snapshots/sample_queue.h"
@@ -81,55 +81,9 @@ class LaneLbfgs {
   using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
   static constexpr int kMaxShortenings = 30;
-  static constexpr int kWindow = 8;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
-  using Clock = std::chrono::steady_clock;
-
-  struct Lane {
-    std::optional<Sample> sample;
-    bool fresh = false;      // the start itself is evaluated next
-    bool restarted = false;  // since the last accepted step
-    bool done = false;
-    int iterations = 0;
-    int evaluations = 0;
-    int shortenings = 0;
-    double value = 0.0;
-    double slope = 0.0;  // gradient . direction, negative
-    double step = 1.0;
-    double decreases[kWindow] = {};  // of the last accepted steps
-    SolveStatus status = SolveStatus::cancelled;
-    Clock::time_point begin;
-
-    [[nodiscard]] bool busy() const { return sample.has_value(); }
-    [[nodiscard]] int id() const { return sample->id; }
-
-    /// Goes on with what another lane has, of a pack of any width.
-    template <class Other>
-    void take(Other& other) {
-      sample = std::move(other.sample);
-      fresh = other.fresh;
-      restarted = other.restarted;
-      iterations = other.iterations;
-      evaluations = other.evaluations;
-      shortenings = other.shortenings;
-      value = other.value;
-      slope = other.slope;
-      step = other.step;
-      std::copy_n(other.decreases, kWindow, decreases);
-      begin = other.begin;
-    }
-
-    /// A single small predicted decrease may be luck: the mean of the last actual ones must be
-    /// small as well.
-    [[nodiscard]] bool converged(double tolerance, double negligible) const {
-      const double enough = std::max(tolerance * std::abs(value), negligible);
-      if (-slope > enough) return false;
-      const double recent = std::accumulate(decreases, decreases + kWindow, 0.0);
-      return recent <= enough * kWindow;
-    }
-  };
 
   /// Takes over the samples of a wider pack that has at most kWidth.
   template <class Wide>
@@ -140,7 +94,7 @@ class LaneLbfgs {
     memory_.take_lanes(from.memory_, lanes);
     for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
       const int there = lanes[lane];
-      lanes_[lane].take(from.lanes_[there]);
+      lanes_[lane] = std::exchange(from.lanes_[there], {});
       objective_.load(lane, lanes_[lane].sample->input.data());
       for (int i = 0; i < size_; ++i) {
         u_[i].set(lane, from.u_[i][there]);
@@ -178,10 +132,13 @@ class LaneLbfgs {
   void load(int index, Sample sample) {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
-    lane.begin = Clock::now();
+    lane.begin = std::chrono::steady_clock::now();
     memory_.forget(index);
     objective_.load(index, sample.input.data());
-    for (int i = 0; i < size_; ++i) set_lane(u_[i], index, sample.start[i]);
+    for (int i = 0; i < size_; ++i) {
+      set_lane(u_[i], index, sample.start[i]);
+      set_lane(gradient_[i], index, 0.0);  // a start that is not finite keeps it for its report
+    }
     sample.start = {};
     lane.sample = std::move(sample);
   }
@@ -228,7 +185,7 @@ class LaneLbfgs {
       return !lane.done;
     }
     if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope, kRounding)) {
-      lane.decreases[lane.iterations % kWindow] = lane.value - value;
+      lane.decreases[lane.iterations % Lane::kWindow] = lane.value - value;
       ++lane.iterations;
       lane.restarted = false;
       lane.value = value;
@@ -286,7 +243,8 @@ class LaneLbfgs {
     result.value = lane.value;
     result.gradient_norm = std::sqrt(square);
     result.decrement = -lane.slope;
-    result.seconds = std::chrono::duration<double>(Clock::now() - lane.begin).count();
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - lane.begin).count();
     return result;
   }
 

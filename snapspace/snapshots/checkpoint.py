@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 
 
 class CheckpointNotice(UserWarning):
-    """A file of a checkpoint is damaged; its samples are solved again."""
+    """A file of a checkpoint is damaged and its samples are solved again, or cannot be written."""
 
 
 class UnsavedSamplesError(ValueError):

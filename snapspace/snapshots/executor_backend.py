@@ -133,6 +133,14 @@ class ExecutorBackend:
             if future.cancel():
                 del self._under_way[future]
 
+    def stop(self, seconds: float) -> list[Solved]:
+        """Cancels, and gives what is finished when tasks have ended or time is up."""
+        self.cancel()
+        deadline, solved = monotonic() + seconds, []
+        while self._under_way and monotonic() < deadline:
+            solved += self.wait(deadline - monotonic())
+        return solved + self.wait(0.0)
+
     def close(self) -> None:
         """Cancels what is under way and lets go of all results; the executor stays open."""
         self.cancel()

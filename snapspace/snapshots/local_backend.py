@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent import futures
 from concurrent.futures import Future, ThreadPoolExecutor
 
 import numpy as np
@@ -33,11 +34,13 @@ class LocalBackend:
     def __init__(
         self, problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
     ) -> None:
+        _ = problem.system  # made once, before threads ask for it, and where Ctrl-C ends it
         self._problem = problem
         self._options = options
         self._threads = threads
         self._queue = core.SampleQueue()
         self._control = core.SolveControl()
+        self._collected: list[core.Solution] = []
         self._inputs: dict[int, FloatArray] = {}
         self._again: dict[int, Future[Solved]] = {}
         self._pool = ThreadPoolExecutor(max_workers=2)
@@ -53,10 +56,9 @@ class LocalBackend:
         """Samples that are finished, after at most `timeout` seconds; raises what a solver did."""
         if self._server.done():
             self._server.result()
-        solved = [
-            Solved(one.id, one.shape, as_sample_report(one.report))
-            for one in self._queue.collect(timeout)
-        ]
+        self._queue.collect(self._collected, timeout)
+        collected, self._collected = self._collected, []
+        solved = [Solved(one.id, one.shape, as_sample_report(one.report)) for one in collected]
         slow = [one for one in solved if needs_another_try(one.report, self._options)]
         for one in slow:
             self._again[one.sample] = self._pool.submit(self._solve_on, one)
@@ -79,6 +81,12 @@ class LocalBackend:
         """Ends all solves; what is not finished by then is lost. Returns at once."""
         self._control.cancel()
         self._queue.close()
+
+    def stop(self, seconds: float) -> list[Solved]:
+        """Cancels, and gives what is finished when the solvers have stopped or time is up."""
+        self.cancel()
+        futures.wait([self._server, *self._again.values()], timeout=seconds)
+        return self.wait(0.0)
 
     def close(self) -> None:
         """Cancels what is left, and waits for the threads."""

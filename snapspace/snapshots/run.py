@@ -27,6 +27,8 @@ from .starts import interpolated_start, lower_start, nearest_start
 FloatArray = NDArray[np.float64]
 
 POLL_SECONDS = 0.1
+#: How long Ctrl-C waits for solvers to stop: they ask between the parts of an iteration.
+STOP_SECONDS = 0.4
 
 
 class Interrupted(KeyboardInterrupt):
@@ -60,6 +62,10 @@ class Backend(Protocol):
         """Cancels what is left, and lets go of everything."""
         ...
 
+    def stop(self, seconds: float) -> list[Solved]:
+        """Cancels, and gives what is finished when solvers have stopped or time is up."""
+        ...
+
 
 class Run:
     """Samples on their way: what is submitted, what is finished, what is saved.
@@ -89,6 +95,7 @@ class Run:
         self.rows: dict[int, FloatArray] = {}
         self.reports: dict[int, SampleReport] = {}
         self.unsaved: list[int] = []
+        self.enough = options.block  # samples that are saved together
         self.complete = 0  # leading blocks that are finished
         self.quick: list[list[int]] = []  # of leading blocks: samples that others start from
         for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
@@ -119,8 +126,7 @@ class Run:
         try:
             self._solve_on(backend)
         except KeyboardInterrupt:
-            backend.cancel()
-            self._book(backend.wait(0.0))
+            self._book(backend.stop(STOP_SECONDS))
             self._save()
             done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
             raise Interrupted(done) from None
@@ -146,7 +152,7 @@ class Run:
                     backend.no_more()
             self._tell()
             self._book(backend.wait(POLL_SECONDS))
-            if len(self.unsaved) >= self.options.block:
+            if len(self.unsaved) >= self.enough:
                 self._save()
         self._advance()
         self._tell()
@@ -169,6 +175,8 @@ class Run:
             if any(i not in self.reports for i in block):
                 break
             self.complete += 1
+            if self.unsaved and self.enough == self.options.block:
+                self._save()  # before the Gram matrix takes hold of what is in memory
             self.held_out.add([self.rows[i] for i in block])
             if self.progress:
                 converged = np.array([self.reports[i].converged for i in range(block.stop)])
@@ -219,9 +227,11 @@ class Run:
             )
         except UnsavedSamplesError as error:
             warnings.warn(str(error), CheckpointNotice, stacklevel=2)
+            self.enough = len(places) + self.options.block
             return
         self.rows.update(zip(places, rows, strict=True))
         self.unsaved.clear()
+        self.enough = self.options.block
 
     def _tell(self) -> None:
         if self.progress is None:

@@ -61,9 +61,8 @@ def solve_snapshots(
     Raises
     ------
     ValueError
-        For parameters of the wrong shape or not finite, or known snapshots of another problem.
-    RuntimeError
-        If the executor has lost its workers; finished samples are in the checkpoint.
+        For parameters of the wrong shape or not finite, known snapshots of another problem, or an
+        executor that has lost its workers; finished samples are in the checkpoint then.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """

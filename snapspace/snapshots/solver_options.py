@@ -16,6 +16,8 @@ PRECISIONS: tuple[Precision, ...] = ("single", "double")
 
 #: Single precision resolves decreases down to about a hundredth of this share of F.
 SINGLE_TOLERANCE = 3e-6
+#: Energies of single tets must be far from the ends of its range, 1e-38 and 1e38.
+SINGLE_ENERGIES = 1e-22, 1e22
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +39,8 @@ class SolverOptions:
     precision : "single" or "double", optional
         "fast" only: of shapes and gradients while solving; objectives and inner products are summed
         in double precision anyway. Default: single for tolerances of 3e-6 and more, which takes
-        half the time and changes the shapes by less than the tolerance does.
+        half the time and changes the shapes by less than the tolerance does; double where the
+        mesh's units are so small or large that energies would leave the range of single numbers.
     block : int, optional
         Samples handed out together. They start from the samples of earlier blocks, see `Schedule`:
         larger ones keep more cores busy, smaller ones give better starts. Default 16 for "fast", 2
@@ -75,14 +78,20 @@ class SolverOptions:
     def resolved(self, problem: Problem) -> ResolvedOptions:
         """The options with everything decided, for a problem."""
         tolerance = problem.snapshot_tolerance if self.tolerance is None else self.tolerance
-        precision = self.precision or ("single" if tolerance >= SINGLE_TOLERANCE else "double")
-        single = self.solver == "fast" and precision == "single"
+        single = self.precision == "single"
+        if self.precision is None:
+            single = tolerance >= SINGLE_TOLERANCE and _in_range(problem)
+        if single and tolerance < 0.03 * SINGLE_TOLERANCE:
+            raise ValueError(
+                f"precision single resolves tolerances down to {0.03 * SINGLE_TOLERANCE:.0e}, not "
+                f"{tolerance:g}; take double"
+            )
         return ResolvedOptions(
             solver=self.solver,
             tolerance=tolerance,
             max_iterations=self.max_iterations,
             clamp=self.clamp,
-            single=single,
+            single=single and self.solver == "fast",
             block=self.block or (16 if self.solver == "fast" else 2),
         )
 
@@ -104,3 +113,10 @@ class ResolvedOptions:
     def as_key(self) -> dict[str, Any]:
         """The options by name, for the record and for the key of a run."""
         return asdict(self)
+
+
+def _in_range(problem: Problem) -> bool:
+    """Whether the energy of a tet of usual size at a strain of one is a usual single number."""
+    mesh, material = problem.mesh, problem.material
+    energy = (material.mu + abs(material.lam)) * mesh.diagonal**3 / len(mesh.tets)
+    return SINGLE_ENERGIES[0] < energy < SINGLE_ENERGIES[1]

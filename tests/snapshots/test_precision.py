@@ -82,7 +82,7 @@ def bar_with_a_flat_tet(height: float) -> PosingProblem:
     return PosingProblem(flat, Handles([x < 0.6, x > 3.4]), domain=domain)
 
 
-@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-5])
 def test_slivers(height: float) -> None:
     """Edge vectors of a flat tet have their digits, but its inverse is large."""
     problem = bar_with_a_flat_tet(height)

@@ -1,0 +1,45 @@
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "snapshots/sample_queue.h"
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+/// How far the L-BFGS solve of a lane's sample is.
+struct Lane {
+  static constexpr int kWindow = 8;
+
+  std::optional<Sample> sample;
+  bool fresh = false;      // the start itself is evaluated next
+  bool restarted = false;  // since the last accepted step
+  bool done = false;
+  int iterations = 0;
+  int evaluations = 0;
+  int shortenings = 0;
+  double value = 0.0;
+  double slope = 0.0;  // gradient . direction, negative
+  double step = 1.0;
+  double decreases[kWindow] = {};  // of the last accepted steps
+  SolveStatus status = SolveStatus::cancelled;
+  std::chrono::steady_clock::time_point begin;
+
+  [[nodiscard]] bool busy() const { return sample.has_value(); }
+  [[nodiscard]] int id() const { return sample->id; }
+
+  /// A single small predicted decrease may be luck: the mean of the last actual ones must be
+  /// small as well.
+  [[nodiscard]] bool converged(double tolerance, double negligible) const {
+    const double enough = std::max(tolerance * std::abs(value), negligible);
+    if (-slope > enough) return false;
+    const double recent = std::accumulate(decreases, decreases + kWindow, 0.0);
+    return recent <= enough * kWindow;
+  }
+};
+
+}  // namespace snapspace
