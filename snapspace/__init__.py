@@ -5,6 +5,7 @@ from importlib.metadata import version as _version
 from .energy import ElasticEnergy, StVK
 from .filling import fill_surface
 from .fitting import PoseFit, PoseFits, fit_poses
+from .greedy import greedy_snapshots
 from .growing import Growth, growing_models
 from .mesh import (
     EmbeddedSurface,
@@ -105,6 +106,7 @@ __all__ = [
     "embed_surface",
     "fill_surface",
     "fit_poses",
+    "greedy_snapshots",
     "growing_models",
     "in_box",
     "in_sphere",

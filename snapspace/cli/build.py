@@ -30,7 +30,7 @@ DIMENSION = 40
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
-@choice_options(samples=300, dimension=DIMENSION, sampling="random")
+@choice_options(samples=300, dimension=DIMENSION, sampling="sobol")
 @click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
 @threads_option
 @dask_option

@@ -5,15 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import wraps
-from typing import Any
+from typing import Any, Literal
 
 import click
 
+from ..greedy import CANDIDATES, check_target
 from ..sampling import METHODS, Domain, Method, sample
 from ..snapshots import SOLVERS, SolverOptions
 from ..snapshots.solver_options import Solver
 from .console import notice
 from .recipe import Recipe
+from .samples import ChosenSamples, GivenSamples, Samples, sampling_record
+
+Sampling = Method | Literal["greedy"]
+SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,7 +28,8 @@ class Choices:
     samples: int
     dimension: int | None
     energy_fraction: float | None
-    sampling: Method | None
+    sampling: Sampling | None
+    target_error: float | None
     no_scramble: bool
     seed: int
     solver: Solver
@@ -48,22 +54,17 @@ class Choices:
         """The recipe for a domain; `dimension` holds if neither size was given."""
         # in one dimension even spacing beats all other ways
         method = self.sampling or ("grid" if domain.dimension == 1 else "sobol")
-        parameters = sample(
-            domain,
-            self.samples,
-            method=method,
-            seed=self.seed,
-            scramble=not self.no_scramble,
-        )
+        samples = self._samples(domain, method, dimension)
         neither = self.dimension is None and self.energy_fraction is None
         recipe = Recipe(
-            parameters=parameters,
-            sampling={
-                "method": method,
-                "samples": self.samples,
-                "seed": self.seed,
-                "scramble": not self.no_scramble,
-            },
+            samples=samples,
+            sampling=sampling_record(
+                samples,
+                method,
+                asked=self.samples,
+                seed=self.seed,
+                scramble=not self.no_scramble,
+            ),
             solver=self.solver_options(),
             dimension=dimension if neither else self.dimension,
             energy_fraction=self.energy_fraction,
@@ -72,13 +73,39 @@ class Choices:
             threads=threads,
             known=known,
         )
-        if len(parameters) < self.samples:
-            notice(f"notice: the grid has {len(parameters)} samples, not {self.samples}")
+        if samples.count < self.samples:
+            notice(f"notice: the grid has {samples.count} samples, not {self.samples}")
         return recipe
+
+    def _samples(self, domain: Domain, method: Sampling, dimension: int) -> Samples:
+        check_target(self.target_error)
+        if method != "greedy" and self.target_error is None:
+            parameters = sample(
+                domain,
+                self.samples,
+                method=method,
+                seed=self.seed,
+                scramble=not self.no_scramble,
+            )
+            return GivenSamples(parameters)
+        if method not in ("greedy", "sobol"):
+            raise ValueError(
+                f"--target-error needs samples that can end anywhere: --sampling sobol or greedy, "
+                f"not {method}"
+            )
+        if self.no_scramble:
+            raise ValueError("--no-scramble is for sobol samples without --target-error")
+        return ChosenSamples(
+            count=self.samples,
+            seed=self.seed,
+            candidates=CANDIDATES if method == "greedy" else 1,
+            dimension=self.dimension or dimension,
+            target=self.target_error,
+        )
 
 
 def choice_options(
-    *, samples: int, dimension: int, sampling: Method | None
+    *, samples: int, dimension: int, sampling: Sampling | None
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """The options of `Choices` with a command's defaults, passed on as the parameter `choices`."""
 
@@ -96,7 +123,7 @@ def choice_options(
 
 
 def _options(
-    samples: int, dimension: int, sampling: Method | None
+    samples: int, dimension: int, sampling: Sampling | None
 ) -> list[Callable[[Callable[..., Any]], Callable[..., Any]]]:
     return [
         click.option(
@@ -118,10 +145,17 @@ def _options(
         ),
         click.option(
             "--sampling",
-            type=click.Choice(METHODS),
+            type=click.Choice(SAMPLINGS),
             default=sampling,
             show_default=sampling or "grid for two poses, else sobol",
-            help="Method.",
+            help="Method. greedy: where the model so far is worst; fewer samples, more time each.",
+        ),
+        click.option(
+            "--target-error",
+            type=float,
+            metavar="SHARE",
+            help="End before --samples once new ones are within this share of the subspace of "
+            "those before, such as 0.01. For sobol and greedy.",
         ),
         click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence."),
         click.option(

@@ -25,6 +25,7 @@ from .pipeline import build_model
 from .pose import write_shape
 from .progress import sample_progress
 from .recipe import Recipe, check_dimension
+from .samples import GivenSamples, sampling_record
 from .summary import print_summary
 from .units import in_time
 from .validate import print_validation
@@ -83,9 +84,10 @@ def demo(
         path.write_text(json.dumps(PROBLEM, indent=1) + "\n", encoding="utf-8")
 
     problem = read_problem(files["json"])
+    given = GivenSamples(sample(problem.domain, samples, method="sobol", seed=seed))
     recipe = Recipe(
-        parameters=sample(problem.domain, samples, seed=seed),
-        sampling={"method": "random", "samples": samples, "seed": seed, "scramble": True},
+        samples=given,
+        sampling=sampling_record(given, "sobol", asked=samples, seed=seed, scramble=True),
         solver=SolverOptions(),
         dimension=dimension,
         threads=threads,

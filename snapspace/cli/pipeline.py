@@ -15,13 +15,7 @@ import numpy as np
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
-from ..snapshots import (
-    Checkpoint,
-    Snapshots,
-    run_key,
-    solve_snapshots,
-    solver_key,
-)
+from ..snapshots import Checkpoint, Snapshots
 from ..subspace import AffineSubspace, snapshot_pca
 from .console import console, notice
 from .memory import peak_memory_bytes
@@ -96,9 +90,7 @@ def build_model(
         On Ctrl-C, with a line that says what is kept.
     """
     begin = time.perf_counter() if begin is None else begin
-    options = solver_key(recipe.solver, problem)
-    key = run_key(problem, recipe.parameters, options)
-    checkpoint = Checkpoint.beside(output, key)
+    checkpoint = Checkpoint.beside(output, recipe.samples.key(problem, recipe.solver))
     seconds: dict[str, float] = {}
     try:
         if isinstance(problem, InterpolationProblem):
@@ -118,8 +110,8 @@ def build_model(
         model = replace(model, provenance=record)
         model.save(output)
     except KeyboardInterrupt:
-        kept = len(checkpoint.numbers())
-        raise KeyboardInterrupt(_resume_line(kept, len(recipe.parameters))) from None
+        kept = recipe.samples.finished(checkpoint)
+        raise KeyboardInterrupt(_resume_line(kept, recipe.samples.count)) from None
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
     return Built(model, snapshots, output, seconds)
@@ -131,7 +123,7 @@ def _solved(
     checkpoint: Checkpoint,
     executor: Executor | None,
 ) -> Snapshots:
-    total, found = len(recipe.parameters), len(checkpoint.numbers())
+    total, found = recipe.samples.count, recipe.samples.finished(checkpoint)
     if found:
         notice(f"resuming: {found} of {total} samples were finished before")
     for folder in checkpoint.folder.parent.iterdir():
@@ -139,10 +131,9 @@ def _solved(
         if other_run and folder != checkpoint.folder:
             notice(f"notice: {folder} holds samples of other options; delete it if not needed")
     with sample_progress("snapshots", done=found, total=total) as progress:
-        return solve_snapshots(
+        return recipe.samples.solve(
             problem,
-            recipe.parameters,
-            options=recipe.solver,
+            recipe.solver,
             threads=recipe.threads,
             progress=progress,
             checkpoint=checkpoint,

@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import NDArray
 
 from .. import __version__, _core
 from ..snapshots import Snapshots, SolverOptions, solver_key
+from .samples import Samples
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
     """What to do with a problem.
 
-    parameters : (k, p) samples
+    samples : where they come from
     sampling : how they were chosen, for the record
     solver : SolverOptions
     dimension, energy_fraction : one of them; see `snapshot_pca`
@@ -27,7 +27,7 @@ class Recipe:
     known : solutions that join the snapshots without solving, the poses of an interpolation
     """
 
-    parameters: NDArray[np.float64]
+    samples: Samples
     sampling: dict[str, Any]
     solver: SolverOptions
     dimension: int | None
@@ -41,7 +41,7 @@ class Recipe:
         if (self.dimension is None) == (self.energy_fraction is None):
             raise ValueError("give either --dimension or --energy-fraction")
         if self.dimension is not None:
-            check_dimension(self.dimension, len(self.parameters), known=self.known)
+            check_dimension(self.dimension, self.samples.count, known=self.known)
         if self.energy_fraction is not None and not 0 < self.energy_fraction <= 1:
             raise ValueError(f"energy fraction is {self.energy_fraction}, but must be in (0, 1]")
 

@@ -24,9 +24,16 @@ class HeldOutError:
     inner products only, which the subspace needs anyway.
 
     gram : SnapshotGram of all samples so far
+
+    Parameters
+    ----------
+    problem : Problem
+    dimension : int, default 40
+        Of the subspaces.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, *, dimension: int = DIMENSION) -> None:
+        self.dimension = dimension
         self.gram = SnapshotGram.of(problem)
         self._known = solutions_beyond_tau(problem)[1] - problem.base
 
@@ -49,5 +56,5 @@ class HeldOutError:
             gram = gram.copy()
             gram.add(list(self._known))
         training = np.append(training, known)
-        size = min(DIMENSION, len(training))
+        size = min(self.dimension, len(training))
         return float(np.median(gram.held_out_error(training, unseen + before, size)))

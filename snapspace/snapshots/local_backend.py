@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent import futures
 from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +86,8 @@ class LocalBackend:
     def stop(self, seconds: float) -> list[Solved]:
         """Cancels, and gives what is finished when the solvers have stopped or time is up."""
         self.cancel()
-        futures.wait([self._server, *self._again.values()], timeout=seconds)
+        under_way: list[Future[Any]] = [self._server, *self._again.values()]
+        futures.wait(under_way, timeout=seconds)
         return self.wait(0.0)
 
     def close(self) -> None:

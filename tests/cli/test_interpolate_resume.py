@@ -13,7 +13,7 @@ import pytest
 from safetensors.numpy import load_file
 
 from snapspace import interruptible
-from snapspace.cli import pipeline, pose_files
+from snapspace.cli import pipeline, pose_files, samples
 
 from .conftest import Run
 from .files import contents, enclosing_mesh, write_surface_poses
@@ -125,14 +125,14 @@ def test_other_options_do_not_take_what_is_kept(
 ) -> None:
     path = tmp_path / "m.snapspace"
     with monkeypatch.context() as patch:
-        patch.setattr(pipeline, "solve_snapshots", stop)
+        patch.setattr(samples, "solve_snapshots", stop)
         assert run(*surface_words, "-o", path).code == 130
     softer = run(*surface_words, "--deviation", 0.01, "-o", path)
     assert softer.code == 0
     assert "resuming" not in softer.err
     # what does not change the fits does not matter to them
     with monkeypatch.context() as patch:
-        patch.setattr(pipeline, "solve_snapshots", stop)
+        patch.setattr(samples, "solve_snapshots", stop)
         assert run(*surface_words, "-o", path).code == 130
     stiffer = run(*surface_words, "--mu", 5, "--samples", 7, "-o", path)
     assert "resuming: 2 of 2 poses were fitted before" in stiffer.err

@@ -1,0 +1,15 @@
+"""Greedy sampling: the next samples are those that the present model is worst at."""
+
+from .batch_checkpoints import finished_samples, greedy_key
+from .error_estimates import estimated_errors
+from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
+
+__all__ = [
+    "BATCH",
+    "CANDIDATES",
+    "check_target",
+    "estimated_errors",
+    "finished_samples",
+    "greedy_key",
+    "greedy_snapshots",
+]

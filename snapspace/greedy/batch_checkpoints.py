@@ -1,0 +1,47 @@
+"""The checkpoints of a run that comes in batches: one folder each, in the folder of the run."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import Problem
+from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
+
+FloatArray = NDArray[np.float64]
+
+
+def batch_checkpoint(
+    whole: Checkpoint | None,
+    begin: int,
+    problem: Problem,
+    parameters: FloatArray,
+    options: SolverOptions,
+) -> Checkpoint | None:
+    """The checkpoint of the batch that begins with sample `begin`; None if the run has none.
+
+    Its name has the key of the batch: a batch that was chosen differently, by another processor
+    for instance, does not take its samples for its own.
+    """
+    if whole is None:
+        return None
+    key = run_key(problem, parameters, solver_key(options, problem))
+    return Checkpoint(whole.folder / f"batch-{begin:05d}-{key}")
+
+
+def greedy_key(
+    problem: Problem, options: SolverOptions, *, seed: int, batch: int, candidates: int
+) -> str:
+    """Hash of what the choice depends on, 16 hex digits.
+
+    The number of samples and the target are not in it: a run for more samples goes on from the
+    batches of a shorter one.
+    """
+    choice = {"seed": seed, "batch": batch, "candidates": candidates}
+    solver = solver_key(options, problem)
+    return run_key(problem, np.zeros((0, problem.parameter_count)), {**solver, "greedy": choice})
+
+
+def finished_samples(whole: Checkpoint) -> int:
+    """How many samples of all batches are saved."""
+    return sum(len(Checkpoint(batch).numbers()) for batch in whole.folder.glob("batch-*"))

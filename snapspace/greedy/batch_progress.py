@@ -1,0 +1,48 @@
+"""BatchProgress: the progress of batches as that of one run."""
+
+from __future__ import annotations
+
+import time
+
+from ..snapshots import Progress, SolveProgress
+
+
+class BatchProgress:
+    """The `progress` callable for the run of each batch; tells of all batches together.
+
+    Parameters
+    ----------
+    progress : callable(SolveProgress)
+    total : int
+        Samples of all batches, as far as they are needed.
+
+    Attributes
+    ----------
+    held_out_error : of the last finished batch against those before; that of a batch's own run
+        would not know the others
+    """
+
+    def __init__(self, progress: Progress, total: int) -> None:
+        self.progress = progress
+        self.total = total
+        self.begin = time.perf_counter()
+        self.held_out_error: float | None = None
+        self._done = self._solved = 0
+        self._last: SolveProgress | None = None
+
+    def __call__(self, state: SolveProgress) -> None:
+        self._last = state
+        self._tell(self._done + state.done, self._solved + state.solved)
+
+    def finish_batch(self, held_out_error: float | None) -> None:
+        """Counts what the batch's run told last, and tells the error that is known by now."""
+        if self._last is not None:
+            self._done += self._last.done
+            self._solved += self._last.solved
+        self._last = None
+        self.held_out_error = held_out_error
+        self._tell(self._done, self._solved)
+
+    def _tell(self, done: int, solved: int) -> None:
+        seconds = time.perf_counter() - self.begin
+        self.progress(SolveProgress(done, self.total, seconds, solved, self.held_out_error))

@@ -1,0 +1,181 @@
+"""greedy_snapshots: samples where the model of those before is worst, until it is good enough."""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import InterpolationProblem, PosingProblem
+from ..sampling import sample
+from ..snapshots import (
+    Checkpoint,
+    Interrupted,
+    Progress,
+    SnapshotGram,
+    Snapshots,
+    SolverOptions,
+    solve_snapshots,
+)
+from .batch_checkpoints import batch_checkpoint
+from .batch_progress import BatchProgress
+from .error_estimates import estimated_errors
+from .largest_pivots import largest_pivots
+from .solved_so_far import SolvedSoFar
+
+FloatArray = NDArray[np.float64]
+
+BATCH, CANDIDATES = 32, 3
+
+
+def greedy_snapshots(
+    problem: PosingProblem | InterpolationProblem,
+    count: int,
+    *,
+    target: float | None = None,
+    dimension: int = 40,
+    batch: int = BATCH,
+    candidates: int = CANDIDATES,
+    seed: int = 0,
+    options: SolverOptions | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    checkpoint: Checkpoint | None = None,
+    executor: Executor | None = None,
+    known: Snapshots | None = None,
+) -> Snapshots:
+    """Solves batch after batch, each where a reduced model of the samples before is worst.
+
+    The first batch begins a scrambled Sobol sequence. For each batch after it a reduced model with
+    d <= 20 is made, and solved at the next `candidates * batch` points of the sequence. Of these
+    the batch takes points whose `estimated_errors` are large and differ from each other, see
+    `largest_pivots`. It is the greedy method of reduced bases (Veroy, Prud'homme, Rovas & Patera
+    2003) with another indicator, and in batches.
+
+    Parameters
+    ----------
+    problem : PosingProblem or InterpolationProblem
+    count : int
+        The most samples that are solved.
+    target : float, optional
+        Ends after the first batch whose median held-out error is below: the relative error in the
+        M-norm of its projection onto the best subspace of the samples before. Tight solutions at
+        unseen parameters have more: new samples start from blends of earlier ones, and stay near.
+    dimension : int, default 40
+        Of that subspace. It bounds what error can be reached.
+    batch : int, default 32
+    candidates : int, default 3
+        Points that each sample is chosen from. 1 takes the sequence as it comes, and needs no
+        model: Sobol sampling that ends at the target.
+    seed : int, default 0
+        Of the sequence.
+    options, threads, progress, executor : as for `solve_snapshots`
+    checkpoint : Checkpoint, optional
+        As for `solve_snapshots`; each batch has a folder in that of the checkpoint.
+    known : Snapshots, optional
+        Of the same problem, solved or `carried`. The model counts them as samples, so that even the
+        first batch is chosen, and they are starts.
+
+    Returns
+    -------
+    Snapshots
+        In the order of the choice, without the known ones; all parameters differ. The same
+        arguments give the same bits for any number of threads, executor or interruption.
+
+    Raises
+    ------
+    ValueError
+        For a number out of its range, known snapshots of another problem, or a first batch without
+        a usable sample.
+    Interrupted
+        On Ctrl-C, after the finished samples were saved.
+
+    Notes
+    -----
+    With the same number of samples it is some percent better or worse than the sequence itself, and
+    in the same time it is worse, see docs/benchmarks.md: PCA minimises a mean over the samples, and
+    for the mean over the domain those are best that are spread like the domain.
+    """
+    _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
+    check_target(target)
+    options = options or SolverOptions()
+    so_far = SolvedSoFar(problem, known, dimension)
+    told = BatchProgress(progress, count) if progress else None
+    sizes = _sizes(count, batch, candidates, chosen=so_far.snapshots is not None)
+    sequence = sample(problem.domain, sum(sizes), method="sobol", seed=seed)
+    done = 0
+    for points in np.split(sequence, np.cumsum(sizes)[:-1]):
+        try:
+            wanted = _worst(so_far, points, batch, options, threads)[: count - done]
+            solved = solve_snapshots(
+                problem,
+                wanted,
+                options=options,
+                threads=threads,
+                progress=told,
+                checkpoint=batch_checkpoint(checkpoint, done, problem, wanted, options),
+                executor=executor,
+                known=so_far.snapshots,
+            )
+            so_far.add(solved)
+            done += len(solved)
+            if told:
+                told.finish_batch(so_far.held_out_error)
+        except KeyboardInterrupt as stop:
+            raise Interrupted(_interruption(done, count, stop)) from None
+        error = so_far.held_out_error
+        if target is not None and error is not None and error < target:
+            break
+    return so_far.result()
+
+
+def check_target(target: float | None) -> None:
+    """ValueError unless the target is None or between 0 and 1."""
+    if target is not None and not 0.0 < target < 1.0:
+        raise ValueError(
+            f"greedy_snapshots: the target error is {target}, but it must be between 0 and 1: it "
+            "is relative to the displacement"
+        )
+
+
+def _check(
+    problem: PosingProblem | InterpolationProblem, known: Snapshots | None, **numbers: int
+) -> None:
+    for name, value in numbers.items():
+        if value < 1:
+            raise ValueError(f"greedy_snapshots: {name} is {value}, but must be at least 1")
+    if known is not None and known.problem.fingerprint != problem.fingerprint:
+        raise ValueError(
+            "greedy_snapshots: the known snapshots are of another problem; `carried` makes them "
+            "snapshots of this one"
+        )
+
+
+def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:
+    """Points of the sequence that each batch takes its samples from; the first may have to."""
+    batches = -(-count // batch)
+    return [batch if k == 0 and not chosen else candidates * batch for k in range(batches)]
+
+
+def _worst(
+    so_far: SolvedSoFar,
+    points: FloatArray,
+    batch: int,
+    options: SolverOptions,
+    threads: int | None,
+) -> FloatArray:
+    """The points (batch, p) of some where the model's estimated errors are largest, and differ."""
+    if len(points) <= batch:
+        return points
+    problem = so_far.problem
+    model = so_far.model(threads=threads)
+    single = options.resolved(problem).single
+    errors = SnapshotGram(problem.mass())
+    errors.add(list(estimated_errors(model, points, single=single, threads=threads)))
+    return points[largest_pivots(errors.matrix, batch)]
+
+
+def _interruption(done: int, count: int, stop: KeyboardInterrupt) -> str:
+    within = f"; of the next batch {stop}" if isinstance(stop, Interrupted) else ""
+    return f"{done} of {count} samples are in finished batches{within}"

@@ -1,0 +1,104 @@
+"""Samples that are chosen on the way, from the command line."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from safetensors.numpy import load_file
+
+from snapspace import greedy_snapshots, load, read_problem
+from snapspace.cli import pipeline
+
+from .conftest import Run
+from .files import write_problem, write_tet_poses
+
+SIZE = ("--samples", 70, "--dimension", 5)
+
+
+def test_a_greedy_build_has_the_samples_of_the_library_and_says_so(
+    run: Run, tmp_path: Path
+) -> None:
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, *SIZE, "--sampling", "greedy", "--seed", 4)
+    assert run(*words, "-o", path, "--json").json["samples"] == 70
+    model = load(path)
+    assert model.provenance["sampling"] == {
+        "method": "greedy",
+        "samples": 70,
+        "seed": 4,
+        "scramble": True,
+        "batch": 32,
+        "candidates": 3,
+        "target_error": None,
+    }
+    wanted = greedy_snapshots(read_problem(problem), 70, seed=4)
+    assert (model.training_parameters == wanted.parameters).all()
+    assert not list(tmp_path.glob("*.partial-*"))
+
+
+@pytest.mark.parametrize("method", ["sobol", "greedy"])
+def test_a_build_ends_at_its_target(run: Run, tmp_path: Path, method: str) -> None:
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, *SIZE, "--sampling", method, "-o", path)
+    result = run(*words, "--target-error", 0.9, "--json")
+    assert result.json["samples"] == 64
+    assert re.search(r"64 samples reach the target: the last samples are within \d", result.err)
+    assert load(path).provenance["sampling"]["target_error"] == 0.9
+
+    result = run(*words, "--target-error", 1e-6, "--json")
+    assert result.json["samples"] == 70
+    assert "70 samples do not reach the target of 0.0001 %" in result.err
+    few = run("build", "--problem", problem, "--samples", 9, *SIZE[2:], *words[-4:], *TARGET)
+    assert "9 samples are one batch, so there are none to test the target with" in few.err
+
+
+TARGET = ("--target-error", 0.1)
+
+
+def test_poses_are_blended_from_greedy_samples(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "m.snapspace"
+    words = ("interpolate", *write_tet_poses(tmp_path), "--samples", 36, "--dimension", 5)
+    assert run(*words, "--sampling", "greedy", "-o", path, "--json").json["samples"] == 36
+
+
+def test_an_interrupted_greedy_build_goes_on_to_the_same_model(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, *SIZE, "--sampling", "greedy", "-o")
+    with monkeypatch.context() as patch:
+        patch.setattr(pipeline, "reduce", interrupted)
+        result = run(*words, path)
+    assert (result.code, result.out) == (130, "")
+    assert "interrupted: 70 of 70 samples are kept" in result.err
+    assert "resuming: 70 of 70 samples were finished before" in run(*words, path).err
+    at_once = tmp_path / "at_once.snapspace"
+    assert run(*words, at_once).code == 0
+    first, second = load_file(path), load_file(at_once)
+    assert first.keys() == second.keys()
+    for name in first:
+        assert first[name].tobytes() == second[name].tobytes(), name
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--sampling", "random", *TARGET), "--target-error needs samples that can end anywhere"),
+        (("--sampling", "grid", *TARGET), "--target-error needs samples that can end anywhere"),
+        (("--sampling", "greedy", "--no-scramble"), "--no-scramble is for sobol samples"),
+        (("--target-error", "nan"), "the target error is nan, but it must be between 0 and 1"),
+        (("--target-error", "2"), "the target error is 2.0, but it must be between 0 and 1"),
+    ],
+)
+def test_choices_that_do_not_fit_are_refused_before_the_work(
+    run: Run, tmp_path: Path, words: tuple[str, ...], message: str
+) -> None:
+    problem = write_problem(tmp_path)
+    result = run("build", "--problem", problem, *SIZE, *words, "-o", tmp_path / "m.snapspace")
+    assert message in result.error
+    assert not list(tmp_path.glob("*.partial-*"))
