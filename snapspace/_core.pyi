@@ -34,6 +34,37 @@ class ElasticEnergy:
     def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
         """Number of elements with det F <= 0."""
 
+def minimum_degree(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> NDArray[numpy.int32]:
+    """
+    Order of elimination (n,) of a symmetric pattern, given by its columns.
+    """
+
+def nested_dissection(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> NDArray[numpy.int32]:
+    """The same by nested dissection."""
+
+class ScalarFactor:
+    """
+    Cholesky factor of a sparse matrix (n, n), given by its columns with both triangles; it solves for x, y and z.
+    """
+
+    def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
+
+    @staticmethod
+    def in_order(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64], order: NDArray[numpy.int32]) -> ScalarFactor:
+        """The factor for an order of elimination (n,)."""
+
+    @property
+    def nonzeros(self) -> int: ...
+
+    def solve(self, right_hand_side: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Solution of one (1, 3n)."""
+
+    def solve_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Solutions of up to lane_count (k, 3n), one per lane."""
+
+    def solve_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """The same in single precision, of up to twice as many."""
+
 class SolveStatus(enum.Enum):
     """How a full-space solve ended."""
 
@@ -117,8 +148,10 @@ class SampleQueue:
     def running(self) -> list[tuple[int, int]]:
         """Samples that are being solved, with their evaluations so far."""
 
-    def collect(self, seconds: float) -> list[Solution]:
-        """Solutions since the last call; waits up to so many seconds for one."""
+    def collect(self, into: list[Solution], seconds: float) -> None:
+        """
+        Appends the solutions since the last call to a list; waits up to so many seconds for one. Not returned: a KeyboardInterrupt would lose what a call returns.
+        """
 
 class Batch:
     """Solutions of one call."""

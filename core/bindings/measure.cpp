@@ -8,7 +8,7 @@ void bind_measure(nb::module_& m) {
   m.def(
       "peak_flops",
       [](bool single, int repeats) {
-        double sink = 1.0 - 1e-9;
+        volatile double sink = 1.0 - 1e-9;
         const nb::gil_scoped_release release;
         return single ? peak_flops<SingleLanes<2 * kWideLanes>>(repeats, sink)
                       : peak_flops<Lanes<kWideLanes>>(repeats, sink);
@@ -18,7 +18,7 @@ void bind_measure(nb::module_& m) {
   m.def(
       "read_bandwidth",
       [](std::size_t bytes, int repeats) {
-        double sink = 0.0;
+        volatile double sink = 0.0;
         const nb::gil_scoped_release release;
         return read_bandwidth(bytes, repeats, sink);
       },

@@ -3,6 +3,7 @@
 
 namespace snapspace {
 void bind_energy(nb::module_& m);
+void bind_cholesky(nb::module_& m);
 void bind_snapshots(nb::module_& m);
 void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
@@ -16,6 +17,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   m.doc() = "The loops of snapspace that must be fast.";
   m.attr("lane_count") = snapspace::kWideLanes;
   snapspace::bind_energy(m);
+  snapspace::bind_cholesky(m);
   snapspace::bind_snapshots(m);
   snapspace::bind_fitting(m);
   snapspace::bind_reduction(m);

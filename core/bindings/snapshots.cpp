@@ -65,9 +65,9 @@ void bind_solves(nb::class_<System>& system) {
           [](const System& self, VectorIn vector) {
             require(vector.size() == static_cast<std::size_t>(self.size()), "needs a (3n,) vector");
             DoublesOut result = new_array<double>({vector.size()});
-            std::vector<double> shape(vector.size()), scratch(vector.size());
+            std::vector<double> shape(vector.size());
             self.numbering.to_internal(vector.data(), shape.data());
-            self.factor.solve(shape.data(), shape.data(), scratch.data());
+            self.factor.solve(shape.data(), shape.data());
             self.numbering.to_external(shape.data(), result.data());
             return result;
           },
@@ -194,7 +194,7 @@ void bind_snapshots(nb::module_& m) {
            "Samples that are being solved, with their evaluations so far.")
       .def(
           "collect",
-          [](SampleQueue& self, nb::list into, double seconds) {
+          [](SampleQueue& self, nb::typed<nb::list, Solution> into, double seconds) {
             std::vector<Solution> finished;
             {
               const nb::gil_scoped_release release;

@@ -7,12 +7,16 @@
 
 namespace snapspace {
 
-/// The Cholesky factor of A, supernode by supernode [Duff & Reid 1983; Liu 1992]: `panel` is
-/// called with each one's dense columns, its own triangle above the rows below it.
+/// Takes the dense columns of a supernode: its own triangle, of which only the lower half counts,
+/// above the rows below it.
+using PanelSink = std::function<void(std::int32_t, const Eigen::MatrixXd&)>;
+
+/// The Cholesky factor of A, supernode by supernode [Duff & Reid 1983; Liu 1992].
 ///
-/// @throws std::invalid_argument if A is not positive definite
-void multifrontal_cholesky(
-    const Eigen::SparseMatrix<double>& A, const Supernodes& supernodes,
-    const std::function<void(std::int32_t, const Eigen::Ref<const Eigen::MatrixXd>&)>& panel);
+/// @param A           both triangles stored
+/// @param supernodes  of A, or of a matrix whose pattern contains A's
+/// @return false if A is not positive definite; the factor ends there
+[[nodiscard]] bool multifrontal_cholesky(const Eigen::SparseMatrix<double>& A,
+                                         const Supernodes& supernodes, const PanelSink& sink);
 
 }  // namespace snapspace

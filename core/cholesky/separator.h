@@ -1,21 +1,14 @@
 #pragma once
-#include <cstdint>
 #include <vector>
+
+#include "cholesky/weighted_graph.h"
 
 namespace snapspace {
 
-/// An undirected graph with weights, neighbours of v in [first[v], first[v + 1]).
-struct WeightedGraph {
-  std::vector<std::int32_t> first{0}, neighbours, edge_weights, weights;
-
-  [[nodiscard]] std::int32_t size() const { return static_cast<std::int32_t>(weights.size()); }
-};
-
-enum class Side : std::int8_t { left, right, separator };
-
-/// Splits a graph into two sides of like weight that share no edge, and a light separator between
-/// them: multilevel, with a refinement of the separator at every level [Hendrickson & Rothberg
-/// 1998].
+/// Splits a graph into two sides of like weight without an edge from one to the other, and a light
+/// separator between them: of a coarser graph first, if this one is large, then refined
+/// [Hendrickson & Rothberg 1998; Karypis & Kumar 1998]. A side may be empty in small or dense
+/// graphs.
 [[nodiscard]] std::vector<Side> find_separator(const WeightedGraph& graph);
 
 }  // namespace snapspace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace snapspace {
@@ -110,64 +109,62 @@ std::vector<Panel> exact_panels(const Pattern& A, const Indices& order) {
   return panels;
 }
 
-/// Time of a solve with a panel, in products of an entry with a vertex. Each block of columns
-/// visits all of its rows, and that costs as much as two products.
+/// Time of a solve with a panel, in products of an entry with a vertex: every block of columns
+/// visits all rows below it, and each visit and each block cost something by themselves.
 double solve_cost(double columns, double rows) {
-  static const double kBlock = 8.0, kVisit = getenv("KV") ? atof(getenv("KV")) : 2.0,
-                      kStart = getenv("KS") ? atof(getenv("KS")) : 12.0;
-  const double blocks = std::ceil(columns / kBlock);
-  return columns * (0.5 * columns + rows) +
-         blocks * (kStart + kVisit * (rows + 0.5 * (columns - std::min(columns, kBlock))));
+  constexpr double kVisit = 2.0, kBlock = 12.0;
+  const double blocks = std::ceil(columns / kColumnBlock);
+  const double visits = blocks * rows + 0.5 * (blocks - 1.0) * columns;
+  return columns * (0.5 * columns + rows) + kVisit * visits + kBlock * blocks;
 }
 
-/// Merges panels into their parents where the zeros that this adds cost less than it saves.
-/// Returns the panel into which each went, or -1.
+/// Merges panels into their parents where that saves more than the zeros cost that it adds. Returns
+/// the panel into which each went, or -1.
 Indices merge(std::vector<Panel>& panels) {
   const auto count = static_cast<std::int32_t>(panels.size());
   Indices child(count, -1), sibling(count, -1), into(count, -1);
+  const auto cost = [](std::size_t columns, std::size_t rows) {
+    return solve_cost(static_cast<double>(columns), static_cast<double>(rows));
+  };
   for (std::int32_t p = 0; p < count; ++p) {
-    Panel& panel = panels[p];
-    const double rows = static_cast<double>(panel.rows.size());
+    Indices& own = panels[p].columns;
+    const std::size_t rows = panels[p].rows.size();
     for (std::int32_t c = child[p]; c >= 0; c = sibling[c]) {
-      const auto own = static_cast<double>(panel.columns.size());
-      const auto others = static_cast<double>(panels[c].columns.size());
-      if (solve_cost(own + others, rows) >
-          solve_cost(own, rows) + solve_cost(others, static_cast<double>(panels[c].rows.size())))
-        continue;
-      panel.columns.insert(panel.columns.end(), panels[c].columns.begin(), panels[c].columns.end());
+      const Indices& others = panels[c].columns;
+      const double apart = cost(own.size(), rows) + cost(others.size(), panels[c].rows.size());
+      if (cost(own.size() + others.size(), rows) > apart) continue;
+      own.insert(own.end(), others.begin(), others.end());
       into[c] = p;
     }
-    if (panel.parent >= 0) sibling[p] = std::exchange(child[panel.parent], p);
+    if (panels[p].parent >= 0) sibling[p] = std::exchange(child[panels[p].parent], p);
   }
   return into;
 }
 
 }  // namespace
 
-Supernodes::Supernodes(const Pattern& A, Indices elimination) {
-  Indices exact(elimination.size());
+Supernodes::Supernodes(const Pattern& A, const Indices& elimination) {
   const Indices columns = postorder(elimination_tree(A, elimination));
-  for (std::size_t j = 0; j < columns.size(); ++j) exact[j] = elimination[columns[j]];
+  Indices exact;
+  for (const std::int32_t j : columns) exact.push_back(elimination[j]);
   std::vector<Panel> panels = exact_panels(A, exact);
   const Indices into = merge(panels);
 
-  // What is left of the forest of panels, numbered by a postorder of its own.
-  const auto old_count = static_cast<std::int32_t>(panels.size());
-  Indices top(old_count), left, number(old_count), above;
-  for (std::int32_t p = old_count - 1; p >= 0; --p) top[p] = into[p] < 0 ? p : top[into[p]];
-  for (std::int32_t p = 0; p < old_count; ++p)
+  // What is left of the forest of panels, in a postorder of its own.
+  const auto all = static_cast<std::int32_t>(panels.size());
+  Indices top(all), left, number(all), above;
+  for (std::int32_t p = all - 1; p >= 0; --p) top[p] = into[p] < 0 ? p : top[into[p]];
+  for (std::int32_t p = 0; p < all; ++p)
     if (top[p] == p) {
       number[p] = static_cast<std::int32_t>(left.size());
       left.push_back(p);
     }
   for (const std::int32_t p : left)
     above.push_back(panels[p].parent < 0 ? -1 : number[top[panels[p].parent]]);
-  const Indices sequence = postorder(above);
-  const Indices rank = inverse(sequence);
+  const Indices sequence = postorder(above), rank = inverse(sequence);
 
-  Indices renumbered(columns.size());
-  order.reserve(columns.size());
-  first_column.push_back(0);
+  Indices renumbered(exact.size());
+  order.reserve(exact.size());
   for (const std::int32_t s : sequence) {
     Indices& own = panels[left[s]].columns;
     std::sort(own.begin(), own.end());
@@ -178,7 +175,6 @@ Supernodes::Supernodes(const Pattern& A, Indices elimination) {
     first_column.push_back(static_cast<std::int32_t>(order.size()));
     parent.push_back(above[s] < 0 ? -1 : rank[above[s]]);
   }
-  first_row.push_back(0);
   for (const std::int32_t s : sequence) {
     for (const std::int32_t row : panels[left[s]].rows) rows.push_back(renumbered[row]);
     std::sort(rows.begin() + first_row.back(), rows.end());
@@ -187,5 +183,14 @@ Supernodes::Supernodes(const Pattern& A, Indices elimination) {
 }
 
 Indices Supernodes::places() const { return inverse(order); }
+
+std::int64_t Supernodes::entries() const {
+  std::int64_t total = 0;
+  for (std::int32_t s = 0; s < count(); ++s) {
+    const std::int64_t own = columns(s);
+    total += own * (own + 1) / 2 + own * static_cast<std::int64_t>(below(s).size());
+  }
+  return total;
+}
 
 }  // namespace snapspace

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "cholesky/analysis.h"
 #include "snapshots/line_search.h"
 #include "threads/flush_denormals.h"
 
@@ -31,7 +32,8 @@ PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
     : system_(system),
       options_(options),
       hessian_(system.pattern),
-      conjugate_gradients_(system.size()) {
+      conjugate_gradients_(system.size()),
+      supernodes_(analysed(scalar_matrix())) {
   for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_})
     v->resize(system.size());
   limits_.resize(system.rest.tets.size());
@@ -104,7 +106,7 @@ double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<
          system_.springs.value_and_gradient(report_.stiffness, targets_, u.data(), gradient.data());
 }
 
-ScalarFactor PoseFitter::scalar_factor() const {
+Eigen::SparseMatrix<double> PoseFitter::scalar_matrix() const {
   const auto& start = hessian_.row_start();
   const auto& columns = hessian_.columns();
   const int n = system_.rest.vertex_count;
@@ -113,7 +115,7 @@ ScalarFactor PoseFitter::scalar_factor() const {
                  [](const auto& block) { return (block[0] + block[4] + block[8]) / 3.0; });
   const Eigen::Map<const Eigen::SparseMatrix<double>> elastic(
       n, n, static_cast<Eigen::Index>(values.size()), start.data(), columns.data(), values.data());
-  return ScalarFactor(system_.springs.scalar_hessian(report_.stiffness, n) + elastic);
+  return system_.springs.scalar_hessian(report_.stiffness, n) + elastic;
 }
 
 /// Solves H d = -g, loosely far from the minimum [Eisenstat & Walker 1996]; returns -g.d.
@@ -121,14 +123,14 @@ double PoseFitter::find_direction(const SolveControl& control) {
   constexpr int kMaxIterations = 500;
   const double scale = std::max(value_, system_.negligible());
   const double forcing = std::clamp(std::sqrt(decrement_ / scale), 1e-2, 0.1);
-  const ScalarFactor factor = scalar_factor();
+  const ScalarFactor factor(scalar_matrix(), supernodes_);
   report_.linear_iterations += conjugate_gradients_.solve(
       gradient_, forcing, kMaxIterations,
       [&](const double* v, double* product) {
         hessian_.multiply(v, product);
         system_.springs.add_product(report_.stiffness, v, product);
       },
-      [&](const double* v, double* result, double* scratch) { factor.solve(v, result, scratch); },
+      [&](const double* v, double* result) { factor.solve(v, result); },
       [&] { return control.cancelled.load(); }, direction_);
   return -dot(gradient_, direction_);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "cholesky/supernodes.h"
 #include "fitting/fitting_system.h"
 #include "fitting/symmetric_dirichlet.h"
 #include "snapshots/conjugate_gradients.h"
@@ -62,7 +63,7 @@ class PoseFitter {
   double find_direction(const SolveControl& control);
   bool line_search(double slope);
   [[nodiscard]] bool raise_stiffness();
-  [[nodiscard]] ScalarFactor scalar_factor() const;
+  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const;
 
   const FittingSystem& system_;
   FitOptions options_;
@@ -70,6 +71,7 @@ class PoseFitter {
   ConjugateGradients conjugate_gradients_;
   const double* targets_ = nullptr;
   FitReport report_;
+  Supernodes supernodes_;  // of the scalar matrix, in every step
   double value_ = 0.0;
   double decrement_ = 0.0;  // -g.d of the last direction d
   bool done_ = false;

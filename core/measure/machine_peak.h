@@ -25,7 +25,7 @@ template <class Work>
 /// wait for each other. The bound of any kernel of this precision on this build.
 /// @param sink  keeps the compiler from leaving the work out
 template <class Real>
-[[nodiscard]] double peak_flops(int repeats, double& sink) {
+[[nodiscard]] double peak_flops(int repeats, volatile double& sink) {
   constexpr int kChains = 12, kSteps = 200'000;
   Real sums[kChains];
   for (int i = 0; i < kChains; ++i) sums[i] = Real(static_cast<typename Real::Scalar>(i));
@@ -35,12 +35,12 @@ template <class Real>
     for (int step = 0; step < kSteps; ++step)
       for (Real& sum : sums) sum = sum * factor + shift;
   });
-  for (const Real& sum : sums) sink += static_cast<double>(sum[0]);
+  for (const Real& sum : sums) sink = sink + static_cast<double>(sum[0]);
   return 2.0 * kChains * kSteps * Real::kWidth / seconds;
 }
 
 /// Bytes per second that one thread reads from an array of this size.
-[[nodiscard]] inline double read_bandwidth(std::size_t bytes, int repeats, double& sink) {
+[[nodiscard]] inline double read_bandwidth(std::size_t bytes, int repeats, volatile double& sink) {
   using Real = Lanes<kWideLanes>;
   const std::vector<Real> data(bytes / sizeof(Real), Real(1.0));
   // read anew each time, so that the compiler cannot know that nothing has changed
@@ -51,7 +51,7 @@ template <class Real>
     for (Real& sum : sums) sum = Real(0.0);
     for (std::size_t i = 0; i + 8 <= data.size(); i += 8)
       for (int k = 0; k < 8; ++k) sums[k] += from[i + k];
-    for (const Real& sum : sums) sink += sum[0];
+    for (const Real& sum : sums) sink = sink + sum[0];
   });
   return static_cast<double>(data.size() * sizeof(Real)) / seconds;
 }

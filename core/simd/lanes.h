@@ -62,7 +62,8 @@ struct alignas(Width * sizeof(T)) Pack {
   using Vector = typename VectorOf<T, Width>::type;
   Vector v;
   Pack() = default;
-  Pack(T s) : v(Vector{} + s) {}
+  // s - 0 is s in every bit, so compilers leave a plain broadcast; 0 + s would cost an addition.
+  Pack(T s) : v(s - Vector{}) {}
   explicit Pack(Vector vector) : v(vector) {}
   friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
   friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }

@@ -27,7 +27,7 @@ class ConjugateGradients {
   /// returns the number of iterations.
   ///
   /// @param multiply      (v, product) writes H v
-  /// @param precondition  (v, result, scratch) writes the preconditioner times v
+  /// @param precondition  (v, result) writes the preconditioner times v
   /// @param cancelled     () -> whether to stop early
   template <class Multiply, class Precondition, class Cancelled>
   int solve(const std::vector<double>& gradient, double relative_residual, int max_iterations,
@@ -35,7 +35,7 @@ class ConjugateGradients {
             std::vector<double>& direction) {
     direction.assign(gradient.size(), 0.0);
     for (std::size_t i = 0; i < gradient.size(); ++i) residual_[i] = -gradient[i];
-    precondition(residual_.data(), preconditioned_.data(), product_.data());
+    precondition(residual_.data(), preconditioned_.data());
     search_ = preconditioned_;
     double norm = dot(residual_, preconditioned_);
     const double goal = norm * relative_residual * relative_residual;
@@ -51,7 +51,7 @@ class ConjugateGradients {
       const double step = norm / curvature;
       add_scaled(direction, step, search_);
       add_scaled(residual_, -step, product_);
-      precondition(residual_.data(), preconditioned_.data(), product_.data());
+      precondition(residual_.data(), preconditioned_.data());
       const double next = dot(residual_, preconditioned_);
       const double ratio = next / norm;
       norm = next;

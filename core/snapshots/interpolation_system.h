@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "cholesky/analysis.h"
 #include "energy/blended_energy.h"
 #include "energy/block_hessian.h"
 #include "energy/scalar_hessian.h"
@@ -32,23 +33,25 @@ struct InterpolationSystem {
 
   Numbering numbering;
   std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
+  std::shared_ptr<const Supernodes>
+      supernodes;  ///< shared as well: the pattern is that of the tets
   ScalarFactor factor;
 
   /// @param mesh   pose 0, renumbered
   /// @param poses  count x n x 3 in the internal numbering
   InterpolationSystem(const LocalMesh& mesh, const std::vector<double>& poses, int count,
                       StVK material)
-      : InterpolationSystem(Numbering(mesh.order),
-                            std::make_shared<BlendedEnergy>(
-                                poses.data(), count, static_cast<int>(mesh.order.size()),
-                                mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4), material),
-                            std::vector<double>(mesh.vertices.size(), 0.0), 1) {}
+      : InterpolationSystem(
+            Numbering(mesh.order),
+            std::make_shared<BlendedEnergy>(poses.data(), count,
+                                            static_cast<int>(mesh.order.size()), mesh.tets.data(),
+                                            static_cast<int>(mesh.tets.size() / 4), material)) {}
 
   /// The same problem with a factor for solutions near the given shapes (count x 3n, internal
   /// displacements): that of the mean of their scalar Hessians at equal weights. Poses that stretch
   /// a tet much make it stiff, and a factor that knows needs a fourth of the iterations.
   [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes, int count) const {
-    return {numbering, energy, shapes, count};
+    return {numbering, energy, scalar_matrix(*energy, shapes, count), supernodes};
   }
 
   [[nodiscard]] int size() const { return energy->size(); }
@@ -61,21 +64,29 @@ struct InterpolationSystem {
   }
 
  private:
+  InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended)
+      : InterpolationSystem(std::move(numbers), blended,
+                            scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1),
+                            nullptr) {}
+
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      const std::vector<double>& shapes, int count)
+                      const Eigen::SparseMatrix<double>& A, std::shared_ptr<const Supernodes> known)
       : numbering(std::move(numbers)),
         energy(std::move(blended)),
-        factor(scalar_matrix(shapes, count)) {}
+        supernodes(known ? std::move(known) : std::make_shared<const Supernodes>(analysed(A))),
+        factor(A, *supernodes) {}
 
-  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix(const std::vector<double>& shapes,
-                                                          int count) const {
-    ScalarHessian hessian(energy->energy(0).rest);
-    std::vector<double> shifted(size());
+  [[nodiscard]] static Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
+                                                                 const std::vector<double>& shapes,
+                                                                 int count) {
+    ScalarHessian hessian(energy.energy(0).rest);
+    const int size = energy.size();
+    std::vector<double> shifted(size);
     for (int shape = 0; shape < count; ++shape)
-      for (int k = 0; k < energy->poses(); ++k) {
-        const double* u = shapes.data() + static_cast<std::size_t>(shape) * size();
-        for (int i = 0; i < size(); ++i) shifted[i] = u[i] + energy->offset(k)[i];
-        hessian.add(energy->energy(k), shifted.data(), 1.0 / (count * energy->poses()));
+      for (int k = 0; k < energy.poses(); ++k) {
+        const double* u = shapes.data() + static_cast<std::size_t>(shape) * size;
+        for (int i = 0; i < size; ++i) shifted[i] = u[i] + energy.offset(k)[i];
+        hessian.add(energy.energy(k), shifted.data(), 1.0 / (count * energy.poses()));
       }
     Eigen::SparseMatrix<double> A = hessian.matrix();
     A.coeffRef(0, 0) *= 2.0;
@@ -119,8 +130,8 @@ class InterpolationObjective {
   }
 
   template <class Any>
-  void precondition(const Any* vector, Any* result, Any* scratch) const {
-    system_.factor.solve(vector, result, scratch);
+  void precondition(const Any* vector, Any* result) const {
+    system_.factor.solve(vector, result);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const {

@@ -25,7 +25,7 @@
 namespace snapspace {
 
 /// @tparam System  has an Objective<Real> with size(), negligible(), load(lane, input),
-///                 value_and_gradient(u, g) and precondition(v, result, scratch)
+///                 value_and_gradient(u, g) and precondition(v, result)
 /// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
 ///                 in double precision anyway
 template <class System, class Real>
@@ -46,8 +46,7 @@ class LaneLbfgs {
         direction_(size_, Real(0)),
         trial_(size_, Real(0)),
         trial_gradient_(size_, Real(0)),
-        work_(size_, 0.0f),
-        scratch_(size_, 0.0f) {}
+        work_(size_, 0.0f) {}
 
   /// Solves samples until there are no more.
   ///
@@ -165,7 +164,7 @@ class LaneLbfgs {
     memory_.move(accepted, remembered, length, trial_.data(), trial_gradient_.data(), u_.data(),
                  gradient_.data());
     memory_.first_loop(gradient_.data(), work_.data());
-    objective_.precondition(work_.data(), work_.data(), scratch_.data());
+    objective_.precondition(work_.data(), work_.data());
     const Total slopes =
         memory_.second_loop(accepted, gradient_.data(), work_.data(), direction_.data());
     for (int lane = 0; lane < kWidth; ++lane)
@@ -256,7 +255,7 @@ class LaneLbfgs {
   LbfgsMemory<Real> memory_;
   Lane lanes_[kWidth];
   std::vector<Real> u_, gradient_, direction_, trial_, trial_gradient_;
-  std::vector<SingleLanes<kWidth>> work_, scratch_;
+  std::vector<SingleLanes<kWidth>> work_;
 };
 
 }  // namespace snapspace

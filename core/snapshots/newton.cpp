@@ -83,9 +83,7 @@ double Newton<Objective>::find_direction(double relative_residual, const SolveCo
   linear_iterations_ += conjugate_gradients_.solve(
       gradient_, relative_residual, kMaxIterations,
       [&](const double* v, double* product) { hessian_.multiply(v, product); },
-      [&](const double* v, double* result, double* scratch) {
-        objective_.precondition(v, result, scratch);
-      },
+      [&](const double* v, double* result) { objective_.precondition(v, result); },
       [&] { return control.cancelled.load(); }, direction_);
   return -dot(gradient_, direction_);
 }

@@ -94,10 +94,10 @@ class PosingObjective {
   }
 
   /// result = A^{-1} vector with the scalar matrix A of the system; both 3n and of any precision,
-  /// and they may be the same array. `scratch` is 3n.
+  /// and they may be the same array.
   template <class Any>
-  void precondition(const Any* vector, Any* result, Any* scratch) const {
-    system_.factor.solve(vector, result, scratch);
+  void precondition(const Any* vector, Any* result) const {
+    system_.factor.solve(vector, result);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const { return BlockHessian(system_.energy.rest); }

@@ -1,47 +1,53 @@
 #include "snapshots/scalar_factor.h"
 
-#include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
+#include "cholesky/analysis.h"
 #include "cholesky/multifrontal.h"
 
 namespace snapspace {
 
-namespace {
-
-std::vector<std::int32_t> minimum_degree(const Eigen::SparseMatrix<double>& A) {
-  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, std::int32_t> order;
-  Eigen::AMDOrdering<std::int32_t>()(A.selfadjointView<Eigen::Lower>(), order);
-  return {order.indices().begin(), order.indices().end()};
-}
-
-}  // namespace
-
-ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A)
-    : ScalarFactor(A, Supernodes(A, minimum_degree(A))) {}
+ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A) : ScalarFactor(A, analysed(A)) {}
 
 ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A, const Supernodes& supernodes)
-    : size_(static_cast<std::int32_t>(A.rows())) {
-  multifrontal_cholesky(A, supernodes, [&](std::int32_t s, const auto& panel) {
-    const auto list = static_cast<std::int64_t>(vertices_.size());
-    const std::int32_t columns = supernodes.columns(s);
-    const auto height = static_cast<std::int32_t>(panel.rows());
-    for (std::int32_t j = supernodes.first_column[s]; j < supernodes.first_column[s + 1]; ++j)
-      vertices_.push_back(supernodes.order[j]);
-    for (std::int64_t i = supernodes.first_row[s]; i < supernodes.first_row[s + 1]; ++i)
-      vertices_.push_back(supernodes.order[supernodes.rows[i]]);
-    for (std::int32_t begin = 0; begin < columns; begin += kBlock) {
-      const std::int32_t end = std::min(begin + kBlock, columns);
-      blocks_.push_back(
-          {static_cast<std::int64_t>(values_.size()), list + begin, end - begin, height - end});
-      for (std::int32_t j = begin; j < end; ++j)
-        values_.push_back(1.0 / (panel(j, j) * panel(j, j)));
-      for (std::int32_t i = begin; i < height; ++i)
-        for (std::int32_t j = begin; j < std::min(i, end); ++j)
-          values_.push_back(panel(i, j) / panel(j, j));
-    }
-  });
+    : size_(static_cast<std::size_t>(A.rows())) {
+  values_.reserve(static_cast<std::size_t>(supernodes.entries()));
+  const bool positive =
+      multifrontal_cholesky(A, supernodes, [&](std::int32_t s, const auto& panel) {
+        for (std::int32_t j = 0; j < supernodes.columns(s); ++j)
+          vertices_.push_back(supernodes.order[supernodes.first_column[s] + j]);
+        for (const std::int32_t row : supernodes.below(s))
+          vertices_.push_back(supernodes.order[row]);
+        add_panel(panel);
+      });
+  if (!positive)
+    throw std::invalid_argument("ScalarFactor: the matrix of size " + std::to_string(A.rows()) +
+                                " is not positive definite; every connected component needs a "
+                                "handle, and the stiffness and the Lame parameters must be "
+                                "positive");
   single_values_.assign(values_.begin(), values_.end());
+}
+
+/// Adds the blocks of the supernode whose vertices came last.
+void ScalarFactor::add_panel(const Eigen::MatrixXd& panel) {
+  const auto height = static_cast<std::int32_t>(panel.rows());
+  const auto columns = static_cast<std::int32_t>(panel.cols());
+  const auto vertices = static_cast<std::int64_t>(vertices_.size()) - height;
+  for (std::int32_t begin = 0; begin < columns; begin += kColumnBlock) {
+    const std::int32_t end = std::min(begin + kColumnBlock, columns);
+    blocks_.push_back(
+        {static_cast<std::int64_t>(values_.size()), vertices + begin, end - begin, height - end});
+    double inverse[kColumnBlock];
+    for (std::int32_t j = begin; j < end; ++j) {
+      inverse[j - begin] = 1.0 / panel(j, j);
+      values_.push_back(inverse[j - begin] * inverse[j - begin]);
+    }
+    for (std::int32_t i = begin + 1; i < height; ++i)
+      for (std::int32_t j = begin; j < std::min(i, end); ++j)
+        values_.push_back(panel(i, j) * inverse[j - begin]);
+  }
 }
 
 }  // namespace snapspace

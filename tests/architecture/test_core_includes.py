@@ -24,10 +24,11 @@ ALLOWED: dict[str, set[str]] = {
     "cholesky": set(),
     "snapshots": {"mesh", "energy", "simd", "threads", "cholesky"},
     "reduction": {"mesh", "energy", "online", "threads"},
-    "fitting": {"mesh", "energy", "snapshots", "threads"},
+    "fitting": {"mesh", "cholesky", "energy", "snapshots", "threads"},
     "measure": {"energy", "mesh", "simd", "snapshots", "threads"},
     "bindings": {
         "measure",
+        "cholesky",
         "mesh",
         "energy",
         "snapshots",

@@ -1,0 +1,153 @@
+#include "cholesky/separator_refinement.h"
+
+#include <algorithm>
+#include <queue>
+#include <utility>
+
+namespace snapspace {
+
+namespace {
+
+class Refinement {
+ public:
+  Refinement(const WeightedGraph& graph, std::vector<Side>& sides)
+      : graph_(graph), sides_(sides), moved_(graph.size()) {
+    for (auto& gain : gains_) gain.resize(graph.size());
+    for (std::int32_t v = 0; v < graph.size(); ++v)
+      weights_[static_cast<int>(sides[v])] += graph.weights[v];
+    most_ = 6 * (weights_[0] + weights_[1] + weights_[2]) / 10;
+  }
+
+  [[nodiscard]] double cost() const {
+    const auto left = static_cast<double>(weights_[0]), right = static_cast<double>(weights_[1]);
+    const double uneven = (left - right) / std::max(1.0, left + right);
+    return static_cast<double>(weights_[2]) * (1.0 + 0.5 * uneven * uneven);
+  }
+
+  /// Moves every vertex once at most, also at a loss; what comes after the best state is undone.
+  void run_pass() {
+    std::size_t patience = start_pass(), keep = 0;
+    double least = cost();
+    while (moves_.size() < keep + patience) {
+      const std::int32_t left = best(0), right = best(1);
+      if (left < 0 && right < 0) break;
+      bool to_right = left < 0;
+      if (left >= 0 && right >= 0) {
+        const std::int32_t difference = gains_[1][right] - gains_[0][left];
+        to_right = difference != 0 ? difference > 0 : weights_[0] > weights_[1];
+      }
+      to_right ? move(right, 1) : move(left, 0);
+      if (cost() < least) {
+        least = cost();
+        keep = moves_.size();
+      }
+    }
+    while (moves_.size() > keep) take_back_last();
+  }
+
+ private:
+  struct Move {
+    std::int32_t vertex;
+    int side;
+    std::size_t pulled;  // where those begin that came into the separator for it
+  };
+
+  /// Returns how many moves without a better state are enough.
+  std::size_t start_pass() {
+    std::fill(moved_.begin(), moved_.end(), 0);
+    moves_.clear();
+    pulled_.clear();
+    for (auto& queue : queues_) queue = {};
+    std::size_t patience = 50;
+    for (std::int32_t v = 0; v < graph_.size(); ++v)
+      if (sides_[v] == Side::separator) {
+        enter(v);
+        patience += 2;
+      }
+    return std::min<std::size_t>(patience, 300);
+  }
+
+  void put(std::int32_t v, Side side) {
+    weights_[static_cast<int>(sides_[v])] -= graph_.weights[v];
+    weights_[static_cast<int>(side)] += graph_.weights[v];
+    sides_[v] = side;
+  }
+
+  void change_gain(std::int32_t v, int side, std::int32_t change) {
+    gains_[side][v] += change;
+    if (!moved_[v]) queues_[side].push({gains_[side][v], v});
+  }
+
+  /// Gains of a vertex that is in the separator from now on: its own weight, less that of the
+  /// neighbours that would come in for it.
+  void enter(std::int32_t v) {
+    std::int32_t pulled[2] = {};
+    for (const std::int32_t u : graph_.around(v))
+      if (sides_[u] != Side::separator) pulled[sides_[u] == Side::left] += graph_.weights[u];
+    for (int side = 0; side < 2; ++side) {
+      gains_[side][v] = 0;
+      change_gain(v, side, graph_.weights[v] - pulled[side]);
+    }
+  }
+
+  /// The vertex with the best gain that may still move to the side, or -1.
+  std::int32_t best(int side) {
+    for (auto& queue = queues_[side]; !queue.empty(); queue.pop()) {
+      const auto [gain, v] = queue.top();
+      if (!moved_[v] && sides_[v] == Side::separator && gains_[side][v] == gain &&
+          weights_[side] + graph_.weights[v] <= most_)
+        return v;
+    }
+    return -1;
+  }
+
+  void move(std::int32_t v, int side) {
+    moves_.push_back({v, side, pulled_.size()});
+    moved_[v] = 1;
+    put(v, static_cast<Side>(side));
+    for (const std::int32_t u : graph_.around(v)) {
+      if (sides_[u] == Side::separator) change_gain(u, 1 - side, -graph_.weights[v]);
+      if (sides_[u] == static_cast<Side>(1 - side)) pulled_.push_back(u);
+    }
+    for (std::size_t i = moves_.back().pulled; i < pulled_.size(); ++i) {
+      const std::int32_t u = pulled_[i];
+      for (const std::int32_t w : graph_.around(u))
+        if (sides_[w] == Side::separator) change_gain(w, side, graph_.weights[u]);
+      put(u, Side::separator);
+      enter(u);
+    }
+  }
+
+  void take_back_last() {
+    const Move last = moves_.back();
+    moves_.pop_back();
+    put(last.vertex, Side::separator);
+    for (; pulled_.size() > last.pulled; pulled_.pop_back())
+      put(pulled_.back(), static_cast<Side>(1 - last.side));
+  }
+
+  const WeightedGraph& graph_;
+  std::vector<Side>& sides_;
+  std::vector<char> moved_;             // in this pass
+  std::vector<std::int32_t> gains_[2];  // of a vertex of the separator when it moves to a side
+  std::priority_queue<std::pair<std::int32_t, std::int32_t>> queues_[2];  // former gains as well
+  std::vector<Move> moves_;
+  std::vector<std::int32_t> pulled_;
+  std::int64_t weights_[3] = {};
+  std::int64_t most_;  // weight of a side
+};
+
+}  // namespace
+
+double refine_separator(const WeightedGraph& graph, std::vector<Side>& sides) {
+  constexpr int kMaxPasses = 8;
+  Refinement refinement(graph, sides);
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
+    const double before = refinement.cost();
+    refinement.run_pass();
+    if (!(refinement.cost() < before)) break;
+  }
+  return refinement.cost();
+}
+
+}  // namespace snapspace
