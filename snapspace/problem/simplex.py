@@ -153,9 +153,11 @@ class Simplex:
         if not np.isfinite(w).all():
             bad = np.flatnonzero(~np.isfinite(w))[0]
             raise ValueError(f"{who}: weight {bad} is {w[bad]}, but it must be finite")
-        if abs(w.sum() - 1.0) > _TOLERANCE:
+        with np.errstate(over="ignore"):
+            total = float(w.sum())
+        if not abs(total - 1.0) <= _TOLERANCE:
             raise ValueError(
-                f"{who}: the weights sum to {w.sum():.10g}, but they must sum to 1; "
+                f"{who}: the weights sum to {total:.10g}, but they must sum to 1; "
                 "divide them by their sum"
             )
         outside = np.flatnonzero(w < self.lowest - _TOLERANCE)

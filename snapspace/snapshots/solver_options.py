@@ -78,6 +78,7 @@ class SolverOptions:
     def resolved(self, problem: Problem) -> ResolvedOptions:
         """The options with everything decided, for a problem."""
         tolerance = problem.snapshot_tolerance if self.tolerance is None else self.tolerance
+        tolerance = float(tolerance)
         single = self.precision == "single"
         if self.precision is None:
             single = tolerance >= SINGLE_TOLERANCE and _in_range(problem)
@@ -119,4 +120,4 @@ def _in_range(problem: Problem) -> bool:
     """Whether the energy of a tet of usual size at a strain of one is a usual single number."""
     mesh, material = problem.mesh, problem.material
     energy = (material.mu + abs(material.lam)) * mesh.diagonal**3 / len(mesh.tets)
-    return SINGLE_ENERGIES[0] < energy < SINGLE_ENERGIES[1]
+    return bool(SINGLE_ENERGIES[0] < energy < SINGLE_ENERGIES[1])

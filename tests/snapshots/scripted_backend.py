@@ -102,5 +102,9 @@ class ScriptedBackend:
     def cancel(self) -> None:
         self._under_way.clear()
 
+    def stop(self, seconds: float) -> list[Solved]:
+        self.cancel()
+        return []
+
     def close(self) -> None:
         self.cancel()
