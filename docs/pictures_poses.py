@@ -90,11 +90,12 @@ def creature_poses(mesh: ss.TetMesh) -> ss.Poses:
         domain=ss.HandleBox(translation=1.0, angle=np.deg2rad(90)),
     )
     motions = np.array([as_parameters(problem, motion)[0] for motion in MOTIONS.values()])
-    # in four steps, each a wave that starts from the last: at once, limbs could fold
-    steps = np.vstack([share * motions for share in (0.25, 0.5, 0.75, 1.0)])
-    options = ss.SolverOptions(wave=len(motions))
-    snapshots = ss.solve_snapshots(problem, steps, options=options)
-    shapes = snapshots.shapes.T[-len(motions) :].reshape(len(motions), -1, 3)
+    # in four steps, each from the shapes of the last: at once, limbs could fold
+    known: ss.Snapshots | None = None
+    for share in (0.25, 0.5, 0.75, 1.0):
+        step = ss.solve_snapshots(problem, share * motions, known=known)
+        known = step if known is None else known.joined(step)
+    shapes = step.shapes.T.reshape(len(motions), -1, 3)
     return ss.Poses(shapes, mesh.tets, names=list(MOTIONS))
 
 

@@ -54,12 +54,13 @@ void dissect(const WeightedGraph& graph, const Indices& names, Indices& order) {
   Indices parts[3];
   for (std::int32_t v = 0; v < graph.size(); ++v) parts[static_cast<int>(sides[v])].push_back(v);
   Indices local(graph.size(), -1);
-  for (const Indices& part : {parts[0], parts[1]}) {
-    const WeightedGraph within = induced(graph, part, local);
+  for (int side = 0; side < 2; ++side) {
+    if (parts[side].empty()) continue;
+    const WeightedGraph within = induced(graph, parts[side], local);
     // without a separator there is nothing to be won
     if (within.size() == graph.size()) return append(leaf_order(graph));
     Indices own;
-    for (const std::int32_t v : part) own.push_back(names[v]);
+    for (const std::int32_t v : parts[side]) own.push_back(names[v]);
     dissect(within, own, order);
   }
   append(parts[2]);

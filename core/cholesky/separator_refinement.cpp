@@ -75,7 +75,8 @@ class Refinement {
 
   void change_gain(std::int32_t v, int side, std::int32_t change) {
     gains_[side][v] += change;
-    if (!moved_[v]) queues_[side].push({gains_[side][v], v});
+    // one that fell is put in its place when it comes to the top
+    if (change > 0 && !moved_[v]) queues_[side].push({gains_[side][v], v});
   }
 
   /// Gains of a vertex that is in the separator from now on: its own weight, less that of the
@@ -85,18 +86,20 @@ class Refinement {
     for (const std::int32_t u : graph_.around(v))
       if (sides_[u] != Side::separator) pulled[sides_[u] == Side::left] += graph_.weights[u];
     for (int side = 0; side < 2; ++side) {
-      gains_[side][v] = 0;
-      change_gain(v, side, graph_.weights[v] - pulled[side]);
+      gains_[side][v] = graph_.weights[v] - pulled[side];
+      if (!moved_[v]) queues_[side].push({gains_[side][v], v});
     }
   }
 
   /// The vertex with the best gain that may still move to the side, or -1.
   std::int32_t best(int side) {
-    for (auto& queue = queues_[side]; !queue.empty(); queue.pop()) {
+    auto& queue = queues_[side];
+    while (!queue.empty()) {
       const auto [gain, v] = queue.top();
-      if (!moved_[v] && sides_[v] == Side::separator && gains_[side][v] == gain &&
-          weights_[side] + graph_.weights[v] <= most_)
-        return v;
+      const bool free = !moved_[v] && sides_[v] == Side::separator;
+      if (free && gains_[side][v] == gain && weights_[side] + graph_.weights[v] <= most_) return v;
+      queue.pop();
+      if (free && gains_[side][v] < gain) queue.push({gains_[side][v], v});
     }
     return -1;
   }

@@ -51,7 +51,7 @@ def test_the_reduced_energy_is_the_full_one_on_the_subspace(
     expected, full_gradient = problem.value_and_gradient(x, w)
     terms = [problem.value_and_gradient(x, e) for e in np.eye(3)]
     scale = np.abs(w) @ [energy for energy, _ in terms]
-    assert abs(value - expected) <= 1e-10 * scale
+    assert abs(value - expected) <= 1e-10 * scale + 1e-300  # weights may be denormal
     assert blending_model.value(q, w) == value
     expected_gradient = subspace.basis.T @ full_gradient
     forces = np.abs(w) @ [np.linalg.norm(subspace.basis.T @ force) for _, force in terms]
