@@ -22,7 +22,7 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace import _core as core
-from snapspace.interruptible import run_interruptible
+from snapspace.interruptible import run_abandonable, run_interruptible
 from snapspace.snapshots import SOLVERS, local_backend, run
 from snapspace.snapshots.solver_options import Solver
 
@@ -258,3 +258,20 @@ def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         solve_snapshots(problem, parameters(problem, 2), progress=progress)
+
+
+def test_ctrl_c_does_not_wait_for_work_that_cannot_be_stopped() -> None:
+    """Such as a factorisation; its thread is left to itself."""
+    release, begin = threading.Event(), time.monotonic()
+    timer = threading.Timer(0.05, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        run_abandonable(lambda: release.wait(PATIENCE))
+    assert time.monotonic() - begin < 0.5
+    release.set()
+
+
+def test_abandonable_work_gives_its_result_or_its_error() -> None:
+    assert run_abandonable(lambda: 6 * 7) == 42
+    with pytest.raises(ZeroDivisionError):
+        run_abandonable(lambda: 1 // 0)
