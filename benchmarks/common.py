@@ -16,6 +16,8 @@ from rich.table import Table
 
 import snapspace as ss
 from snapspace import generators
+from snapspace.mesh import mass_norms
+from snapspace.validation import unseen_parameters
 
 
 def meshes_folder() -> Path:
@@ -47,6 +49,40 @@ def progress(state: ss.SolveProgress) -> None:
     """Samples done, on standard error."""
     if sys.stderr.isatty():
         print(f"\r{state.done}/{state.total} samples ", end="", file=sys.stderr, flush=True)
+
+
+def solved(problem: ss.PosingProblem, parameters: np.ndarray, **how: Any) -> ss.Snapshots:
+    """Snapshots with options, and the usual progress."""
+    return ss.solve_snapshots(
+        problem, parameters, options=ss.SolverOptions(**how), progress=progress
+    )
+
+
+def references(problem: ss.PosingProblem, count: int) -> ss.Snapshots:
+    """Tight solutions at parameters that no sample has."""
+    parameters = unseen_parameters(problem.domain, count, seed=1)
+    return solved(problem, parameters, tolerance=1e-9, max_iterations=5000)
+
+
+def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> np.ndarray:
+    """Relative M-norm errors of the projections of full solutions."""
+    shapes = reference.shapes
+    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(shapes)
+    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
+    errors: np.ndarray = mass_norms(subspace.mass, projected - shapes) / size
+    return errors
+
+
+def reduced_errors(model: ss.PosingModel, reference: ss.Snapshots) -> np.ndarray:
+    """Relative M-norm errors of reduced solutions from rest."""
+    session, misses = model.session(), []
+    for w, row in zip(reference.parameters, reference.displacements, strict=True):
+        session.reset()
+        session.set_parameters(w)
+        misses.append(session.vertices.reshape(-1) - reference.problem.base - row)
+    size = mass_norms(model.subspace.mass, reference.displacements.array().T)
+    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses).T) / size
+    return errors
 
 
 def show(

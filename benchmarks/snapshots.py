@@ -13,7 +13,6 @@ Times of one run are compared with each other: ratios hold, seconds depend on th
 from __future__ import annotations
 
 import argparse
-import resource
 import sys
 import time
 from typing import Any
@@ -23,42 +22,9 @@ import numpy as np
 
 import snapspace as ss
 from snapspace import _core as core
-from snapspace.mesh import mass_norms
-from snapspace.validation import unseen_parameters
+from snapspace.cli.memory import peak_memory_bytes
 
 Rows = list[tuple[str, Any, str]]
-
-
-def solved(problem: ss.PosingProblem, parameters: np.ndarray, **how: Any) -> ss.Snapshots:
-    """Snapshots with options, and the usual progress."""
-    options = ss.SolverOptions(**how)
-    return ss.solve_snapshots(problem, parameters, options=options, progress=common.progress)
-
-
-def unseen(problem: ss.PosingProblem, count: int) -> np.ndarray:
-    """Parameters that no sample has, for reference solutions."""
-    return unseen_parameters(problem.domain, count, seed=1)
-
-
-def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> np.ndarray:
-    """Relative M-norm errors of the projections of full solutions."""
-    shapes = reference.shapes
-    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(shapes)
-    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
-    errors: np.ndarray = mass_norms(subspace.mass, projected - shapes) / size
-    return errors
-
-
-def reduced_errors(model: ss.PosingModel, reference: ss.Snapshots) -> np.ndarray:
-    """Relative M-norm errors of reduced solutions from rest."""
-    session, misses = model.session(), []
-    for w, row in zip(reference.parameters, reference.displacements, strict=True):
-        session.reset()
-        session.set_parameters(w)
-        misses.append(session.vertices.reshape(-1) - reference.problem.base - row)
-    size = mass_norms(model.subspace.mass, reference.displacements.array().T)
-    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses).T) / size
-    return errors
 
 
 def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
@@ -66,10 +32,10 @@ def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     problem = common.read_problem(args.problem)
     samples = ss.sample(problem.domain, args.samples, seed=args.seed)
     begin = time.perf_counter()
-    fast = solved(problem, samples)
+    fast = common.solved(problem, samples)
     fast_seconds = time.perf_counter() - begin
     begin = time.perf_counter()
-    few = solved(problem, samples[: args.newton], solver="newton")
+    few = common.solved(problem, samples[: args.newton], solver="newton")
     newton_seconds = time.perf_counter() - begin
     ratio = (newton_seconds / len(few)) / (fast_seconds / len(fast))
     result = {
@@ -91,10 +57,10 @@ def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         ("newton / fast, per sample", ratio, ">= 200"),
     ]
     if args.tight:
-        reference = solved(problem, unseen(problem, 30), tolerance=1e-9, max_iterations=5000)
-        tight = solved(problem, samples, tolerance=1e-7, max_iterations=5000)
+        reference = common.references(problem, 30)
+        tight = common.solved(problem, samples, tolerance=1e-7, max_iterations=5000)
         for name, snapshots in (("fast", fast), ("tight", tight)):
-            errors = projection_errors(ss.snapshot_pca(snapshots, dimension=40), reference)
+            errors = common.projection_errors(ss.snapshot_pca(snapshots, dimension=40), reference)
             mean, median = float(errors.mean()), float(np.median(errors))
             result[f"{name}_projection_error"] = {"mean": mean, "median": median}
             goal = "" if name == "tight" else "within 5 % of tight"
@@ -109,11 +75,11 @@ def first(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     samples = ss.sample(problem.domain, args.samples, seed=args.seed)
     fresh = common.read_problem(args.problem)  # nothing of it is computed yet
     models = list(ss.growing_models(fresh, samples, dimension=40))
-    reference = solved(problem, unseen(problem, 30), tolerance=1e-9, max_iterations=5000)
+    reference = common.references(problem, 30)
     result: dict[str, Any] = {"models": []}
     rows: Rows = []
     for growth in models:
-        errors = reduced_errors(growth.model, reference)
+        errors = common.reduced_errors(growth.model, reference)
         entry = {
             "seconds": growth.seconds,
             "samples": len(growth.snapshots),
@@ -179,12 +145,12 @@ def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         factor_seconds = time.perf_counter() - begin
         samples = ss.sample(problem.domain, args.samples, seed=args.seed)
         begin = time.perf_counter()
-        snapshots = solved(problem, samples)
+        snapshots = common.solved(problem, samples)
         spent = time.perf_counter() - begin
         evaluations = float(np.mean([r.evaluations for r in snapshots.reports]))
         sizes.append(len(problem.mesh.tets))
         seconds.append(spent / len(samples))
-        memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+        memory = peak_memory_bytes() or 0
         entries.append(
             {
                 "vertices": len(problem.mesh.vertices),
@@ -218,7 +184,7 @@ def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         problem = common.read_problem(path.stem)
         samples = ss.sample(problem.domain, args.samples, seed=args.seed)
         begin = time.perf_counter()
-        snapshots = solved(problem, samples)
+        snapshots = common.solved(problem, samples)
         seconds = time.perf_counter() - begin
         iterations = [r.iterations for r in snapshots.reports]
         inverted = [r.inverted_tets for r in snapshots.reports]
@@ -246,7 +212,7 @@ def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     """A handle is added to a problem with 100 samples: starting over against carrying them on."""
     old = common.read_problem("dragon")
-    before = solved(old, ss.sample(old.domain, 100, seed=args.seed))
+    before = common.solved(old, ss.sample(old.domain, 100, seed=args.seed))
     vertices = old.mesh.vertices
     tail = np.flatnonzero((vertices[:, 0] < -3.9) & (vertices[:, 1] > 0))
     reference, result = None, {}
@@ -261,8 +227,8 @@ def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         model = ss.reduce(problem, ss.snapshot_pca(used, dimension=30), snapshots=used)
         seconds = time.perf_counter() - begin
         if reference is None:
-            reference = solved(problem, unseen(problem, 20), tolerance=1e-9, max_iterations=5000)
-        errors = reduced_errors(model, reference)
+            reference = common.references(problem, 20)
+        errors = common.reduced_errors(model, reference)
         median, mean = float(np.median(errors)), float(errors.mean())
         result[name] = {"seconds": seconds, "samples": fresh, "median": median, "mean": mean}
         rows += [

@@ -145,11 +145,8 @@ def _check(
     for name, value in numbers.items():
         if value < 1:
             raise ValueError(f"greedy_snapshots: {name} is {value}, but must be at least 1")
-    if known is not None and known.problem.fingerprint != problem.fingerprint:
-        raise ValueError(
-            "greedy_snapshots: the known snapshots are of another problem; `carried` makes them "
-            "snapshots of this one"
-        )
+    if known is not None:
+        known.check_known(problem, "greedy_snapshots")
 
 
 def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:

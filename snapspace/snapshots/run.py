@@ -127,7 +127,6 @@ class Run:
             self._solve_on(backend)
         except KeyboardInterrupt:
             self._book(backend.stop(STOP_SECONDS))
-            self._save()
             done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
             raise Interrupted(done) from None
         finally:

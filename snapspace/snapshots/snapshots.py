@@ -148,6 +148,14 @@ class Snapshots:
             [*self.reports, *others.reports],
         )
 
+    def check_known(self, problem: Problem, who: str) -> None:
+        """ValueError of `who` unless these may be starts for samples of a problem."""
+        if self.problem.fingerprint != problem.fingerprint:
+            raise ValueError(
+                f"{who}: the known snapshots are of another problem; `carried` makes them "
+                "snapshots of this one"
+            )
+
     def summary(self) -> str:
         """One line: how many converged, why others did not, iterations, inverted tets.
 

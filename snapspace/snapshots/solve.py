@@ -67,11 +67,8 @@ def solve_snapshots(
         On Ctrl-C, after the finished samples were saved.
     """
     samples = _checked(problem, parameters)
-    if known is not None and known.problem.fingerprint != problem.fingerprint:
-        raise ValueError(
-            "solve_snapshots: the known snapshots are of another problem; `carried` makes them "
-            "snapshots of this one"
-        )
+    if known is not None:
+        known.check_known(problem, "solve_snapshots")
     run = Run(
         problem,
         samples,
