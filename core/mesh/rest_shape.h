@@ -5,6 +5,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "memory/streamed_vector.h"
+
 namespace snapspace {
 
 /// What a tetrahedron's energy needs of its rest shape, in double or single precision.
@@ -18,8 +20,8 @@ using RestTet = RestTetOf<double>;
 
 /// Rest shape of a tetrahedral mesh: shape-function gradients and volumes, tet by tet.
 struct RestShape {
-  std::vector<RestTet> tets;
-  std::vector<RestTetOf<float>> single_tets;  ///< the same, for packs in single precision
+  StreamedVector<RestTet> tets;
+  StreamedVector<RestTetOf<float>> single_tets;  ///< the same, for packs in single precision
   int vertex_count = 0;
 
   /// @param vertices  n x 3, row-major   @param tets  m x 4, row-major, none without volume
@@ -27,7 +29,7 @@ struct RestShape {
 
   /// The tets in the precision of T, float or double.
   template <class T>
-  [[nodiscard]] const std::vector<RestTetOf<T>>& tets_in() const {
+  [[nodiscard]] const StreamedVector<RestTetOf<T>>& tets_in() const {
     if constexpr (std::is_same_v<T, float>)
       return single_tets;
     else

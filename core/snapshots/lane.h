@@ -23,6 +23,7 @@ struct Lane {
   int evaluations = 0;
   int shortenings = 0;
   double value = 0.0;
+  double norm = 0.0;   // of the gradient
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
   double decreases[kWindow] = {};  // of the last accepted steps
@@ -30,6 +31,7 @@ struct Lane {
   std::chrono::steady_clock::time_point begin;
 
   [[nodiscard]] bool busy() const { return sample.has_value(); }
+  [[nodiscard]] bool running() const { return busy() && !done; }
   [[nodiscard]] int id() const { return sample->id; }
 
   /// A single small predicted decrease may be luck: the mean of the last actual ones must be

@@ -15,9 +15,10 @@
 #include <utility>
 #include <vector>
 
+#include "memory/streamed_vector.h"
 #include "simd/lanes.h"
 #include "snapshots/lane.h"
-#include "snapshots/lbfgs_memory.h"
+#include "snapshots/lbfgs_vectors.h"
 #include "snapshots/line_search.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/solve_report.h"
@@ -40,12 +41,9 @@ class LaneLbfgs {
         threads_(threads),
         objective_(system, threads),
         size_(objective_.size()),
-        memory_(size_),
-        u_(size_, Real(0)),
-        gradient_(size_, Real(0)),
-        direction_(size_, Real(0)),
+        vectors_(size_),
         trial_(size_, Real(0)),
-        trial_gradient_(size_, Real(0)),
+        gradient_(size_, Real(0)),
         work_(size_, 0.0f) {}
 
   /// Solves samples until there are no more.
@@ -83,6 +81,9 @@ class LaneLbfgs {
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
+  using Products = typename LbfgsVectors<Real>::Products;
+  /// On a lane's trial: its point is where the sample begins, or has moved to, or neither.
+  enum class Verdict { refused, started, moved };
 
   /// Takes over the samples of a wider pack that has at most kWidth.
   template <class Wide>
@@ -90,16 +91,14 @@ class LaneLbfgs {
     std::vector<int> lanes;
     for (int lane = 0; lane < Wide::kWidth; ++lane)
       if (from.lanes_[lane].busy()) lanes.push_back(lane);
-    memory_.take_lanes(from.memory_, lanes);
+    vectors_.take_lanes(from.vectors_, lanes);
     for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
       const int there = lanes[lane];
       lanes_[lane] = std::exchange(from.lanes_[there], {});
+      lengths_.set(lane, from.lengths_[there]);
       objective_.load(lane, lanes_[lane].sample->input.data());
-      for (int i = 0; i < size_; ++i) {
-        u_[i].set(lane, from.u_[i][there]);
-        gradient_[i].set(lane, from.gradient_[i][there]);
-        direction_[i].set(lane, from.direction_[i][there]);
-      }
+      pairs_[lane] = from.pairs_[there];
+      for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][there]);
     }
   }
 
@@ -121,7 +120,7 @@ class LaneLbfgs {
   template <class Exchange>
   void hand_over(int lane, Exchange& exchange) {
     std::vector<double> shape(size_);
-    for (int i = 0; i < size_; ++i) shape[i] = u_[i][lane];
+    for (int i = 0; i < size_; ++i) shape[i] = vectors_.at(lane, i);
     exchange.finish(lanes_[lane].id(), report(lane), shape.data());
     lanes_[lane].sample.reset();
   }
@@ -132,11 +131,12 @@ class LaneLbfgs {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
-    memory_.forget(index);
+    lengths_.set(index, 0.0);
+    pairs_[index].forget();
     objective_.load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
-      set_lane(u_[i], index, sample.start[i]);
-      set_lane(gradient_[i], index, 0.0);  // a start that is not finite keeps it for its report
+      vectors_.place(index, i, sample.start[i]);
+      set_lane(trial_[i], index, sample.start[i]);
     }
     sample.start = {};
     lane.sample = std::move(sample);
@@ -146,42 +146,79 @@ class LaneLbfgs {
   /// asked between the parts, which take a while on large meshes.
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
-    Total length;
-    for (int lane = 0; lane < kWidth; ++lane)
-      length.set(lane, lanes_[lane].fresh ? 0.0 : lanes_[lane].step);
-    const Real scale = cast<typename Real::Scalar>(length);
-    for (int i = 0; i < size_; ++i) trial_[i] = u_[i] + scale * direction_[i];
-    const Total value = objective_.value_and_gradient(trial_.data(), trial_gradient_.data());
-    Total slope(0.0);
-    for (int i = 0; i < size_; ++i) slope += widened(trial_gradient_[i]) * widened(direction_[i]);
-
-    Real accepted(0), remembered(0);
+    const Total value = objective_.value_and_gradient(trial_.data(), gradient_.data());
+    const Products products = vectors_.products(gradient_.data());
+    Total scale(1.0), inverse(1.0);
     for (int lane = 0; lane < kWidth; ++lane) {
-      const bool ok = judge(lanes_[lane], value[lane], slope[lane]);
-      accepted.set(lane, ok ? 1 : 0);
-      remembered.set(lane, ok && lanes_[lane].iterations > 0 ? 1 : 0);
+      const double norm = std::sqrt(products.itself[lane]);
+      verdicts_[lane] = judge(lanes_[lane], value[lane], products.direction[lane]);
+      if (verdicts_[lane] == Verdict::refused) continue;
+      lanes_[lane].norm = norm;
+      if (!(norm > 0.0)) continue;
+      scale.set(lane, norm);
+      inverse.set(lane, 1.0 / norm);
     }
-    memory_.move(accepted, remembered, length, trial_.data(), trial_gradient_.data(), u_.data(),
-                 gradient_.data());
-    memory_.first_loop(gradient_.data(), work_.data());
+    if (control.cancelled) return false;
+    const Real shrink = cast<typename Real::Scalar>(inverse);
+    for (int i = 0; i < size_; ++i) work_[i] = cast<float>(gradient_[i] * shrink);
     objective_.precondition(work_.data(), work_.data());
-    const Total slopes =
-        memory_.second_loop(accepted, gradient_.data(), work_.data(), direction_.data());
-    for (int lane = 0; lane < kWidth; ++lane)
-      if (accepted[lane] != 0) test_convergence(lane, slopes[lane]);
+    if (control.cancelled) return false;
+    Total itself(0.0);
+    for (int i = 0; i < size_; ++i) itself += widened(work_[i]) * widened(gradient_[i]);
+    turn(products, scale * itself);
+    combine(scale);
     return true;
   }
 
+  /// New directions of the lanes that accept their trial; or the end of their samples.
+  void turn(const Products& products, Total itself) {
+    for (int lane = 0; lane < kWidth; ++lane) {
+      if (verdicts_[lane] == Verdict::refused) continue;
+      typename PairProducts::Trial trial{products.direction[lane], {}, {}, itself[lane]};
+      for (int k = 0; k < PairProducts::kPairs; ++k) {
+        trial.steps[k] = products.steps[k][lane];
+        trial.images[k] = products.images[k][lane];
+      }
+      if (verdicts_[lane] == Verdict::moved)
+        pairs_[lane].move(trial, lengths_[lane], vectors_.slot());
+      else
+        pairs_[lane].start(trial);
+      const double slope = pairs_[lane].turn();
+      if (!std::isfinite(slope)) {  // nothing of this trial may get into the vectors
+        verdicts_[lane] = Verdict::refused;
+        finish(lanes_[lane], SolveStatus::not_finite);
+        pairs_[lane].forget();
+        continue;
+      }
+      test_convergence(lane, slope);
+    }
+  }
+
+  /// What the lanes' verdicts mean for the vectors, and the next trials.
+  void combine(Total scale) {
+    typename LbfgsVectors<Real>::Outcome outcome;
+    outcome.scale = scale;
+    for (int lane = 0; lane < kWidth; ++lane) {
+      outcome.accepted.set(lane, verdicts_[lane] != Verdict::refused ? 1 : 0);
+      outcome.moved.set(lane, verdicts_[lane] == Verdict::moved ? 1 : 0);
+      if (lanes_[lane].running() && !lanes_[lane].fresh)
+        outcome.next_length.set(lane, lanes_[lane].step);
+    }
+    vectors_.combine(outcome, work_.data(), pairs_, trial_.data());
+    lengths_ = outcome.next_length;
+  }
+
   /// Accepts or refuses the lane's trial, and chooses a shorter step where it is refused.
-  bool judge(Lane& lane, double value, double slope) {
-    if (!lane.busy() || lane.done) return false;
+  Verdict judge(Lane& lane, double value, double slope) {
+    if (!lane.running()) return Verdict::refused;
     ++lane.evaluations;
     if (lane.fresh) {
       lane.fresh = false;
       lane.value = value;
       lane.step = 1.0;
-      if (!std::isfinite(value)) finish(lane, SolveStatus::not_finite);
-      return !lane.done;
+      if (std::isfinite(value)) return Verdict::started;
+      finish(lane, SolveStatus::not_finite);
+      return Verdict::refused;
     }
     if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope, kRounding)) {
       lane.decreases[lane.iterations % Lane::kWindow] = lane.value - value;
@@ -193,11 +230,11 @@ class LaneLbfgs {
       // a tenth are the rule. Searches begin near the last accepted length: on the Dragon that
       // takes 155 evaluations instead of 250, and growth by 1.4 a tenth fewer than growth by 2.
       lane.step = std::min(1.0, 1.4 * lane.step);
-      return true;
+      return Verdict::moved;
     }
     lane.step = shorter_step(lane.value, lane.slope, lane.step, value, slope);
     if (++lane.shortenings > kMaxShortenings) finish(lane, SolveStatus::line_search_failed);
-    return false;
+    return Verdict::refused;
   }
 
   static void finish(Lane& lane, SolveStatus status) {
@@ -208,7 +245,6 @@ class LaneLbfgs {
   void test_convergence(int index, double slope) {
     Lane& lane = lanes_[index];
     lane.slope = slope;
-    if (!std::isfinite(slope)) return scrub(index);
     if (slope > 0.0) return restart(index);
     if (lane.converged(options_.tolerance, objective_.negligible()))
       return finish(lane, SolveStatus::converged);
@@ -220,27 +256,18 @@ class LaneLbfgs {
   void restart(int index) {
     if (lanes_[index].restarted) return finish(lanes_[index], SolveStatus::line_search_failed);
     lanes_[index].restarted = true;
-    memory_.forget(index);
+    pairs_[index].forget();
     lanes_[index].fresh = true;
-  }
-
-  /// The lane has something that is not finite, which must not reach its next sample.
-  void scrub(int index) {
-    finish(lanes_[index], SolveStatus::not_finite);
-    memory_.clear(index);
-    for (int i = 0; i < size_; ++i) set_lane(direction_[i], index, 0.0);
   }
 
   SolveReport report(int index) const {
     const Lane& lane = lanes_[index];
-    double square = 0.0;
-    for (const Real& g : gradient_) square += static_cast<double>(g[index]) * g[index];
     SolveReport result;
     result.status = lane.status;
     result.iterations = lane.iterations;
     result.evaluations = lane.evaluations;
     result.value = lane.value;
-    result.gradient_norm = std::sqrt(square);
+    result.gradient_norm = lane.norm;
     result.decrement = -lane.slope;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - lane.begin).count();
@@ -252,10 +279,13 @@ class LaneLbfgs {
   int threads_;
   typename System::template Objective<Real> objective_;
   int size_;
-  LbfgsMemory<Real> memory_;
+  LbfgsVectors<Real> vectors_;
+  PairProducts pairs_[kWidth];
   Lane lanes_[kWidth];
-  std::vector<Real> u_, gradient_, direction_, trial_, trial_gradient_;
-  std::vector<SingleLanes<kWidth>> work_;
+  Verdict verdicts_[kWidth];
+  Total lengths_ = 0.0;                    // of the steps that lead to the trials
+  StreamedVector<Real> trial_, gradient_;  // and the gradient there
+  StreamedVector<SingleLanes<kWidth>> work_;
 };
 
 }  // namespace snapspace

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cholesky/supernodes.h"
+#include "memory/streamed_vector.h"
 #include "simd/lanes.h"
 
 namespace snapspace {
@@ -73,8 +74,8 @@ class ScalarFactor {
 
   std::vector<Block> blocks_;
   std::vector<std::int32_t> vertices_;  // supernode by supernode
-  std::vector<double> values_;
-  std::vector<float> single_values_;  // the same, for right-hand sides in single precision
+  StreamedVector<double> values_;
+  StreamedVector<float> single_values_;  // the same, for right-hand sides in single precision
   std::size_t size_ = 0;
 };
 

@@ -16,13 +16,14 @@ CORE = Path(__file__).parents[2] / "core"
 
 #: What a room's files may include of the project, besides their own room.
 ALLOWED: dict[str, set[str]] = {
-    "mesh": set(),
+    "memory": set(),
+    "mesh": {"memory"},
     "simd": set(),
     "threads": set(),
     "online": set(),
     "energy": {"mesh", "simd"},
     "cholesky": set(),
-    "snapshots": {"mesh", "energy", "simd", "threads", "cholesky"},
+    "snapshots": {"mesh", "memory", "energy", "simd", "threads", "cholesky"},
     "reduction": {"mesh", "energy", "online", "threads"},
     "fitting": {"mesh", "cholesky", "energy", "snapshots", "threads"},
     "measure": {"energy", "mesh", "simd", "snapshots", "threads"},
