@@ -308,6 +308,13 @@ def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *
     Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy; modes (d+1, 3n): offset, then basis.
     """
 
+class Method(enum.Enum):
+    """How a reduced problem is solved."""
+
+    newton = 0
+
+    bfgs = 1
+
 class Status(enum.Enum):
     """How a reduced solve ended."""
 
@@ -318,6 +325,8 @@ class Status(enum.Enum):
     line_search_failed = 2
 
     not_finite = 3
+
+    max_evaluations = 4
 
 class Report:
     """How a reduced solve ended."""
@@ -343,19 +352,20 @@ def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: N
 class Quartic:
     """Polynomial of degree four with fully symmetric packed coefficients."""
 
-    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     @property
     def dimension(self) -> int: ...
 
     def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
 
-    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+    def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """Value, gradient and Hessian in one pass."""
 
 class PosingLoop:
     """The live loop of posing: set offsets, solve from the last frame."""
 
-    def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
@@ -365,16 +375,22 @@ class PosingLoop:
     @q.setter
     def q(self, arg: NDArray[numpy.float64], /) -> None: ...
 
+    @property
+    def dimension(self) -> int: ...
+
+    @dimension.setter
+    def dimension(self, arg: int, /) -> None: ...
+
     def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
 
     def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
 
-    def solve(self, *, tolerance: float, max_iterations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
 
 class BlendingLoop:
     """The live loop of blending: set weights, solve from the last frame."""
 
-    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
@@ -384,11 +400,17 @@ class BlendingLoop:
     @q.setter
     def q(self, arg: NDArray[numpy.float64], /) -> None: ...
 
+    @property
+    def dimension(self) -> int: ...
+
+    @dimension.setter
+    def dimension(self, arg: int, /) -> None: ...
+
     def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
 
     def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
 
-    def solve(self, *, tolerance: float, max_iterations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
     """Floating-point operations per second of one thread of this build."""

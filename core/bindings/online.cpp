@@ -16,11 +16,34 @@ const double* checked(int dimension, const VectorIn& q) {
   return q.data();
 }
 
-/// A live solver with its current coordinates. The Python object keeps the arrays alive that it
-/// reads, or the copies that a conversion made.
+online::Storage storage(bool single) {
+  return single ? online::Storage::single_precision : online::Storage::double_precision;
+}
+
+/// Value, gradient and full Hessian of anything that has derivatives().
+template <class Function>
+auto derivatives(Function& function, const VectorIn& q) {
+  const auto d = static_cast<std::size_t>(function.dimension());
+  const double* at = checked(function.dimension(), q);
+  DoublesOut gradient = new_array<double>({d}), hessian = new_array<double>({d, d});
+  double* H = hessian.data();
+  const double value = function.derivatives(at, gradient.data(), H);
+  for (std::size_t i = 0; i < d; ++i)
+    for (std::size_t j = 0; j < i; ++j) H[j * d + i] = H[i * d + j];
+  return std::make_tuple(value, gradient, hessian);
+}
+
+template <class Function>
+auto value_and_gradient(Function& function, const VectorIn& q) {
+  const double* at = checked(function.dimension(), q);
+  DoublesOut gradient = new_array<double>({q.size()});
+  const double value = function.value_and_gradient(at, gradient.data());
+  return std::make_pair(value, gradient);
+}
+
+/// A live solver with its current coordinates, as many as the solver can take.
 template <class Solver>
 struct Loop {
-  int dimension;
   Solver solver;
   std::vector<double> q;
 };
@@ -37,48 +60,55 @@ template <class Solver>
 void bind_loop(nb::class_<Loop<Solver>>& loop) {
   using Self = Loop<Solver>;
   loop.def_prop_rw(
-          "q", [](const Self& self) { return copy_to_array(self.q.data(), {self.q.size()}); },
+          "q",
+          [](const Self& self) {
+            return copy_to_array(self.q.data(),
+                                 {static_cast<std::size_t>(self.solver.dimension())});
+          },
           [](Self& self, VectorIn q) {
-            const double* from = checked(self.dimension, q);
-            self.q.assign(from, from + self.dimension);
+            std::copy_n(checked(self.solver.dimension(), q), q.size(), self.q.data());
           },
           nb::for_getter(nb::rv_policy::automatic))
+      .def_prop_rw(
+          "dimension", [](const Self& self) { return self.solver.dimension(); },
+          [](Self& self, int dimension) {
+            require(1 <= dimension && dimension <= self.solver.capacity(),
+                    "dimension must be between 1 and that of the model");
+            const auto kept = std::min(dimension, self.solver.dimension());
+            std::fill(self.q.begin() + kept, self.q.end(), 0.0);
+            self.solver.set_dimension(dimension);
+          })
       .def(
           "value_and_gradient",
-          [](Self& self, VectorIn q) {
-            DoublesOut gradient = new_array<double>({q.size()});
-            const double value =
-                self.solver.value_and_gradient(checked(self.dimension, q), gradient.data());
-            return std::make_pair(value, gradient);
-          },
-          nb::arg("q"))
+          [](Self& self, VectorIn q) { return value_and_gradient(self.solver, q); }, nb::arg("q"))
       .def(
           "hessian",
-          [](Self& self, VectorIn q) {
-            DoublesOut hessian = new_array<double>({q.size(), q.size()});
-            self.solver.hessian(checked(self.dimension, q), hessian.data());
-            return hessian;
-          },
+          [](Self& self, VectorIn q) { return std::get<2>(derivatives(self.solver, q)); },
           nb::arg("q"))
       .def(
           "solve",
-          [](Self& self, double tolerance, int max_iterations, double value_scale,
-             double coordinate_scale) {
-            return self.solver.solve(self.q.data(),
-                                     {tolerance, value_scale, coordinate_scale, max_iterations});
+          [](Self& self, online::Method method, double tolerance, int max_iterations,
+             int max_evaluations, double value_scale, double coordinate_scale) {
+            return self.solver.solve(
+                self.q.data(), method,
+                {tolerance, value_scale, coordinate_scale, max_iterations, max_evaluations});
           },
-          nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("value_scale"),
-          nb::arg("coordinate_scale"));
+          nb::kw_only(), nb::arg("method"), nb::arg("tolerance"), nb::arg("max_iterations"),
+          nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"));
 }
 
 }  // namespace
 
 void bind_online(nb::module_& m) {
+  nb::enum_<online::Method>(m, "Method", "How a reduced problem is solved.")
+      .value("newton", online::Method::newton)
+      .value("bfgs", online::Method::bfgs);
   nb::enum_<online::Status>(m, "Status", "How a reduced solve ended.")
       .value("converged", online::Status::converged)
       .value("max_iterations", online::Status::max_iterations)
       .value("line_search_failed", online::Status::line_search_failed)
-      .value("not_finite", online::Status::not_finite);
+      .value("not_finite", online::Status::not_finite)
+      .value("max_evaluations", online::Status::max_evaluations);
 
   nb::class_<online::Report>(m, "Report", "How a reduced solve ended.")
       .def_ro("status", &online::Report::status)
@@ -103,38 +133,27 @@ void bind_online(nb::module_& m) {
                       "Polynomial of degree four with fully symmetric packed coefficients.")
       .def(
           "__init__",
-          [](Quartic* self, int dimension, VectorIn coefficients) {
+          [](Quartic* self, int dimension, VectorIn coefficients, bool single) {
             require(dimension >= 1 && coefficients.size() == online::quartic_count(dimension + 1),
                     "coefficients must have C(dimension + 4, 4) entries");
-            new (self) Quartic(dimension, coefficients.data());
+            new (self) Quartic(dimension, coefficients.data(), storage(single));
           },
-          nb::arg("dimension"), nb::arg("coefficients"), nb::keep_alive<1, 3>())
+          nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false)
       .def_prop_ro("dimension", &Quartic::dimension)
       .def(
           "value_and_gradient",
-          [](Quartic& self, VectorIn q) {
-            DoublesOut gradient = new_array<double>({static_cast<std::size_t>(self.dimension())});
-            const double value =
-                self.value_and_gradient(checked(self.dimension(), q), gradient.data());
-            return std::make_pair(value, gradient);
-          },
-          nb::arg("q"))
+          [](Quartic& self, VectorIn q) { return value_and_gradient(self, q); }, nb::arg("q"))
       .def(
-          "hessian",
-          [](Quartic& self, VectorIn q) {
-            const auto d = static_cast<std::size_t>(self.dimension());
-            DoublesOut hessian = new_array<double>({d, d});
-            self.hessian(checked(self.dimension(), q), hessian.data());
-            return hessian;
-          },
-          nb::arg("q"));
+          "derivatives", [](Quartic& self, VectorIn q) { return derivatives(self, q); },
+          nb::arg("q"), "Value, gradient and Hessian in one pass.");
 
   nb::class_<PosingLoop> posing(m, "PosingLoop",
                                 "The live loop of posing: set offsets, solve from the last frame.");
   posing
       .def(
           "__init__",
-          [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S) {
+          [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S,
+             bool single) {
             const auto d = K.shape(0);
             require(d >= 1 && K.shape(1) == d &&
                         coefficients.size() == online::quartic_count(d + 1) && L.shape(1) == d &&
@@ -143,14 +162,14 @@ void bind_online(nb::module_& m) {
                     "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
             const auto dimension = static_cast<int>(d);
             PosingSolver solver(dimension, static_cast<int>(L.shape(0)), coefficients.data(),
-                                K.data(), L.data(), S.data());
+                                K.data(), L.data(), S.data(), storage(single));
             require_valid(solver,
                           "the reduced Hessian at rest is not positive definite; the model is "
                           "damaged or its handles do not hold the shape");
-            new (self) PosingLoop{dimension, std::move(solver), std::vector<double>(d, 0.0)};
+            new (self) PosingLoop{std::move(solver), std::vector<double>(d, 0.0)};
           },
-          nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::keep_alive<1, 2>(),
-          nb::keep_alive<1, 3>(), nb::keep_alive<1, 4>(), nb::keep_alive<1, 5>())
+          nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::kw_only(),
+          nb::arg("single") = false)
       .def(
           "set_offsets",
           [](PosingLoop& self, TensorIn offsets) {
@@ -167,19 +186,20 @@ void bind_online(nb::module_& m) {
   blending
       .def(
           "__init__",
-          [](BlendingLoop* self, int dimension, MatrixIn coefficients) {
+          [](BlendingLoop* self, int dimension, MatrixIn coefficients, bool single) {
             require(dimension >= 1 && coefficients.shape(0) >= 1 &&
                         coefficients.shape(1) == online::quartic_count(dimension + 1),
                     "coefficients must be (poses, C(dimension + 4, 4))");
             BlendingSolver solver(dimension, static_cast<int>(coefficients.shape(0)),
-                                  coefficients.data());
+                                  coefficients.data(), storage(single));
             require_valid(solver,
                           "the reduced Hessian at the mean shape is not positive definite; the "
                           "model is damaged or its mean shape is not a minimum");
             const auto d = static_cast<std::size_t>(dimension);
-            new (self) BlendingLoop{dimension, std::move(solver), std::vector<double>(d, 0.0)};
+            new (self) BlendingLoop{std::move(solver), std::vector<double>(d, 0.0)};
           },
-          nb::arg("dimension"), nb::arg("coefficients"), nb::keep_alive<1, 3>())
+          nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false,
+          nb::keep_alive<1, 3>())
       .def(
           "set_weights",
           [](BlendingLoop& self, VectorIn weights) {

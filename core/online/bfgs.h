@@ -6,35 +6,29 @@
 #include <vector>
 
 #include "online/minimizer.h"
+#include "simd/vectors.h"
 
 namespace snapspace::online {
-
-inline double dot(const double* a, const double* b, int n) {
-  double sum = 0.0;
-  for (int i = 0; i < n; ++i) sum += a[i] * b[i];
-  return sum;
-}
 
 /// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
 /// Wolfe conditions, which keep the inverse positive definite. All memory is taken in the
 /// constructor.
 class Bfgs {
  public:
-  explicit Bfgs(int dimension)
-      : d_(dimension),
-        inverse_(static_cast<std::size_t>(dimension) * dimension),
-        gradient_(dimension),
-        direction_(dimension),
-        trial_(dimension),
-        trial_gradient_(dimension),
-        change_(dimension),
-        product_(dimension) {}
+  explicit Bfgs(int capacity)
+      : inverse_(static_cast<std::size_t>(capacity) * capacity),
+        gradient_(capacity),
+        direction_(capacity),
+        trial_(capacity),
+        trial_gradient_(capacity),
+        change_(capacity),
+        product_(capacity) {}
 
-  /// Minimises objective.value_and_gradient(q, g) from q, in place; q never gets a worse or
+  /// Minimises objective.value_and_gradient(q, g) over q (d), in place; q never gets a worse or
   /// non-finite value.
   /// @param initial_inverse  d x d, symmetric positive definite
   template <class Objective>
-  Report minimize(Objective& objective, double* q, const double* initial_inverse,
+  Report minimize(Objective& objective, int d, double* q, const double* initial_inverse,
                   const Termination& stop);
 
  private:
@@ -42,32 +36,23 @@ class Bfgs {
   static constexpr int kMaxIdleSteps = 4;
 
   template <class Objective>
-  bool line_search(Objective& objective, const double* q, Report& report, double slope);
+  bool line_search(Objective& objective, const double* q, Report& report, double slope,
+                   const Termination& stop);
   template <class Objective>
   double evaluate(Objective& objective, const double* q, double step, Report& report);
   void set_direction();
   void update();
 
-  int d_;
+  int d_ = 0;
   std::vector<double> inverse_, gradient_, direction_, trial_, trial_gradient_, change_, product_;
   double step_ = 1.0;
   double trial_value_ = 0.0;
 };
 
-/// Whether all three tests hold after a step of the given length and decrease.
-inline bool terminates(const Termination& stop, const Report& report, double decrease, double step,
-                       double length) {
-  const double value = 1.0 + std::abs(report.value) / stop.value_scale;
-  const double slope_scale = stop.coordinate_scale / stop.value_scale;
-  return decrease / stop.value_scale < stop.tolerance * value &&
-         step / stop.coordinate_scale <
-             std::sqrt(stop.tolerance) * (1.0 + length / stop.coordinate_scale) &&
-         report.gradient_norm * slope_scale < std::cbrt(stop.tolerance) * value;
-}
-
 template <class Objective>
-Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inverse,
+Report Bfgs::minimize(Objective& objective, int d, double* q, const double* initial_inverse,
                       const Termination& stop) {
+  d_ = d;
   Report report{Status::max_iterations, 0, 1, 0.0, 0.0};
   report.value = objective.value_and_gradient(q, gradient_.data());
   report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
@@ -76,7 +61,8 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
     return report;
   }
   const auto reset = [&] {
-    std::copy(initial_inverse, initial_inverse + inverse_.size(), inverse_.begin());
+    std::copy(initial_inverse, initial_inverse + static_cast<std::size_t>(d_) * d_,
+              inverse_.begin());
   };
   reset();
   bool pristine = true;
@@ -88,7 +74,11 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
       report.status = Status::converged;
       break;
     }
-    if (!(slope < 0.0) || !line_search(objective, q, report, slope)) {
+    if (!(slope < 0.0) || !line_search(objective, q, report, slope, stop)) {
+      if (report.evaluations >= stop.max_evaluations) {
+        report.status = Status::max_evaluations;
+        break;
+      }
       // Either the approximation went bad, which a fresh start cures once, or values no longer
       // resolve a decrease.
       if (pristine) {
@@ -107,7 +97,7 @@ Report Bfgs::minimize(Objective& objective, double* q, const double* initial_inv
     idle_steps = decrease > 0.0 ? 0 : idle_steps + 1;
     update();
     pristine = false;
-    std::copy(trial_.begin(), trial_.end(), q);
+    std::copy_n(trial_.begin(), d_, q);
     gradient_.swap(trial_gradient_);
     report.gradient_norm = std::sqrt(dot(gradient_.data(), gradient_.data(), d_));
     const double step = step_ * std::sqrt(dot(direction_.data(), direction_.data(), d_));
@@ -134,13 +124,15 @@ double Bfgs::evaluate(Objective& objective, const double* q, double step, Report
 /// Bisection with expansion between a point that is too near (still steep) and one that is too far
 /// (too high). On success trial_ holds the accepted point.
 template <class Objective>
-bool Bfgs::line_search(Objective& objective, const double* q, Report& report, double slope) {
+bool Bfgs::line_search(Objective& objective, const double* q, Report& report, double slope,
+                       const Termination& stop) {
   constexpr double kDecrease = 1e-4;
   constexpr double kCurvature = 0.9;
   double near = 0.0;
   double far = std::numeric_limits<double>::infinity();
   step_ = 1.0;
   for (int trial = 0; trial < kMaxTrials; ++trial) {
+    if (report.evaluations >= stop.max_evaluations) return false;
     const double trial_slope = evaluate(objective, q, step_, report);
     const bool finite = std::isfinite(trial_value_) && std::isfinite(trial_slope);
     if (!finite || trial_value_ > report.value + kDecrease * step_ * slope) {

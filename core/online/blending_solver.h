@@ -1,8 +1,7 @@
 #pragma once
-#include <cstddef>
 #include <vector>
 
-#include "online/bfgs.h"
+#include "online/minimizers.h"
 #include "online/quartic.h"
 
 namespace snapspace::online {
@@ -16,39 +15,61 @@ class BlendingSolver {
  public:
   /// Keeps a pointer to the coefficients, poses x quartic_count(dimension + 1). The weights are
   /// equal at first.
-  BlendingSolver(int dimension, int poses, const double* coefficients);
-  BlendingSolver(BlendingSolver&&) = default;
-  BlendingSolver(const BlendingSolver&) = delete;  // blended_ would read the other's coefficients
+  BlendingSolver(int dimension, int poses, const double* coefficients,
+                 Storage storage = Storage::double_precision)
+      : poses_(poses),
+        coefficients_(coefficients),
+        weights_(poses, 1.0 / poses),
+        equal_(weights_),
+        blended_(dimension, storage),
+        minimizers_(dimension) {
+    set_weights(equal_.data());
+    valid_ = minimizers_.prepare(*this, dimension);
+  }
 
-  /// False if the Hessian at the mean shape, q = 0 at equal weights, is not positive definite: BFGS
-  /// then has no matrix to start from.
+  /// False if the Hessian at the mean shape, q = 0 at equal weights, is not positive definite: a
+  /// solve has then no matrix to start from.
   [[nodiscard]] bool valid() const { return valid_; }
 
   [[nodiscard]] int poses() const { return poses_; }
+  [[nodiscard]] int dimension() const { return blended_.dimension(); }
+  [[nodiscard]] int capacity() const { return blended_.capacity(); }
+
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights stay.
+  void set_dimension(int dimension) {
+    blended_.set_dimension(dimension);
+    blended_.combine(poses_, equal_.data(), coefficients_);
+    minimizers_.prepare(*this, dimension);
+    blended_.combine(poses_, weights_.data(), coefficients_);
+  }
 
   /// Combines the coefficients for weights (poses).
-  void set_weights(const double* weights);
+  void set_weights(const double* weights) {
+    weights_.assign(weights, weights + poses_);
+    blended_.combine(poses_, weights, coefficients_);
+  }
 
   double value_and_gradient(const double* q, double* gradient) {
     return blended_.value_and_gradient(q, gradient);
   }
 
-  void hessian(const double* q, double* hessian) { blended_.hessian(q, hessian); }
+  /// The lower triangle of the Hessian, too.
+  double derivatives(const double* q, double* gradient, double* hessian) {
+    return blended_.derivatives(q, gradient, hessian);
+  }
 
-  /// BFGS from q, in place, with the inverse Hessian at the mean shape as first approximation
-  /// (paper, sec. 6.2).
-  Report solve(double* q, const Termination& stop) {
-    return bfgs_.minimize(*this, q, mean_inverse_.data(), stop);
+  /// From q, in place.
+  Report solve(double* q, Method method, const Termination& stop) {
+    return minimizers_.minimize(*this, method, q, stop);
   }
 
  private:
   int poses_;
   const double* coefficients_;
-  std::vector<double> combined_;
-  Quartic blended_;  // reads combined_
-  Bfgs bfgs_;
-  std::vector<double> mean_inverse_;
-  bool valid_;
+  std::vector<double> weights_, equal_;
+  Quartic blended_;
+  Minimizers minimizers_;
+  bool valid_ = false;
 };
 
 }  // namespace snapspace::online

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "simd/vectors.h"
+
 namespace snapspace::online {
 
 /// The handle energy (paper, eq. 2) as a quadratic form in the reduced coordinates q (d) and the
@@ -12,26 +14,33 @@ namespace snapspace::online {
 /// cancel.
 class HandleQuadric {
  public:
-  /// Keeps pointers: the arrays must outlive it.
+  /// Copies the arrays.
   /// @param K  d x d
   /// @param L  handles x d x 12, row-major, D_h row by row
   /// @param S  handles x 4 x 4
   HandleQuadric(int dimension, int handles, const double* K, const double* L, const double* S)
-      : d_(dimension), handles_(handles), K_(K), L_(L), S_(S), linear_(dimension) {}
+      : capacity_(dimension),
+        d_(dimension),
+        handles_(handles),
+        K_(K, K + size(dimension, dimension)),
+        L_(L, L + size(handles, 12) * dimension),
+        S_(S, S + size(handles, 16)),
+        linear_(dimension) {}
 
   [[nodiscard]] int handles() const { return handles_; }
 
-  /// Takes new offsets (handles x 12): O(d * handles).
+  /// Restricts the form to the first coordinates, at most as many as in the constructor.
+  void set_dimension(int dimension) { d_ = dimension; }
+
+  /// Takes new offsets (handles x 12), for all coordinates: O(d * handles).
   void set_offsets(const double* offsets) {
-    for (int i = 0; i < d_; ++i) linear_[i] = 0.0;
+    for (double& entry : linear_) entry = 0.0;
     constant_ = 0.0;
     for (int h = 0; h < handles_; ++h) {
-      const double* D = offsets + 12 * h;
-      for (int i = 0; i < d_; ++i) {
-        const double* row = L_ + (static_cast<std::size_t>(h) * d_ + i) * 12;
-        for (int k = 0; k < 12; ++k) linear_[i] += row[k] * D[k];
-      }
-      const double* S = S_ + 16 * h;
+      const double* D = offsets + size(12, h);
+      for (int i = 0; i < capacity_; ++i)
+        linear_[i] += dot(L_.data() + (size(h, capacity_) + i) * 12, D, 12);
+      const double* S = S_.data() + size(16, h);
       for (int r = 0; r < 3; ++r)
         for (int a = 0; a < 4; ++a)
           for (int b = 0; b < 4; ++b) constant_ += D[4 * r + a] * S[4 * a + b] * D[4 * r + b];
@@ -42,26 +51,26 @@ class HandleQuadric {
   double add_value_and_gradient(const double* q, double* gradient) const {
     double value = constant_;
     for (int i = 0; i < d_; ++i) {
-      const double* row = K_ + static_cast<std::size_t>(i) * d_;
-      double Kq = 0.0;
-      for (int j = 0; j < d_; ++j) Kq += row[j] * q[j];
+      const double Kq = dot(K_.data() + size(i, capacity_), q, d_);
       value += q[i] * (Kq - 2.0 * linear_[i]);
       gradient[i] += 2.0 * (Kq - linear_[i]);
     }
     return value;
   }
 
-  /// Adds the constant Hessian 2 K to `hessian` (d x d).
+  /// Adds the constant Hessian 2 K to the lower triangle of `hessian` (d x d).
   void add_hessian(double* hessian) const {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(d_) * d_; ++i) hessian[i] += 2.0 * K_[i];
+    for (int i = 0; i < d_; ++i)
+      add_scaled(2.0, K_.data() + size(i, capacity_), hessian + size(i, d_), i + 1);
   }
 
  private:
-  int d_;
-  int handles_;
-  const double* K_;
-  const double* L_;
-  const double* S_;
+  static std::size_t size(int rows, int columns) {
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+  }
+
+  int capacity_, d_, handles_;
+  std::vector<double> K_, L_, S_;
   std::vector<double> linear_;
   double constant_ = 0.0;
 };

@@ -1,8 +1,6 @@
 #pragma once
-#include <vector>
-
-#include "online/bfgs.h"
 #include "online/handle_quadric.h"
+#include "online/minimizers.h"
 #include "online/quartic.h"
 
 namespace snapspace::online {
@@ -13,15 +11,30 @@ namespace snapspace::online {
 /// takes no memory after construction.
 class PosingSolver {
  public:
-  /// Keeps pointers to the arrays, which are as Quartic and HandleQuadric take them.
+  /// Copies the arrays, which are as Quartic and HandleQuadric take them.
   PosingSolver(int dimension, int handles, const double* quartic_coefficients, const double* K,
-               const double* L, const double* S);
+               const double* L, const double* S, Storage storage = Storage::double_precision)
+      : elastic_(dimension, quartic_coefficients, storage),
+        handles_(dimension, handles, K, L, S),
+        minimizers_(dimension),
+        valid_(minimizers_.prepare(*this, dimension)) {}
 
-  /// False if the Hessian at rest is not positive definite: BFGS then has no matrix to start from.
+  /// False if the Hessian at rest is not positive definite: a solve has then no matrix to start
+  /// from.
   [[nodiscard]] bool valid() const { return valid_; }
 
   [[nodiscard]] int handles() const { return handles_.handles(); }
+  [[nodiscard]] int dimension() const { return elastic_.dimension(); }
+  [[nodiscard]] int capacity() const { return elastic_.capacity(); }
 
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; offsets stay.
+  void set_dimension(int dimension) {
+    elastic_.set_dimension(dimension);
+    handles_.set_dimension(dimension);
+    minimizers_.prepare(*this, dimension);
+  }
+
+  /// Takes new offsets of the handles (handles x 12): O(capacity * handles).
   void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
 
   double value_and_gradient(const double* q, double* gradient) {
@@ -29,21 +42,22 @@ class PosingSolver {
     return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
-  void hessian(const double* q, double* hessian) {
-    elastic_.hessian(q, hessian);
+  /// The lower triangle of the Hessian, too.
+  double derivatives(const double* q, double* gradient, double* hessian) {
+    const double elastic = elastic_.derivatives(q, gradient, hessian);
     handles_.add_hessian(hessian);
+    return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
-  /// BFGS from q, in place, with the inverse Hessian at rest as first approximation (sec. 6.2).
-  Report solve(double* q, const Termination& stop) {
-    return bfgs_.minimize(*this, q, rest_inverse_.data(), stop);
+  /// From q, in place.
+  Report solve(double* q, Method method, const Termination& stop) {
+    return minimizers_.minimize(*this, method, q, stop);
   }
 
  private:
   Quartic elastic_;
   HandleQuadric handles_;
-  Bfgs bfgs_;
-  std::vector<double> rest_inverse_;
+  Minimizers minimizers_;
   bool valid_;
 };
 

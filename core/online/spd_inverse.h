@@ -1,13 +1,14 @@
 #pragma once
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 namespace snapspace::online {
 
-/// Replaces a symmetric positive definite d x d matrix by its inverse, through its Cholesky factor.
-/// Returns false, with the matrix spoilt, if it is not positive definite.
-inline bool invert_spd(double* matrix, int d) {
+/// Replaces a symmetric positive definite d x d matrix (lower triangle read) by its inverse,
+/// through its Cholesky factor. Returns false, with the matrix spoilt, if it is not positive
+/// definite.
+/// @param inverse  room for d x d numbers
+inline bool invert_spd(double* matrix, int d, double* inverse) {
   const auto at = [&](int i, int j) -> double& {
     return matrix[static_cast<std::size_t>(i) * d + j];
   };
@@ -20,8 +21,7 @@ inline bool invert_spd(double* matrix, int d) {
       at(i, j) /= at(j, j);
     }
   }
-  std::vector<double> inverse(static_cast<std::size_t>(d) * d, 0.0);  // of the factor, lower
-  for (int j = 0; j < d; ++j) {
+  for (int j = 0; j < d; ++j) {  // of the factor, lower
     inverse[static_cast<std::size_t>(j) * d + j] = 1.0 / at(j, j);
     for (int i = j + 1; i < d; ++i) {
       double sum = 0.0;

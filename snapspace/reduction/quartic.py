@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -40,7 +41,11 @@ class Quartic:
             )
         self.dimension = dimension
         self.coefficients = np.ascontiguousarray(coefficients, np.float64)
-        self._core = core.Quartic(dimension, self.coefficients)
+
+    @cached_property
+    def _core(self) -> core.Quartic:
+        """Has a copy of the coefficients, in the order that evaluations like."""
+        return core.Quartic(self.dimension, self.coefficients)
 
     def value(self, q: ArrayLike) -> float:
         """Energy at q (d,)."""
@@ -53,8 +58,12 @@ class Quartic:
 
     def hessian(self, q: ArrayLike) -> FloatArray:
         """Hessian at q, (d, d)."""
-        hessian: FloatArray = self._core.hessian(np.asarray(q, np.float64))
-        return hessian
+        return self.derivatives(q)[2]
+
+    def derivatives(self, q: ArrayLike) -> tuple[float, FloatArray, FloatArray]:
+        """Energy at q, its gradient (d,) and Hessian (d, d), in one pass over the coefficients."""
+        value, gradient, hessian = self._core.derivatives(np.asarray(q, np.float64))
+        return value, gradient, hessian
 
     def leading(self, dimension: int) -> Quartic:
         """The polynomial on the first coordinates."""

@@ -100,5 +100,5 @@ class BlendingSession(Session[InterpolationModel]):
         if not present <= known:
             self._loop.q = candidate
 
-    def _make_loop(self) -> core.BlendingLoop:
-        return core.BlendingLoop(self.model.dimension, self.model.coefficients)
+    def _make_loop(self, *, single: bool) -> core.BlendingLoop:
+        return core.BlendingLoop(self.model.dimension, self.model.coefficients, single=single)

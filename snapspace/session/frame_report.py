@@ -9,9 +9,9 @@ from dataclasses import dataclass
 class FrameReport:
     """How one frame was solved.
 
-    status : converged, max_iterations, line_search_failed or not_finite; unbounded where an
-    extrapolated blend has no minimum
-    iterations, evaluations : of BFGS
+    status : converged, max_iterations, max_evaluations, line_search_failed or not_finite; unbounded
+    where an extrapolated blend has no minimum
+    iterations, evaluations : steps of the minimiser, and evaluations of the reduced energy
     value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
     seconds : of the solve, without the vertices
     """

@@ -131,9 +131,9 @@ class PosingSession(Session[PosingModel]):
         """`pose`."""
         return self.pose(parameters)
 
-    def _make_loop(self) -> core.PosingLoop:
+    def _make_loop(self, *, single: bool) -> core.PosingLoop:
         elastic, handles = self.model.elastic, self.model.handles
-        return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S)
+        return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
 
     def _center(self, handle: str) -> FloatArray:
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]

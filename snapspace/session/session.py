@@ -9,19 +9,22 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import _core as core
 from ..reduction import ReducedModel
 from .frame_report import FrameReport
 
 FloatArray = NDArray[np.float64]
 Model = TypeVar("Model", bound=ReducedModel)
 
+MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
+PRECISIONS = ("double", "single")
+
 
 class Session(ABC, Generic[Model]):
     """What the sessions of all problems have in common.
 
     `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes the one
-    that belongs to the model. Each change solves the reduced problem by BFGS from the last frame's
-    shape, with the inverse Hessian at tau as the first approximation.
+    that belongs to the model. Each change solves the reduced problem from the last frame's shape.
 
     Parameters
     ----------
@@ -29,30 +32,54 @@ class Session(ABC, Generic[Model]):
     tolerance : float, default 1e-7 for posing, 1e-9 for blending
         eps of the termination tests (paper, sec. 6.2), which are relative to a strain of 10 % and
         a displacement of a tenth of the diagonal.
-    max_iterations : int, default 300
-        Bound on the work of one frame.
+    max_iterations, max_evaluations : int, default 300 and 500
+        Bounds on the work of one frame: steps, and evaluations of the energy.
+    minimizer : "newton" or "bfgs", default "newton"
+        Newton's method, with the exact Hessian, shifted where that is not positive definite; or
+        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2).
+    precision : "double" or "single", default "double"
+        Of the stored coefficients. Single takes half of the memory, and less time where the
+        coefficients do not fit into the second-level cache (d = 60 and more); each coefficient is
+        rounded to 6e-8 of its size, all arithmetic is in double precision.
 
     Raises
     ------
     ValueError
-        For a tolerance or bound that is not positive.
+        For a tolerance or bound that is not positive, or an unknown minimizer or precision.
     """
 
     default_tolerance = 1e-7
 
     def __init__(
-        self, model: Model, *, tolerance: float | None = None, max_iterations: int = 300
+        self,
+        model: Model,
+        *,
+        tolerance: float | None = None,
+        max_iterations: int = 300,
+        max_evaluations: int = 500,
+        minimizer: str = "newton",
+        precision: str = "double",
     ) -> None:
         tolerance = self.default_tolerance if tolerance is None else tolerance
-        if not tolerance > 0 or max_iterations < 1:
+        if not tolerance > 0 or max_iterations < 1 or max_evaluations < 1:
             raise ValueError(
-                f"Session: tolerance {tolerance} and max_iterations {max_iterations} must be "
-                "positive"
+                f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
+                f"max_evaluations {max_evaluations} must be positive"
+            )
+        if minimizer not in MINIMIZERS:
+            raise ValueError(
+                f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
+            )
+        if precision not in PRECISIONS:
+            raise ValueError(
+                f"Session: unknown precision '{precision}'; known are {', '.join(PRECISIONS)}"
             )
         self.model = model
         self.tolerance = tolerance
         self.max_iterations = max_iterations
-        self._loop: Any = self._make_loop()
+        self.max_evaluations = max_evaluations
+        self.minimizer = minimizer
+        self._loop: Any = self._make_loop(single=precision == "single")
         self.reset()
 
     @property
@@ -70,8 +97,10 @@ class Session(ABC, Generic[Model]):
         """Solves for what is set, from the current shape."""
         begin = time.perf_counter()
         report = self._loop.solve(
+            method=MINIMIZERS[self.minimizer],
             tolerance=self.tolerance,
             max_iterations=self.max_iterations,
+            max_evaluations=self.max_evaluations,
             value_scale=self.model.value_scale,
             coordinate_scale=self.model.coordinate_scale,
         )
@@ -93,5 +122,5 @@ class Session(ABC, Generic[Model]):
         """Back to tau."""
 
     @abstractmethod
-    def _make_loop(self) -> Any:
-        """The compiled live loop of the model."""
+    def _make_loop(self, *, single: bool) -> Any:
+        """The compiled live loop of the model, with coefficients in single or double precision."""

@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import Quartic
+from snapspace import _core as core
 from snapspace.reduction import coefficient_count
 
 from ..taylor import observed_order
@@ -49,6 +50,36 @@ def test_value_gradient_and_hessian_are_those_of_the_monomials(dimension: int, s
     assert gradient == pytest.approx(4 * (cubic @ x @ x)[1:], rel=1e-11)
     assert quartic.hessian(q) == pytest.approx(12 * (cubic @ x)[1:, 1:], rel=1e-11)
     assert quartic.value(q) == value
+
+
+@pytest.mark.parametrize("dimension", [*range(1, 14), 20, 23, 40, 41, 42, 43])
+def test_one_pass_gives_the_same_as_two(dimension: int) -> None:
+    """And by Euler's theorem x . grad = 4 E and H x = 3 grad for the form in x = (1, q)."""
+    quartic = random_quartic(dimension)
+    q = np.random.default_rng(4).normal(size=dimension)
+    value, gradient = quartic.value_and_gradient(q)
+    same_value, same_gradient, hessian = quartic.derivatives(q)
+    size = np.linalg.norm(gradient)
+    assert same_value == pytest.approx(value, rel=1e-11, abs=1e-13 * size)
+    assert same_gradient == pytest.approx(gradient, abs=1e-13 * size)
+    h = 1e-5
+    moved = [quartic.value_and_gradient(q + h * side * q)[1] for side in (1, -1)]
+    along = (moved[0] - moved[1]) / (2 * h)
+    assert hessian @ q == pytest.approx(along, abs=1e-7 * np.abs(along).max())
+    assert np.array_equal(hessian, hessian.T)
+
+
+@pytest.mark.parametrize("dimension", [3, 12, 30])
+def test_single_precision_is_the_quartic_of_rounded_coefficients(dimension: int) -> None:
+    """The arithmetic loses nothing more: sums are taken in double precision."""
+    coefficients = random_quartic(dimension).coefficients
+    q = np.random.default_rng(4).normal(size=dimension)
+    single = core.Quartic(dimension, coefficients, single=True)
+    rounded = core.Quartic(dimension, coefficients.astype(np.float32).astype(np.float64))
+    assert single.value_and_gradient(q)[0] == rounded.value_and_gradient(q)[0]
+    for a, b in zip(single.derivatives(q), rounded.derivatives(q), strict=True):
+        assert np.array_equal(a, b)
+    assert single.derivatives(q)[0] != core.Quartic(dimension, coefficients).derivatives(q)[0]
 
 
 @pytest.mark.parametrize("dimension", [1, 4, 7, 19])

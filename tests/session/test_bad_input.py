@@ -62,13 +62,20 @@ def test_a_wrong_move_is_refused_and_changes_nothing(
         {"tolerance": -1.0},
         {"tolerance": math.nan},
         {"max_iterations": 0},
+        {"max_evaluations": 0},
     ],
 )
 def test_options_that_are_not_positive_are_refused(
     posing_model: ReducedModel, options: dict[str, Any]
 ) -> None:
-    with pytest.raises(ValueError, match=r"Session: tolerance .* and max_iterations .* positive"):
+    with pytest.raises(ValueError, match=r"Session: tolerance .* max_evaluations .* positive"):
         posing_model.session(**options)
+
+
+@pytest.mark.parametrize("option", ["minimizer", "precision"])
+def test_an_unknown_choice_is_refused(posing_model: ReducedModel, option: str) -> None:
+    with pytest.raises(ValueError, match=f"Session: unknown {option} 'best'; known are"):
+        posing_model.session(**{option: "best"})
 
 
 def test_a_move_beyond_all_numbers_is_reported_and_can_be_undone(

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace snapspace::online {
+
+/// Zeros at first, at an address that is a multiple of 64: no pack of its numbers straddles two
+/// cache lines.
+template <class T>
+class AlignedArray {
+ public:
+  AlignedArray() = default;
+  explicit AlignedArray(std::size_t size) : lines_((size + kPerLine - 1) / kPerLine) {}
+
+  [[nodiscard]] T* data() { return lines_.empty() ? nullptr : lines_.front().numbers; }
+  [[nodiscard]] const T* data() const { return lines_.empty() ? nullptr : lines_.front().numbers; }
+
+  T& operator[](std::size_t i) { return data()[i]; }
+  const T& operator[](std::size_t i) const { return data()[i]; }
+
+ private:
+  static constexpr std::size_t kPerLine = 64 / sizeof(T);
+  struct alignas(64) Line {
+    T numbers[kPerLine] = {};
+  };
+  std::vector<Line> lines_;
+};
+
+}  // namespace snapspace::online

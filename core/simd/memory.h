@@ -1,0 +1,76 @@
+#pragma once
+#include <cstring>
+
+#include "simd/lanes.h"
+
+/// Packs of neighbouring numbers of one array: loads, stores and sums. (Elsewhere a pack holds one
+/// number of each of several samples.)
+
+namespace snapspace {
+
+/// Pack of the numbers from[0] ... from[Width - 1], at any address.
+template <int Width>
+inline Lanes<Width> load(const double* from) {
+  Lanes<Width> pack;
+  std::memcpy(&pack, from, sizeof pack);
+  return pack;
+}
+
+/// The same for numbers stored in single precision; arithmetic is in double precision.
+template <int Width>
+inline Lanes<Width> load(const float* from) {
+  SingleLanes<Width> pack;
+  std::memcpy(&pack, from, sizeof pack);
+  return cast<double>(pack);
+}
+
+template <int Width>
+inline void store(double* to, Lanes<Width> pack) {
+  std::memcpy(to, &pack, sizeof pack);
+}
+
+/// Keeps a pack in its register. Without it compilers fold a load into each use, and what was to be
+/// read once is read three times.
+template <class P>
+inline void keep_in_register([[maybe_unused]] P& pack) {
+#if defined(__GNUC__) && defined(__AVX__)
+  asm("" : "+v"(pack.v));
+#endif
+}
+
+#if defined(__has_builtin)
+#if __has_builtin(__builtin_shufflevector)
+#define SNAPSPACE_SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
+#endif
+#endif
+
+/// sums[i] = sum of the lanes of packs[i], in pairs, for `Count` packs.
+template <int Count, int Width>
+inline void lane_sums(const Lanes<Width>* packs, double* sums) {
+#ifdef SNAPSPACE_SHUFFLE
+  if constexpr (Width == 8) {
+    Lanes<4> halves[Count];
+    for (int i = 0; i < Count; ++i) {
+      const auto v = packs[i].v;
+      halves[i] =
+          Lanes<4>(SNAPSPACE_SHUFFLE(v, v, 0, 1, 2, 3) + SNAPSPACE_SHUFFLE(v, v, 4, 5, 6, 7));
+    }
+    return lane_sums<Count>(halves, sums);
+  } else if constexpr (Width == 4 && Count % 4 == 0) {
+    for (int i = 0; i < Count; i += 4) {
+      const auto a = packs[i].v, b = packs[i + 1].v, c = packs[i + 2].v, d = packs[i + 3].v;
+      const auto ab = SNAPSPACE_SHUFFLE(a, b, 0, 4, 2, 6) + SNAPSPACE_SHUFFLE(a, b, 1, 5, 3, 7);
+      const auto cd = SNAPSPACE_SHUFFLE(c, d, 0, 4, 2, 6) + SNAPSPACE_SHUFFLE(c, d, 1, 5, 3, 7);
+      store(sums + i, Lanes<4>(SNAPSPACE_SHUFFLE(ab, cd, 0, 1, 4, 5) +
+                               SNAPSPACE_SHUFFLE(ab, cd, 2, 3, 6, 7)));
+    }
+    return;
+  }
+#endif
+  for (int i = 0; i < Count; ++i) {
+    sums[i] = 0.0;
+    for (int lane = 0; lane < Width; ++lane) sums[i] += packs[i][lane];
+  }
+}
+
+}  // namespace snapspace
