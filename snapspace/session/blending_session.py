@@ -78,7 +78,7 @@ class BlendingSession(Session[InterpolationModel]):
     def reset(self) -> None:
         """Back to the mean shape: equal weights."""
         self._set_weights(self.model.problem.domain.center)
-        self._loop.q = np.zeros(self.model.dimension)
+        self._loop.q = np.zeros(self.dimension)
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`blend` with any weights that sum to one."""
@@ -94,7 +94,7 @@ class BlendingSession(Session[InterpolationModel]):
             return
         with np.errstate(over="ignore"):  # weights far outside of any use
             away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
-        candidate = self.model.training_coordinates[np.argmin(away)]
+        candidate = self.model.training_coordinates[np.argmin(away), : self.dimension]
         present, _ = self._loop.value_and_gradient(self._loop.q)
         known, _ = self._loop.value_and_gradient(candidate)
         if not present <= known:

@@ -125,7 +125,7 @@ class PosingSession(Session[PosingModel]):
         handles = len(self.model.problem.handles)
         self._maps = np.tile(np.eye(3, 4), (handles, 1, 1))
         self._loop.set_offsets(np.zeros((handles, 3, 4)))
-        self._loop.q = np.zeros(self.model.dimension)
+        self._loop.q = np.zeros(self.dimension)
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`pose`."""

@@ -83,8 +83,28 @@ class Session(ABC, Generic[Model]):
         self.reset()
 
     @property
+    def dimension(self) -> int:
+        """Number of coordinates that are solved for: at first all of the model's.
+
+        Fewer are faster and less accurate, as of `model.leading(dimension)`. Setting it keeps the
+        leading coordinates of the shape; those that come back are zero until the next solve.
+        ValueError unless it is between 1 and the model's dimension.
+        """
+        dimension: int = self._loop.dimension
+        return dimension
+
+    @dimension.setter
+    def dimension(self, dimension: int) -> None:
+        if not 1 <= dimension <= self.model.dimension:
+            raise ValueError(
+                f"Session: dimension {dimension} is not between 1 and {self.model.dimension}, the "
+                "model's"
+            )
+        self._loop.dimension = dimension
+
+    @property
     def q(self) -> FloatArray:
-        """Reduced coordinates of the current shape, (d,)."""
+        """Reduced coordinates of the current shape, (dimension,)."""
         q: FloatArray = self._loop.q
         return q
 

@@ -73,8 +73,9 @@ class AffineSubspace:
         return coordinates
 
     def shape(self, q: ArrayLike) -> FloatArray:
-        """tau + U q, (3n,), for coordinates (d,)."""
-        return core.reconstruct(self.tau, self.basis.T, np.asarray(q, np.float64))
+        """tau + U q, (3n,), for coordinates (d,), or the leading ones with the others zero."""
+        coordinates = np.asarray(q, np.float64)
+        return core.reconstruct(self.tau, self.basis.T[: len(coordinates)], coordinates)
 
 
 def check_dimension(dimension: int, largest: int) -> None:
