@@ -215,7 +215,10 @@ class PosingProblem:
                 "by handle"
             )
         if not np.isfinite(w).all():
-            raise ValueError("PosingProblem: a parameter is not finite")
+            bad = int(np.flatnonzero(~np.isfinite(w))[0])
+            entry = ("translation x", "y", "z", "alpha", "beta", "gamma")[bad % 6]
+            name = self.handles.names[1 + bad // 6]
+            raise ValueError(f"PosingProblem: parameter {bad}, {entry} of '{name}', is not finite")
         motions = w.reshape(-1, 6)
         moving = rigid_offset(motions[:, 3:], motions[:, :3])
         return np.concatenate([np.zeros((1, 3, 4)), moving])

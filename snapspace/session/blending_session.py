@@ -67,18 +67,26 @@ class BlendingSession(Session[InterpolationModel]):
         w = self.model.problem.weights(weights, extrapolate=extrapolate)
         before, shape = self._weights, self.q
         self._set_weights(w)
-        self._start()
-        report = self.solve()
-        if not np.linalg.norm(self.q) <= FARTHEST * self.model.coordinate_scale:
+        start = self._start()
+        report = replace(self.solve(), start=start)
+        if np.linalg.norm(self.q) > FARTHEST * self.model.coordinate_scale:
+            report = replace(report, status="unbounded")
+        if report.status in ("unbounded", "not_finite"):
             self._set_weights(before)
             self._loop.q = shape
-            return replace(report, status="unbounded")
         return report
 
     def reset(self) -> None:
         """Back to the mean shape: equal weights."""
         self._set_weights(self.model.problem.domain.center)
         self._loop.q = np.zeros(self.dimension)
+
+    @property
+    def outside(self) -> tuple[str, ...]:
+        """Poses whose weights are below the least one of the domain that was sampled."""
+        lowest = self.model.problem.domain.lowest - 1e-9
+        names = self.model.problem.poses.names
+        return tuple(n for n, w in zip(names, self._weights, strict=True) if w < lowest)
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`blend` with any weights that sum to one."""
@@ -88,17 +96,19 @@ class BlendingSession(Session[InterpolationModel]):
         self._weights = weights
         self._loop.set_weights(weights)
 
-    def _start(self) -> None:
+    def _start(self) -> str:
         """Takes the nearest training sample as the start if its energy is below the present one."""
         if not len(self.model.training_parameters):
-            return
+            return "last frame"
         with np.errstate(over="ignore"):  # weights far outside of any use
             away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
         candidate = self.model.training_coordinates[np.argmin(away), : self.dimension]
         present, _ = self._loop.value_and_gradient(self._loop.q)
         known, _ = self._loop.value_and_gradient(candidate)
-        if not present <= known:
-            self._loop.q = candidate
+        if present <= known:
+            return "last frame"
+        self._loop.q = candidate
+        return "sample"
 
     def _make_loop(self, *, single: bool) -> core.BlendingLoop:
         return core.BlendingLoop(self.model.dimension, self.model.coefficients, single=single)

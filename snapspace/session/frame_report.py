@@ -14,6 +14,8 @@ class FrameReport:
     iterations, evaluations : steps of the minimiser, and evaluations of the reduced energy
     value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
     seconds : of the solve, without the vertices
+    start : where the solve began: "last frame", "sample" (a training sample of lower energy) or
+    "tau"; of `solve_anew` it tells which start led to the lowest energy
     """
 
     status: str
@@ -22,6 +24,7 @@ class FrameReport:
     value: float
     gradient_norm: float
     seconds: float
+    start: str = "last frame"
 
     @property
     def converged(self) -> bool:

@@ -11,6 +11,7 @@ from .. import _core as core
 from ..problem import affine_offset, rigid_offset
 from ..reduction import PosingModel
 from .frame_report import FrameReport
+from .sampled_box import is_inside
 from .session import Session
 
 FloatArray = NDArray[np.float64]
@@ -29,6 +30,7 @@ class PosingSession(Session[PosingModel]):
     """
 
     _maps: FloatArray  # (h, 3, 4), of world positions
+    _offsets: FloatArray  # (h, 3, 4), relative to the first handle
 
     @property
     def vertices(self) -> FloatArray:
@@ -63,8 +65,9 @@ class PosingSession(Session[PosingModel]):
         Raises
         ------
         ValueError
-            For an unknown handle, or values that are not three finite numbers; the shape stays as
-            it was.
+            For an unknown handle, or values that are not three finite numbers: the message names
+            handle and entry, handles and shape stay as they were. They also do if the motion is so
+            large that the energy overflows; the report's status is then not_finite.
         """
         return self.move_all({handle: (euler, translation)})
 
@@ -76,10 +79,11 @@ class PosingSession(Session[PosingModel]):
         """
         maps = {}
         for handle, (euler, translation) in motions.items():
-            offset = rigid_offset(_three(euler, "euler"), _three(translation, "translation"))
-            maps[handle] = _world_map(offset, self._center(handle))
-        self._place(maps)
-        return self.solve()
+            center = self._center(handle)
+            turn = _finite(euler, (3,), f"move: euler of '{handle}'")
+            shift = _finite(translation, (3,), f"move: translation of '{handle}'")
+            maps[handle] = _world_map(rigid_offset(turn, shift), center)
+        return self._solve_at(*self._placed(maps))
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:
         """Puts a handle at an affine map (3, 4) of world positions (v, 1), and solves.
@@ -88,11 +92,10 @@ class PosingSession(Session[PosingModel]):
         ------
         ValueError
             For an unknown handle, a matrix of another shape or not finite, or one that is not a
-            rigid motion for the first handle.
+            rigid motion for the first handle; otherwise as for `move`.
         """
-        wanted = np.asarray(matrix, np.float64)
-        if wanted.shape != (3, 4) or not np.isfinite(wanted).all():
-            raise ValueError(f"move_affine: needs a finite (3, 4) matrix, got shape {wanted.shape}")
+        self._center(handle)
+        wanted = _finite(matrix, (3, 4), f"move_affine: the matrix of '{handle}'")
         linear = wanted[:, :3]
         rigid = np.allclose(linear @ linear.T, np.eye(3), atol=1e-9) and np.linalg.det(linear) > 0
         if self.model.problem.handles.index(handle) == 0 and not rigid:
@@ -100,8 +103,7 @@ class PosingSession(Session[PosingModel]):
                 f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
                 "only"
             )
-        self._place({handle: wanted})
-        return self.solve()
+        return self._solve_at(*self._placed({handle: wanted}))
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
         """Puts all handles at a parameter vector (dimension,), and solves.
@@ -116,16 +118,25 @@ class PosingSession(Session[PosingModel]):
         offsets = self.model.problem.offsets(parameters)
         centers = self.model.problem.centroids
         maps = [_world_map(offset, center) for offset, center in zip(offsets, centers, strict=True)]
-        self._maps = np.array(maps)
-        self._loop.set_offsets(offsets)
-        return self.solve()
+        return self._solve_at(np.array(maps), offsets)
 
     def reset(self) -> None:
         """Back to rest: all handles and the shape."""
         handles = len(self.model.problem.handles)
-        self._maps = np.tile(np.eye(3, 4), (handles, 1, 1))
-        self._loop.set_offsets(np.zeros((handles, 3, 4)))
+        self._set(np.tile(np.eye(3, 4), (handles, 1, 1)), np.zeros((handles, 3, 4)))
         self._loop.q = np.zeros(self.dimension)
+
+    @property
+    def outside(self) -> tuple[str, ...]:
+        """Handles that are outside of the box of motions that the model was sampled in.
+
+        There the reduced solution may be far from the full one. Motions are relative to the first
+        handle; an affine map that is not a rigid motion is outside.
+        """
+        problem = self.model.problem
+        names = problem.handles.names[1:]
+        moving = zip(names, self._offsets[1:], strict=True)
+        return tuple(name for name, offset in moving if not is_inside(problem.domain, offset))
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`pose`."""
@@ -139,17 +150,31 @@ class PosingSession(Session[PosingModel]):
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]
         return center
 
-    def _place(self, maps: Mapping[str, FloatArray]) -> None:
-        """Sets handles' maps, and the offsets of all handles relative to the first."""
-        for handle, world_map in maps.items():
-            self._maps[self.model.problem.handles.index(handle)] = world_map
-        back = self._maps[0, :, :3].T  # inverse rotation of the first handle
+    def _placed(self, moved: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+        """All handles' maps with some of them moved, and all offsets relative to the first one."""
+        maps = self._maps.copy()
+        for handle, world_map in moved.items():
+            maps[self.model.problem.handles.index(handle)] = world_map
+        back = maps[0, :, :3].T  # inverse rotation of the first handle
         offsets = [np.zeros((3, 4))]
-        for target, center in zip(self._maps[1:], self.model.problem.centroids[1:], strict=True):
-            shift = target[:, 3] - self._maps[0, :, 3]
+        for target, center in zip(maps[1:], self.model.problem.centroids[1:], strict=True):
+            shift = target[:, 3] - maps[0, :, 3]
             relative = np.column_stack([back @ target[:, :3], back @ shift])
             offsets.append(affine_offset(relative, center))
-        self._loop.set_offsets(np.array(offsets))
+        return maps, np.array(offsets)
+
+    def _solve_at(self, maps: FloatArray, offsets: FloatArray) -> FrameReport:
+        """Sets and solves; sets back what was if the energy is beyond all numbers."""
+        before = self._maps, self._offsets
+        self._set(maps, offsets)
+        report = self.solve()
+        if report.status == "not_finite":
+            self._set(*before)
+        return report
+
+    def _set(self, maps: FloatArray, offsets: FloatArray) -> None:
+        self._maps, self._offsets = maps, offsets
+        self._loop.set_offsets(offsets)
 
 
 def _world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
@@ -158,8 +183,15 @@ def _world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
     return np.column_stack([linear, center + offset[:, 3] - linear @ center])
 
 
-def _three(values: ArrayLike, name: str) -> FloatArray:
+def _finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
+    """The values as an array; ValueError, with the entry, unless they are finite and of a shape."""
     array = np.asarray(values, np.float64)
-    if array.shape != (3,) or not np.isfinite(array).all():
-        raise ValueError(f"move: {name} needs three finite numbers, got {values!r}")
+    if array.shape != shape:
+        numbers = "three numbers" if shape == (3,) else f"a {shape} matrix"
+        raise ValueError(f"{name} needs {numbers}, got {values!r}".replace("\n", ""))
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        place = tuple(int(i) for i in bad[0])
+        entry = ", ".join(map(str, place))
+        raise ValueError(f"{name} has [{entry}] = {array[place]}, but it must be finite")
     return array

@@ -137,8 +137,8 @@ def test_handles_on_one_line_are_refused() -> None:
     [
         (np.zeros(6), "parameters have shape (6,), but 2 moving handles need (12,)"),
         (np.zeros((1, 12)), "parameters have shape (1, 12)"),
-        (np.r_[np.zeros(11), np.nan], "a parameter is not finite"),
-        (np.r_[np.inf, np.zeros(11)], "a parameter is not finite"),
+        (np.r_[np.zeros(11), np.nan], "parameter 11, gamma of '"),
+        (np.r_[np.inf, np.zeros(11)], "parameter 0, translation x of '"),
     ],
 )
 def test_wrong_parameters_are_refused(parameters: np.ndarray, message: str) -> None:

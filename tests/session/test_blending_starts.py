@@ -68,6 +68,22 @@ def test_without_training_data_a_leap_may_end_elsewhere(twisted_helix: Interpola
     assert np.abs(at_once(bare, 0.0, start=0.5) - slowly(twisted_helix, 0.0)).max() > 0.05 * size
 
 
+def test_solving_anew_leaves_a_minimum_that_is_not_the_lowest(
+    twisted_helix: InterpolationModel,
+) -> None:
+    locked = untrained(twisted_helix).session(tolerance=TIGHT)
+    locked.blend([0.5, 0.5])
+    wrong = locked.blend([1.0, 0.0])
+    session = twisted_helix.session(tolerance=TIGHT)
+    session.blend([1.0, 0.0])
+    session._loop.q = locked.q
+    assert session.solve().value == pytest.approx(wrong.value), "a minimum is not left by itself"
+    report = session.solve_anew()
+    assert report.start in ("tau", "sample") and report.value < wrong.value
+    assert session.vertices == pytest.approx(slowly(twisted_helix, 0.0), abs=1e-3)
+    assert session.solve_anew().start == "last frame"
+
+
 def test_a_leap_starts_from_the_nearest_sample(helix_model: InterpolationModel) -> None:
     """After one step only, from the other end, the energy is below that of the sample."""
     known = zip(
