@@ -1,0 +1,101 @@
+#pragma once
+/* The live solve of a reduced model for programs in C, and for what is compiled from C.
+ *
+ * A session is made from the arrays of a .snapspace file (safetensors layout): it takes new handle
+ * positions or pose weights, solves, and gives coordinates and vertices. No function throws,
+ * prints, reads files or starts threads, and only the two that create a session take memory; they
+ * end the program as C++ does if there is none. A session may be used by one thread at a time.
+ *
+ * All numbers are doubles, all arrays row-major. Functions return 0, or one of the errors below;
+ * after an error the session is as it was.
+ */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum snapspace_error {
+  SNAPSPACE_OK = 0,
+  SNAPSPACE_BAD_ARGUMENT = -1, /* a null pointer, a size or an option out of range */
+  SNAPSPACE_NOT_FINITE = -2,   /* a number is NaN or infinite */
+  SNAPSPACE_NOT_DEFINITE = -3, /* the Hessian at tau is not positive: the model is damaged */
+  SNAPSPACE_WRONG_KIND = -4    /* offsets for a blending session, or weights for a posing one */
+};
+
+enum snapspace_method { SNAPSPACE_NEWTON = 0, SNAPSPACE_BFGS = 1 };
+
+enum snapspace_status {
+  SNAPSPACE_CONVERGED = 0,
+  SNAPSPACE_MAX_ITERATIONS = 1,
+  SNAPSPACE_LINE_SEARCH_FAILED = 2, /* rounding does not resolve the tolerance */
+  SNAPSPACE_ENERGY_NOT_FINITE = 3,  /* handles beyond all numbers; q is as it was */
+  SNAPSPACE_MAX_EVALUATIONS = 4
+};
+
+typedef struct snapspace_session snapspace_session;
+
+/* Where the shapes tau + sum_i q_i modes_i are: read in place, so the arrays must outlive the
+ * session. With vertices = 0 the session gives coordinates only, and the pointers may be null. */
+typedef struct snapspace_basis {
+  int vertices;
+  const double* tau;   /* 3 vertices */
+  const double* modes; /* dimension x 3 vertices */
+} snapspace_basis;
+
+typedef struct snapspace_options {
+  enum snapspace_method method;
+  double tolerance;        /* of the termination tests; 1e-7 for posing, 1e-9 for blending */
+  double value_scale;      /* unit of energy: 0.01 mu * volume */
+  double coordinate_scale; /* unit of q: 0.1 * diagonal * sqrt(volume) */
+  int max_iterations;      /* bounds on the work of one solve; 300 */
+  int max_evaluations;     /* 500 */
+} snapspace_options;
+
+typedef struct snapspace_report {
+  enum snapspace_status status;
+  int iterations;
+  int evaluations;
+  double value;         /* reduced objective */
+  double gradient_norm; /* by q */
+} snapspace_report;
+
+/* A posing session, at rest. Copies quartic (C(dimension + 4, 4)), K (dimension x dimension), L
+ * (handles x dimension x 12) and S (handles x 4 x 4): the arrays quartic, handle_K, handle_L and
+ * handle_S of a file. Null if something is wrong; *error then tells what. */
+snapspace_session* snapspace_create_posing(int dimension, int handles, const double* quartic,
+                                           const double* K, const double* L, const double* S,
+                                           const snapspace_basis* basis, int* error);
+
+/* A blending session, at the mean shape. Reads quartics (poses x C(dimension + 4, 4)) in place: it
+ * must outlive the session. */
+snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,
+                                             const snapspace_basis* basis, int* error);
+
+void snapspace_destroy(snapspace_session* session);
+
+/* Offsets [A - I | t] of all handles (handles x 3 x 4) about their centroids at rest. Costs
+ * O(dimension * handles). */
+int snapspace_set_offsets(snapspace_session* session, const double* offsets);
+
+/* Weights (poses) of a blending session. */
+int snapspace_set_weights(snapspace_session* session, const double* weights);
+
+/* Solves in the first coordinates only, 1 <= dimension <= that of the model. Leading coordinates
+ * stay, those that come back are zero. */
+int snapspace_set_dimension(snapspace_session* session, int dimension);
+int snapspace_dimension(const snapspace_session* session);
+
+/* Solves from the present coordinates. */
+int snapspace_solve(snapspace_session* session, const snapspace_options* options,
+                    snapspace_report* report);
+
+/* Coordinates of the present shape (dimension). */
+int snapspace_get_q(const snapspace_session* session, double* q);
+int snapspace_set_q(snapspace_session* session, const double* q);
+
+/* The present shape, x0 y0 z0 x1 ... (3 vertices). */
+int snapspace_get_vertices(const snapspace_session* session, double* vertices);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,100 @@
+"""core/online compiled by itself, as a program in C would have it, and called through ctypes."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+CORE = Path(__file__).parents[2] / "core"
+UNIT = "".join(
+    f'#include "online/{path.name}"\n' for path in sorted((CORE / "online").glob("*.cpp"))
+)
+
+#: Counts what the library takes from the heap.
+COUNTER = """
+#include <cstdlib>
+#include <new>
+static long taken = 0;
+extern "C" long allocations() { return taken; }
+void* operator new(std::size_t size) { ++taken; return std::malloc(size); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  ++taken;
+  const auto unit = static_cast<std::size_t>(alignment);
+  return std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+"""
+
+
+def compiler() -> list[str]:
+    """The C++ compiler, of the environment or the system; the test is skipped without one."""
+    if wanted := os.environ.get("CXX"):
+        return shlex.split(wanted)
+    for candidate in ("c++", "g++", "clang++"):
+        if shutil.which(candidate):
+            return [candidate]
+    pytest.skip("needs a C++ compiler (CXX, c++, g++ or clang++)")
+
+
+def run(command: list[str], source: str) -> None:
+    finished = subprocess.run(command, input=source, capture_output=True, text=True, timeout=300)
+    assert finished.returncode == 0, finished.stderr
+
+
+def compiled(folder: Path) -> ctypes.CDLL:
+    """All of core/online as one translation unit without exceptions and run-time types."""
+    target = folder / "online.so"
+    options = ["-std=c++20", "-O2", "-Wall", "-Wextra", "-fno-exceptions", "-fno-rtti"]
+    linked = ["-shared", "-fPIC", "-Wl,-Bsymbolic", f"-I{CORE}", "-x", "c++", "-"]
+    run([*compiler(), *options, *linked, "-o", str(target)], UNIT + COUNTER)
+    library = ctypes.CDLL(str(target))
+    library.allocations.restype = ctypes.c_long
+    library.snapspace_create_posing.restype = ctypes.c_void_p
+    library.snapspace_create_blending.restype = ctypes.c_void_p
+    return library
+
+
+class Basis(ctypes.Structure):
+    _fields_ = (
+        ("vertices", ctypes.c_int),
+        ("tau", ctypes.c_void_p),
+        ("modes", ctypes.c_void_p),
+    )
+
+
+class Options(ctypes.Structure):
+    _fields_ = (
+        ("method", ctypes.c_int),
+        ("tolerance", ctypes.c_double),
+        ("value_scale", ctypes.c_double),
+        ("coordinate_scale", ctypes.c_double),
+        ("max_iterations", ctypes.c_int),
+        ("max_evaluations", ctypes.c_int),
+    )
+
+
+class Report(ctypes.Structure):
+    _fields_ = (
+        ("status", ctypes.c_int),
+        ("iterations", ctypes.c_int),
+        ("evaluations", ctypes.c_int),
+        ("value", ctypes.c_double),
+        ("gradient_norm", ctypes.c_double),
+    )
+
+
+def address(array: NDArray[Any]) -> ctypes.c_void_p:
+    assert array.dtype == np.float64 and array.flags.c_contiguous
+    return ctypes.c_void_p(array.ctypes.data)
