@@ -2,6 +2,8 @@
 
 from importlib.metadata import version as _version
 
+from .calibration import calibrated
+from .certificate import Certificate, ErrorEstimator
 from .energy import ElasticEnergy, StVK
 from .filling import fill_surface
 from .fitting import PoseFit, PoseFits, fit_poses
@@ -43,7 +45,7 @@ from .reduction import (
 )
 from .registration import RigidMotion, matched_scales, registered, rigid_registration
 from .sampling import sample
-from .session import BlendingSession, FrameReport, PosingSession, Session
+from .session import BlendingSession, FrameReport, Polished, PosingSession, Session
 from .snapshots import (
     Checkpoint,
     CheckpointNotice,
@@ -66,11 +68,13 @@ __version__ = _version("snapspace")
 __all__ = [
     "AffineSubspace",
     "BlendingSession",
+    "Certificate",
     "Checkpoint",
     "CheckpointNotice",
     "DisplacementRows",
     "ElasticEnergy",
     "EmbeddedSurface",
+    "ErrorEstimator",
     "FrameReport",
     "Growth",
     "Handle",
@@ -81,6 +85,7 @@ __all__ = [
     "InterpolationProblem",
     "Interrupted",
     "MeshNotice",
+    "Polished",
     "PoseFit",
     "PoseFits",
     "Poses",
@@ -102,6 +107,7 @@ __all__ = [
     "UnsavedSamplesError",
     "Validation",
     "boundary_surface",
+    "calibrated",
     "carried",
     "embed_surface",
     "fill_surface",

@@ -1,6 +1,7 @@
 """The loops of snapspace that must be fast."""
 
 import enum
+from typing import Annotated, overload
 
 import numpy
 from numpy.typing import NDArray
@@ -239,6 +240,24 @@ class InterpolationSystem:
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
+
+class CoarseSpace:
+    """Modes (d, 3n) in the numbering of a system, in single precision."""
+
+    @overload
+    def __init__(self, system: PosingSystem, modes: NDArray[numpy.float64]) -> None: ...
+
+    @overload
+    def __init__(self, system: InterpolationSystem, modes: NDArray[numpy.float64]) -> None: ...
+
+@overload
+def polish(system: PosingSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution: ...
+
+@overload
+def polish(system: InterpolationSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
+    """
+    L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the Hessian on the coarse space. A cancelled one returns the lowest shape so far.
+    """
 
 class FitStatus(enum.Enum):
     """How the fit of one pose ended."""

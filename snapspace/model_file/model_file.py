@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
-from . import interpolation, posing
+from . import error_estimator, interpolation, posing
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
@@ -43,6 +44,7 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
         "problem": json.dumps(content, sort_keys=True),
         "provenance": json.dumps(model.provenance, sort_keys=True),
     }
+    arrays |= error_estimator.estimator_arrays(model.error_estimator)
     write_container(path, arrays, header)
     return path
 
@@ -74,14 +76,15 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: a model of kind '{kind}', this snapspace knows {' and '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    check_dtypes(path, arrays, _DTYPES[kind])
+    check_dtypes(path, arrays, _DTYPES[kind] | error_estimator.dtypes(arrays))
     if header.get("checksum") != checksum(arrays, header):
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
         )
     make = posing.posing_model if kind == POSING else interpolation.interpolation_model
     try:
-        return make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
+        model = make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
+        return replace(model, error_estimator=error_estimator.estimator(arrays))
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(
             f"{path}: the model does not fit together ({error}); build it again"

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..certificate import ErrorEstimator
 from ..problem import Problem
 from ..subspace import AffineSubspace
 
@@ -28,6 +29,7 @@ class ReducedModel(ABC):
     training_parameters : (k, p) of the solutions that the subspace was made from, or (0, p)
     training_coordinates : (k, d) of their projections, or (0, d)
     provenance : what made it: versions, seeds, options, timings
+    error_estimator : ErrorEstimator of `calibrated`, for `Session.certificate`
     """
 
     problem: Problem
@@ -35,6 +37,7 @@ class ReducedModel(ABC):
     training_parameters: FloatArray
     training_coordinates: FloatArray
     provenance: dict[str, Any] = field(default_factory=dict)
+    error_estimator: ErrorEstimator | None = None
 
     @property
     def dimension(self) -> int:

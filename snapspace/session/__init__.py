@@ -2,7 +2,8 @@
 
 from .blending_session import BlendingSession
 from .frame_report import FrameReport
+from .polish import Polished
 from .posing_session import PosingSession
 from .session import Session
 
-__all__ = ["BlendingSession", "FrameReport", "PosingSession", "Session"]
+__all__ = ["BlendingSession", "FrameReport", "Polished", "PosingSession", "Session"]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import InterpolationModel
 from .frame_report import FrameReport
 from .session import Session
@@ -109,6 +110,18 @@ class BlendingSession(Session[InterpolationModel]):
             return "last frame"
         self._loop.q = candidate
         return "sample"
+
+    def _state(self) -> FloatArray:
+        return self._weights
+
+    def _inputs(self) -> FloatArray:
+        return self._weights
+
+    def _placed(self, vertices: FloatArray) -> FloatArray:
+        return vertices
+
+    def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
+        return BlendingProbe(self.model.problem, self.model.subspace, sample)
 
     def _make_loop(self, *, single: bool) -> core.BlendingLoop:
         return core.BlendingLoop(self.model.dimension, self.model.coefficients, single=single)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..certificate import PosingProbe, ResidualSample
 from ..problem import affine_offset, rigid_offset
 from ..reduction import PosingModel
 from .frame_report import FrameReport
@@ -38,10 +39,7 @@ class PosingSession(Session[PosingModel]):
 
         They are tau + U q, carried along by the first handle's motion if it has one.
         """
-        shape = super().vertices
-        if not np.array_equal(self._maps[0], np.eye(3, 4)):
-            shape = shape @ self._maps[0, :, :3].T + self._maps[0, :, 3]
-        return shape
+        return super().vertices
 
     def move(
         self,
@@ -83,7 +81,7 @@ class PosingSession(Session[PosingModel]):
             turn = _finite(euler, (3,), f"move: euler of '{handle}'")
             shift = _finite(translation, (3,), f"move: translation of '{handle}'")
             maps[handle] = _world_map(rigid_offset(turn, shift), center)
-        return self._solve_at(*self._placed(maps))
+        return self._solve_at(*self._moved(maps))
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:
         """Puts a handle at an affine map (3, 4) of world positions (v, 1), and solves.
@@ -103,7 +101,7 @@ class PosingSession(Session[PosingModel]):
                 f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
                 "only"
             )
-        return self._solve_at(*self._placed({handle: wanted}))
+        return self._solve_at(*self._moved({handle: wanted}))
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
         """Puts all handles at a parameter vector (dimension,), and solves.
@@ -146,11 +144,26 @@ class PosingSession(Session[PosingModel]):
         elastic, handles = self.model.elastic, self.model.handles
         return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
 
+    def _state(self) -> FloatArray:
+        return self._offsets
+
+    def _inputs(self) -> FloatArray:
+        return self.model.problem.target_displacements(self._offsets).reshape(-1)
+
+    def _placed(self, vertices: FloatArray) -> FloatArray:
+        if np.array_equal(self._maps[0], np.eye(3, 4)):
+            return vertices
+        placed: FloatArray = vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3]
+        return placed
+
+    def _make_probe(self, sample: ResidualSample) -> PosingProbe:
+        return PosingProbe(self.model.problem, self.model.subspace, sample)
+
     def _center(self, handle: str) -> FloatArray:
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]
         return center
 
-    def _placed(self, moved: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    def _moved(self, moved: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
         """All handles' maps with some of them moved, and all offsets relative to the first one."""
         maps = self._maps.copy()
         for handle, world_map in moved.items():

@@ -25,6 +25,7 @@ ALLOWED: dict[str, set[str]] = {
     "cholesky": set(),
     "snapshots": {"mesh", "memory", "energy", "simd", "threads", "cholesky"},
     "reduction": {"mesh", "energy", "online", "threads"},
+    "polish": {"simd", "snapshots", "threads"},
     "fitting": {"mesh", "cholesky", "energy", "snapshots", "threads"},
     "measure": {"energy", "mesh", "simd", "snapshots", "threads"},
     "bindings": {
@@ -33,6 +34,7 @@ ALLOWED: dict[str, set[str]] = {
         "mesh",
         "energy",
         "snapshots",
+        "polish",
         "fitting",
         "reduction",
         "online",

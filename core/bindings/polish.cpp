@@ -1,0 +1,60 @@
+#include "polish/polish.h"
+
+#include "bindings/arrays.h"
+
+namespace snapspace {
+
+namespace {
+
+Eigen::MatrixXf checked_inverse(const CoarseSpace& coarse, const MatrixIn& inverse) {
+  const auto d = static_cast<std::size_t>(coarse.dimension());
+  require(inverse.shape(0) == d && inverse.shape(1) == d, "the inverse must be (d, d)");
+  return Eigen::Map<const Eigen::MatrixXd>(inverse.data(), coarse.dimension(), coarse.dimension())
+      .cast<float>();
+}
+
+template <class System>
+void bind_polish_of(nb::module_& m, nb::class_<CoarseSpace>& coarse_space) {
+  coarse_space.def(
+      "__init__",
+      [](CoarseSpace* self, const System& system, MatrixIn modes) {
+        require(modes.shape(0) >= 1 && modes.shape(1) == static_cast<std::size_t>(system.size()),
+                "modes must be (d, 3n)");
+        new (self) CoarseSpace(system.numbering, modes.data(), static_cast<int>(modes.shape(0)),
+                               modes.shape(1));
+      },
+      nb::arg("system"), nb::arg("modes"));
+  m.def(
+      "polish",
+      [](const System& system, const CoarseSpace& coarse, MatrixIn inverse, VectorIn input,
+         VectorIn start, double tolerance, int max_iterations, int threads, SolveControl& control) {
+        const auto size = static_cast<std::size_t>(system.size());
+        require(input.size() == static_cast<std::size_t>(system.input_size()),
+                "the input must be (input_size,)");
+        require(start.size() == size && coarse.size() == size, "the start must be (3n,)");
+        require(threads >= 1, "threads must be positive");
+        const Eigen::MatrixXf B = checked_inverse(coarse, inverse);
+        const Sample sample{0,
+                            {input.data(), input.data() + input.size()},
+                            {start.data(), start.data() + start.size()}};
+        const SolveOptions options{tolerance, max_iterations, 1, false, threads};
+        const nb::gil_scoped_release release;
+        return polish(system, coarse, B, sample, options, control);
+      },
+      nb::arg("system"), nb::arg("coarse"), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
+      nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("threads"),
+      nb::arg("control"),
+      "L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the "
+      "Hessian on the coarse space. A cancelled one returns the lowest shape so far.");
+}
+
+}  // namespace
+
+void bind_polish(nb::module_& m) {
+  nb::class_<CoarseSpace> coarse(
+      m, "CoarseSpace", "Modes (d, 3n) in the numbering of a system, in single precision.");
+  bind_polish_of<PosingSystem>(m, coarse);
+  bind_polish_of<InterpolationSystem>(m, coarse);
+}
+
+}  // namespace snapspace

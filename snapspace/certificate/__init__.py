@@ -1,0 +1,25 @@
+"""Certificates: how far a reduced solution is from the full one."""
+
+from .certificate import Certificate
+from .error_estimator import ErrorEstimator
+from .local_ratios import LocalRatios
+from .residual_probe import BlendingProbe, PosingProbe, ResidualProbe
+from .residual_sample import (
+    ResidualSample,
+    residual_sample,
+    scalar_diagonal,
+    squared_residuals,
+)
+
+__all__ = [
+    "BlendingProbe",
+    "Certificate",
+    "ErrorEstimator",
+    "LocalRatios",
+    "PosingProbe",
+    "ResidualProbe",
+    "ResidualSample",
+    "residual_sample",
+    "scalar_diagonal",
+    "squared_residuals",
+]

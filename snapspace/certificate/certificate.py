@@ -1,0 +1,28 @@
+"""Certificate: an estimate of how far one frame is from the full solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """How far a frame is from the full solution for the same handles or weights.
+
+    distance : estimate of the root mean square distance of the two shapes over the body's mass,
+    |x_red - x_full|_M / sqrt(mass), in the mesh's length unit
+    relative : the same distance over that of the frame from the rest or mean shape
+    upper_distance, upper_relative : bounds that hold with probability `confidence`
+    confidence : for parameters drawn at random from the domain that was sampled
+    seconds : that this took
+
+    The estimate is the median: the true distance is as often above as below it. Around single
+    frames a factor of two is usual.
+    """
+
+    distance: float
+    relative: float
+    upper_distance: float
+    upper_relative: float
+    confidence: float
+    seconds: float

@@ -1,0 +1,94 @@
+"""ResidualSample: a few vertices that tell the norm of the whole residual."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import tet_volumes
+from ..problem import InterpolationProblem, PosingProblem
+
+FloatArray = NDArray[np.float64]
+
+#: Vertices that are read. On the Dragon 128 of 32k tell as much about the error as all of them.
+VERTICES = 128
+#: Share of the vertices drawn without regard to their residuals, so that none is never seen.
+UNIFORM = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class ResidualSample:
+    """Vertices v and weights c_v: sum over v of c_v |g_v|^2 estimates g^T D^-1 g.
+
+    vertices : (s,) int32; one may be there more than once
+    weights : (s,) float64, positive, 1 / (s * probability * D_v)
+
+    g is the gradient of the full objective, and D the diagonal of the scalar factor's matrix A. The
+    norm of g by D is the local part of that by A, and says as much about the error: measured on
+    unseen samples, the rank correlations are alike.
+    """
+
+    vertices: NDArray[np.int32]
+    weights: FloatArray
+
+    def __post_init__(self) -> None:
+        same = self.vertices.ndim == 1 and self.vertices.shape == self.weights.shape
+        if not (same and len(self.weights) and (self.weights > 0).all()):
+            raise ValueError(
+                "ResidualSample: needs one positive weight per vertex; calibrate the model again"
+            )
+
+
+def residual_sample(
+    expected: FloatArray, diagonal: FloatArray, *, count: int = VERTICES, seed: int = 0
+) -> ResidualSample:
+    """Draws vertices with probabilities in proportion to what they are expected to contribute.
+
+    Parameters
+    ----------
+    expected : (n,) squared residuals of the vertices, of typical frames
+    diagonal : (n,) of the scalar factor's matrix
+    count : int, default 128
+    seed : int, default 0
+
+    Returns
+    -------
+    ResidualSample
+        An unbiased estimate for every frame (importance sampling); for one whose residuals are in
+        proportion to `expected` nearly without variance.
+    """
+    shares = expected / diagonal
+    total = float(shares.sum())
+    even = np.full(len(shares), 1.0 / len(shares))
+    probabilities = (1.0 - UNIFORM) * shares / total + UNIFORM * even if total > 0 else even
+    drawn = np.random.default_rng(seed).choice(len(shares), size=count, p=probabilities)
+    vertices = np.sort(drawn).astype(np.int32)
+    return ResidualSample(vertices, 1.0 / (count * probabilities[vertices] * diagonal[vertices]))
+
+
+def squared_residuals(
+    problem: PosingProblem | InterpolationProblem, displacement: FloatArray, inputs: FloatArray
+) -> FloatArray:
+    """|g_v|^2 of all vertices, (n,), at a displacement (3n,) from `problem.base`."""
+    _, gradient = problem.system.value_and_gradient(displacement, inputs)
+    squares: FloatArray = (gradient.reshape(-1, 3) ** 2).sum(axis=1)
+    return squares
+
+
+def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray:
+    """D, (n,): the diagonal of (2 mu + lam) Laplacian + 2 weights of pins, at tau."""
+    tets = problem.mesh.tets
+    corners = problem.tau.reshape(-1, 3)[tets]
+    edges = corners[:, 1:] - corners[:, :1]
+    volumes = np.abs(tet_volumes(problem.tau.reshape(-1, 3), tets))
+    hats = np.linalg.inv(edges)  # columns are the gradients of the hat functions 1, 2, 3
+    hats = np.concatenate([-hats.sum(axis=2, keepdims=True), hats], axis=2)
+    stiffness = 2.0 * problem.material.mu + problem.material.lam
+    parts = stiffness * volumes[:, None] * (hats**2).sum(axis=1)
+    diagonal: FloatArray = np.zeros(len(problem.tau) // 3)
+    np.add.at(diagonal, tets, parts)
+    if isinstance(problem, PosingProblem):
+        np.add.at(diagonal, problem.pinned, 2.0 * problem.pin_weights)
+    return diagonal

@@ -1,0 +1,49 @@
+"""Error estimators as arrays; a model without one has none of them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..certificate import ErrorEstimator, ResidualSample
+from .container import Arrays
+
+DTYPES: dict[str, type] = {
+    "estimator_mass": np.float64,
+    "estimator_vertices": np.int32,
+    "estimator_weights": np.float64,
+    "estimator_coordinates": np.float64,
+    "estimator_residual_ratios": np.float64,
+    "estimator_movement_ratios": np.float64,
+}
+
+
+def estimator_arrays(estimator: ErrorEstimator | None) -> Arrays:
+    """The arrays of an estimator; the names are those of DTYPES."""
+    if estimator is None:
+        return {}
+    return {
+        "estimator_mass": np.array([estimator.mass]),
+        "estimator_vertices": estimator.sample.vertices,
+        "estimator_weights": estimator.sample.weights,
+        "estimator_coordinates": estimator.coordinates,
+        "estimator_residual_ratios": estimator.residual_ratios,
+        "estimator_movement_ratios": estimator.movement_ratios,
+    }
+
+
+def dtypes(arrays: Arrays) -> dict[str, type]:
+    """Types of the arrays that a file must have: all of an estimator's if it has any of them."""
+    return DTYPES if any(name in arrays for name in DTYPES) else {}
+
+
+def estimator(arrays: Arrays) -> ErrorEstimator | None:
+    """The estimator of a file's arrays, if there is one; ValueError if they do not fit."""
+    if not dtypes(arrays):
+        return None
+    return ErrorEstimator(
+        mass=float(arrays["estimator_mass"].item()),
+        sample=ResidualSample(arrays["estimator_vertices"], arrays["estimator_weights"]),
+        coordinates=arrays["estimator_coordinates"],
+        residual_ratios=arrays["estimator_residual_ratios"],
+        movement_ratios=arrays["estimator_movement_ratios"],
+    )

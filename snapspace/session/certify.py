@@ -1,0 +1,62 @@
+"""certify: the certificate of a session's frame."""
+
+from __future__ import annotations
+
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..certificate import Certificate, ErrorEstimator
+from .polish import relative
+
+if TYPE_CHECKING:
+    from .session import Session
+
+#: Iterations of the polish that a thorough certificate judges by.
+THOROUGH_ITERATIONS = 10
+#: Its tolerance: none, so that every sample and frame takes the same number of steps.
+NEVER = 1e-300
+
+
+def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Certificate:
+    """What `Session.certificate` returns."""
+    begin = time.perf_counter()
+    q, estimator = session.q, _estimator(session)
+    if thorough:
+        indicator, ratios = movement(session), estimator.of_movement
+    else:
+        indicator, ratios = session.residual(estimator.sample), estimator.of_residual
+    median, bound = ratios.at(q, confidence)
+    # the basis is M-orthonormal: the norm of q is that of the displacement
+    size = float(np.linalg.norm(q)) / math.sqrt(estimator.mass)
+    return Certificate(
+        distance=indicator * median,
+        relative=relative(indicator * median, size),
+        upper_distance=indicator * bound,
+        upper_relative=relative(indicator * bound, size),
+        confidence=confidence,
+        seconds=time.perf_counter() - begin,
+    )
+
+
+def movement(session: Session[Any]) -> float:
+    """How far a polish of always as many steps moves the frame: the thorough indicator."""
+    return session.polish(iterations=THOROUGH_ITERATIONS, tolerance=NEVER).moved
+
+
+def _estimator(session: Session[Any]) -> ErrorEstimator:
+    estimator: ErrorEstimator | None = session.model.error_estimator
+    if estimator is None:
+        raise ValueError(
+            "certificate: the model has no calibrated error estimate; make one with "
+            "snapspace.calibrated(model)"
+        )
+    if estimator.dimension != len(session.q):
+        raise ValueError(
+            f"certificate: the error estimate was calibrated for dimension {estimator.dimension}, "
+            f"but the session has {len(session.q)}; use snapspace.calibrated on the model of that "
+            "dimension"
+        )
+    return estimator

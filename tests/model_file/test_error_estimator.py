@@ -1,0 +1,68 @@
+"""Error estimators are saved with their model, and models without one stay as they were."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from safetensors.numpy import load_file
+
+from snapspace import InterpolationModel, PosingModel, calibrated, load
+from snapspace.model_file.container import read_container, write_container
+from snapspace.model_file.error_estimator import DTYPES
+
+
+@pytest.fixture(scope="module")
+def models(posing_model: PosingModel, blending_model: InterpolationModel) -> dict[str, object]:
+    return {
+        "posing": calibrated(posing_model, samples=9, threads=1),
+        "blending": calibrated(blending_model, samples=9, threads=1),
+    }
+
+
+@pytest.mark.parametrize("kind", ["posing", "blending"])
+def test_a_loaded_model_gives_the_same_certificates(
+    models: dict[str, PosingModel], kind: str, tmp_path: Path
+) -> None:
+    model = models[kind]
+    loaded = load(model.save(tmp_path / "model.snapspace"))
+    certificates = []
+    for one in (model, loaded):
+        session = one.session()
+        session.set_parameters(
+            one.problem.domain.from_unit(np.full((1, 12 if kind == "posing" else 2), 0.3))[0]
+        )
+        certificates.append(
+            [session.certificate(thorough=thorough).upper_distance for thorough in (False, True)]
+        )
+    assert certificates[0] == certificates[1]
+
+
+def test_models_without_one_have_no_such_arrays(posing_model: PosingModel, tmp_path: Path) -> None:
+    path = posing_model.save(tmp_path / "model.snapspace")
+    assert not set(load_file(path)) & set(DTYPES)
+    assert load(path).error_estimator is None
+
+
+@pytest.mark.parametrize("name", DTYPES)
+def test_a_file_with_a_part_of_one_is_refused(
+    models: dict[str, PosingModel], name: str, tmp_path: Path
+) -> None:
+    path = models["posing"].save(tmp_path / "model.snapspace")
+    arrays, header = read_container(path)
+    del arrays[name]
+    write_container(path, arrays, header)
+    with pytest.raises(ValueError, match=f"the array '{name}' is missing; build the model again"):
+        load(path)
+
+
+def test_a_damaged_one_is_refused(models: dict[str, PosingModel], tmp_path: Path) -> None:
+    path = models["posing"].save(tmp_path / "model.snapspace")
+    arrays, header = read_container(path)
+    write_container(path, {**arrays, "estimator_weights": np.ones(1)}, header)
+    with pytest.raises(ValueError, match="one positive weight per vertex"):
+        load(path)
+    write_container(path, {**arrays, "estimator_residual_ratios": np.full(9, np.nan)}, header)
+    with pytest.raises(ValueError, match="two positive ratios; calibrate"):
+        load(path)
