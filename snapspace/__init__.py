@@ -4,6 +4,7 @@ from importlib.metadata import version as _version
 
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
+from .cubature import CubatureErrors, hyper_reduce
 from .energy import ElasticEnergy, StVK
 from .filling import fill_surface
 from .fitting import PoseFit, PoseFits, fit_poses
@@ -36,6 +37,7 @@ from .problem import (
     read_problem,
 )
 from .reduction import (
+    Cubature,
     HandleQuadric,
     InterpolationModel,
     PosingModel,
@@ -71,6 +73,8 @@ __all__ = [
     "Certificate",
     "Checkpoint",
     "CheckpointNotice",
+    "Cubature",
+    "CubatureErrors",
     "DisplacementRows",
     "ElasticEnergy",
     "EmbeddedSurface",
@@ -114,6 +118,7 @@ __all__ = [
     "fit_poses",
     "greedy_snapshots",
     "growing_models",
+    "hyper_reduce",
     "in_box",
     "in_sphere",
     "load",

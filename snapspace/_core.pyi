@@ -19,6 +19,11 @@ class ElasticEnergy:
     def value_and_gradient(self, u: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Energy and its gradient (3n,)."""
 
+    def tet_stresses(self, u: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """
+        Volume times first Piola-Kirchhoff stress of every tet (m, 9), and its energy (m,).
+        """
+
     def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Hessian at u times v (3n,), without forming the Hessian."""
 
@@ -412,6 +417,44 @@ class BlendingLoop:
     def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def q(self) -> NDArray[numpy.float64]: ...
+
+    @q.setter
+    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    @dimension.setter
+    def dimension(self, arg: int, /) -> None: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+class Cubature:
+    """Elastic energy as a weighted sum over few tets."""
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], lam: float, mu: float) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """Value, gradient and Hessian."""
+
+class CubatureLoop:
+    """The live loop of posing with a cubature instead of a quartic."""
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], lam: float, mu: float, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+
+    def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
     @property
     def q(self) -> NDArray[numpy.float64]: ...

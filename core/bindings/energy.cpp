@@ -51,6 +51,17 @@ void bind_energy(nb::module_& m) {
           },
           nb::arg("u"), "Energy and its gradient (3n,).")
       .def(
+          "tet_stresses",
+          [](const ElasticEnergy& self, VectorIn u) {
+            const std::size_t tets = self.rest.tets.size();
+            DoublesOut stresses = new_array<double>({tets, 9}),
+                       energies = new_array<double>({tets});
+            self.tet_stresses(checked(self, u), stresses.data(), energies.data());
+            return std::make_pair(stresses, energies);
+          },
+          nb::arg("u"),
+          "Volume times first Piola-Kirchhoff stress of every tet (m, 9), and its energy (m,).")
+      .def(
           "hessian_product",
           [](const ElasticEnergy& self, VectorIn u, VectorIn v) {
             DoublesOut product = new_array<double>({size(self)});

@@ -9,6 +9,7 @@ void bind_polish(nb::module_& m);
 void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
 void bind_online(nb::module_& m);
+void bind_cubature(nb::module_& m);
 void bind_measure(nb::module_& m);
 }  // namespace snapspace
 
@@ -24,5 +25,6 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_fitting(m);
   snapspace::bind_reduction(m);
   snapspace::bind_online(m);
+  snapspace::bind_cubature(m);
   snapspace::bind_measure(m);
 }

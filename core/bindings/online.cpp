@@ -1,4 +1,4 @@
-#include "bindings/arrays.h"
+#include "bindings/live_loop.h"
 #include "online/blending_solver.h"
 #include "online/posing_solver.h"
 #include "online/reconstruct.h"
@@ -11,91 +11,12 @@ using online::BlendingSolver;
 using online::PosingSolver;
 using online::Quartic;
 
-const double* checked(int dimension, const VectorIn& q) {
-  require(q.size() == static_cast<std::size_t>(dimension), "q must have one entry per dimension");
-  return q.data();
-}
-
 online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
-/// Value, gradient and full Hessian of anything that has derivatives().
-template <class Function>
-auto derivatives(Function& function, const VectorIn& q) {
-  const auto d = static_cast<std::size_t>(function.dimension());
-  const double* at = checked(function.dimension(), q);
-  DoublesOut gradient = new_array<double>({d}), hessian = new_array<double>({d, d});
-  double* H = hessian.data();
-  const double value = function.derivatives(at, gradient.data(), H);
-  for (std::size_t i = 0; i < d; ++i)
-    for (std::size_t j = 0; j < i; ++j) H[j * d + i] = H[i * d + j];
-  return std::make_tuple(value, gradient, hessian);
-}
-
-template <class Function>
-auto value_and_gradient(Function& function, const VectorIn& q) {
-  const double* at = checked(function.dimension(), q);
-  DoublesOut gradient = new_array<double>({q.size()});
-  const double value = function.value_and_gradient(at, gradient.data());
-  return std::make_pair(value, gradient);
-}
-
-/// A live solver with its current coordinates, as many as the solver can take.
-template <class Solver>
-struct Loop {
-  Solver solver;
-  std::vector<double> q;
-};
 using PosingLoop = Loop<PosingSolver>;
 using BlendingLoop = Loop<BlendingSolver>;
-
-template <class Solver>
-void require_valid(const Solver& solver, const char* message) {
-  if (!solver.valid()) throw std::invalid_argument(message);
-}
-
-/// What the loops of all problems have in common.
-template <class Solver>
-void bind_loop(nb::class_<Loop<Solver>>& loop) {
-  using Self = Loop<Solver>;
-  loop.def_prop_rw(
-          "q",
-          [](const Self& self) {
-            return copy_to_array(self.q.data(),
-                                 {static_cast<std::size_t>(self.solver.dimension())});
-          },
-          [](Self& self, VectorIn q) {
-            std::copy_n(checked(self.solver.dimension(), q), q.size(), self.q.data());
-          },
-          nb::for_getter(nb::rv_policy::automatic))
-      .def_prop_rw(
-          "dimension", [](const Self& self) { return self.solver.dimension(); },
-          [](Self& self, int dimension) {
-            require(1 <= dimension && dimension <= self.solver.capacity(),
-                    "dimension must be between 1 and that of the model");
-            const auto kept = std::min(dimension, self.solver.dimension());
-            std::fill(self.q.begin() + kept, self.q.end(), 0.0);
-            self.solver.set_dimension(dimension);
-          })
-      .def(
-          "value_and_gradient",
-          [](Self& self, VectorIn q) { return value_and_gradient(self.solver, q); }, nb::arg("q"))
-      .def(
-          "hessian",
-          [](Self& self, VectorIn q) { return std::get<2>(derivatives(self.solver, q)); },
-          nb::arg("q"))
-      .def(
-          "solve",
-          [](Self& self, online::Method method, double tolerance, int max_iterations,
-             int max_evaluations, double value_scale, double coordinate_scale) {
-            return self.solver.solve(
-                self.q.data(), method,
-                {tolerance, value_scale, coordinate_scale, max_iterations, max_evaluations});
-          },
-          nb::kw_only(), nb::arg("method"), nb::arg("tolerance"), nb::arg("max_iterations"),
-          nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"));
-}
 
 }  // namespace
 
@@ -149,36 +70,25 @@ void bind_online(nb::module_& m) {
 
   nb::class_<PosingLoop> posing(m, "PosingLoop",
                                 "The live loop of posing: set offsets, solve from the last frame.");
-  posing
-      .def(
-          "__init__",
-          [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S,
-             bool single) {
-            const auto d = K.shape(0);
-            require(d >= 1 && K.shape(1) == d &&
-                        coefficients.size() == online::quartic_count(d + 1) && L.shape(1) == d &&
-                        L.shape(2) == 12 && S.shape(0) == L.shape(0) && S.shape(1) == 4 &&
-                        S.shape(2) == 4,
-                    "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
-            const auto dimension = static_cast<int>(d);
-            PosingSolver solver(dimension, static_cast<int>(L.shape(0)), coefficients.data(),
-                                K.data(), L.data(), S.data(), storage(single));
-            require_valid(solver,
-                          "the reduced Hessian at rest is not positive definite; the model is "
-                          "damaged or its handles do not hold the shape");
-            new (self) PosingLoop{std::move(solver), std::vector<double>(d, 0.0)};
-          },
-          nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::kw_only(),
-          nb::arg("single") = false)
-      .def(
-          "set_offsets",
-          [](PosingLoop& self, TensorIn offsets) {
-            require(offsets.shape(0) == static_cast<std::size_t>(self.solver.handles()) &&
-                        offsets.shape(1) == 3 && offsets.shape(2) == 4,
-                    "offsets must be (handles, 3, 4)");
-            self.solver.set_offsets(offsets.data());
-          },
-          nb::arg("offsets"));
+  posing.def(
+      "__init__",
+      [](PosingLoop* self, VectorIn coefficients, MatrixIn K, TensorIn L, TensorIn S, bool single) {
+        const auto d = K.shape(0);
+        require(d >= 1 && K.shape(1) == d && coefficients.size() == online::quartic_count(d + 1) &&
+                    L.shape(1) == d && L.shape(2) == 12 && S.shape(0) == L.shape(0) &&
+                    S.shape(1) == 4 && S.shape(2) == 4,
+                "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
+        const auto dimension = static_cast<int>(d);
+        PosingSolver solver(dimension, static_cast<int>(L.shape(0)), coefficients.data(), K.data(),
+                            L.data(), S.data(), storage(single));
+        require_valid(solver,
+                      "the reduced Hessian at rest is not positive definite; the model is "
+                      "damaged or its handles do not hold the shape");
+        new (self) PosingLoop{std::move(solver), std::vector<double>(d, 0.0)};
+      },
+      nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::kw_only(),
+      nb::arg("single") = false);
+  bind_offsets(posing);
   bind_loop(posing);
 
   nb::class_<BlendingLoop> blending(

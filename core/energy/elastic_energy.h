@@ -31,6 +31,18 @@ struct ElasticEnergy {
     for (const RestTet& tet : rest.tets) stvk_hessian_product(material, tet, u, v, product);
   }
 
+  /// Volume times first Piola-Kirchhoff stress (tets x 9, row by row) and energies (tets) at u.
+  void tet_stresses(const double* u, double* stresses, double* energies) const {
+    for (const RestTet& tet : rest.tets) {
+      double G[3][3], S[3][3], P[3][3];
+      displacement_gradient(tet, u, G);
+      *energies++ = tet.volume * stress(material, G, S);
+      first_stress(G, S, P);
+      for (const auto& row : P)
+        for (const double entry : row) *stresses++ = tet.volume * entry;
+    }
+  }
+
   /// Energy of a strain of 1e-12 everywhere. Where the minimum of an objective is zero, no share of
   /// it is ever reached: a decrease below this is none.
   [[nodiscard]] double negligible() const { return 1e-24 * material.mu * rest.volume(); }

@@ -31,6 +31,9 @@ class Bfgs {
   Report minimize(Objective& objective, int d, double* q, const double* initial_inverse,
                   const Termination& stop);
 
+  /// The approximation at the end of the last minimisation, d x d.
+  [[nodiscard]] const std::vector<double>& inverse() const { return inverse_; }
+
  private:
   static constexpr int kMaxTrials = 40;
   static constexpr int kMaxIdleSteps = 4;

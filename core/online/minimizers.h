@@ -19,6 +19,7 @@ class Minimizers {
         bfgs_(capacity),
         hessian_(static_cast<std::size_t>(capacity) * capacity),
         inverse_(hessian_.size()),
+        last_(hessian_.size()),
         scratch_(hessian_.size()),
         origin_(capacity),
         gradient_(capacity) {}
@@ -30,7 +31,9 @@ class Minimizers {
     d_ = d;
     objective.derivatives(origin_.data(), gradient_.data(), hessian_.data());
     std::copy_n(hessian_.data(), static_cast<std::size_t>(d) * d, inverse_.data());
-    return invert_spd(inverse_.data(), d, scratch_.data());
+    const bool definite = invert_spd(inverse_.data(), d, scratch_.data());
+    keep(inverse_);
+    return definite;
   }
 
   /// From q (d), in place: Newton, shifted along the Hessian at tau, or BFGS with its inverse as
@@ -41,11 +44,32 @@ class Minimizers {
     return bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
   }
 
+  /// BFGS from q (d), in place, that goes on with the approximation of the last frame, if that
+  /// converged. Where it leads nowhere, once more from the inverse at tau; the report counts both.
+  template <class Objective>
+  Report minimize_onwards(Objective& objective, double* q, const Termination& stop) {
+    Report report = bfgs_.minimize(objective, d_, q, last_.data(), stop);
+    if (report.status == Status::line_search_failed) {
+      Termination rest = stop;
+      rest.max_iterations -= report.iterations;
+      rest.max_evaluations -= report.evaluations;
+      const Report again = bfgs_.minimize(objective, d_, q, inverse_.data(), rest);
+      report = {again.status, report.iterations + again.iterations,
+                report.evaluations + again.evaluations, again.value, again.gradient_norm};
+    }
+    keep(report.status == Status::converged ? bfgs_.inverse() : inverse_);
+    return report;
+  }
+
  private:
+  void keep(const std::vector<double>& inverse) {
+    std::copy_n(inverse.data(), static_cast<std::size_t>(d_) * d_, last_.data());
+  }
+
   int d_ = 0;
   Newton newton_;
   Bfgs bfgs_;
-  std::vector<double> hessian_, inverse_, scratch_;
+  std::vector<double> hessian_, inverse_, last_, scratch_;
   std::vector<double> origin_, gradient_;
 };
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -31,6 +32,20 @@ DIMENSION = 40
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol")
+@click.option(
+    "--method",
+    type=click.Choice(["quartic", "cubature"]),
+    default="quartic",
+    show_default=True,
+    help="Energy of the model. quartic: exact, up to about 60 modes. cubature: that of a few tets, "
+    "for 100 modes and more.",
+)
+@click.option(
+    "--tets",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Of the cubature [default: 8 for each mode, at most 1000].",
+)
 @click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
 @threads_option
 @dask_option
@@ -39,6 +54,8 @@ def build(
     mesh: Path | None,
     problem_file: Path,
     output: Path,
+    method: str,
+    tets: int | None,
     repair: bool,
     choices: Choices,
     threads: int | None,
@@ -54,12 +71,14 @@ def build(
     Examples:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace build --problem dragon.json --samples 600 --dimension 60 -o dragon60.snapspace
+      snapspace build --problem dragon.json --dimension 120 --method cubature -o dragon120.snapspace
       snapspace build --problem dragon.json finer.msh --energy-fraction 0.9999 -o finer.snapspace
     """
     begin = time.perf_counter()
     check_output(output)
     problem, source = _read(problem_file, mesh, repair=repair)
     recipe = choices.recipe(problem.domain, dimension=DIMENSION, threads=threads)
+    recipe = replace(recipe, energy=method, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
     built = build_model(problem, recipe, output, source=source, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model_file import load
-from ..reduction import PosingModel
+from ..reduction import Cubature, PosingModel, ReducedModel
 from .mesh_info import Info, mesh_facts, mesh_figures
 from .poses_info import poses_facts, poses_figures
 from .problem_info import problem_facts, problem_figures
@@ -34,6 +34,7 @@ def model_info(file: Path) -> Info:
         "bytes": file.stat().st_size,
         "dimension": model.dimension,
         "samples": len(model.training_parameters),
+        "energy": _energy(model),
         "energy_fraction": subspace.energy_fraction,
         "lumped_mass": subspace.lumped,
         "eigenvalues": subspace.eigenvalues.tolist(),
@@ -44,12 +45,19 @@ def model_info(file: Path) -> Info:
     facts = [
         ("dimension", f"{model.dimension}, from {figures['samples']} snapshots"),
         ("not captured", _decay(subspace.eigenvalues, model.dimension)),
+        ("energy", figures["energy"]),
         ("file", in_bytes(figures["bytes"])),
         *facts_of_problem,
         *mesh_facts(figures["mesh"]),
         *_provenance_facts(model.provenance),
     ]
     return figures, facts
+
+
+def _energy(model: ReducedModel) -> str:
+    if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
+        return f"cubature of {len(model.elastic.tets)} tets"
+    return "exact quartic"
 
 
 def _decay(eigenvalues: NDArray[np.float64], dimension: int) -> str:
@@ -75,6 +83,17 @@ def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     for key in ("sampling", "solver", "versions"):
         if isinstance(record.get(key), dict):
             facts.append((key, ", ".join(f"{name} {value}" for name, value in record[key].items())))
+    cubature = record.get("cubature")
+    if isinstance(cubature, dict) and isinstance(cubature.get("held_out"), dict):
+        errors = cubature["held_out"]
+        facts.append(
+            (
+                "cubature errors",
+                f"energy {_percent(errors['energy_median'])}, "
+                f"displacement {_percent(errors['displacement_median'])}, median of "
+                f"{errors['states']} held-out samples",
+            )
+        )
     snapshots, seconds = record.get("snapshots"), record.get("seconds")
     if isinstance(snapshots, dict) and "summary" in snapshots:
         facts.append(("snapshots", str(snapshots["summary"])))

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..cubature import hyper_reduce
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
@@ -105,9 +106,9 @@ def build_model(
             if not recipe.include_unconverged:
                 usable = snapshots.usable
             used = snapshots.select(usable)
-            model = _reduced(problem, subspace, used, surface, threads=recipe.threads)
+            model = _reduced(problem, subspace, used, surface, recipe)
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
-        model = replace(model, provenance=record)
+        model = replace(model, provenance={**model.provenance, **record})
         model.save(output)
     except KeyboardInterrupt:
         kept = recipe.samples.finished(checkpoint)
@@ -146,12 +147,15 @@ def _reduced(
     subspace: AffineSubspace,
     snapshots: Snapshots,
     surface: EmbeddedSurface | None,
-    *,
-    threads: int | None,
+    recipe: Recipe,
 ) -> PosingModel | InterpolationModel:
-    if isinstance(problem, PosingProblem):
-        return reduce(problem, subspace, snapshots=snapshots, threads=threads)
-    return reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=threads)
+    if isinstance(problem, InterpolationProblem):
+        return reduce(
+            problem, subspace, snapshots=snapshots, surface=surface, threads=recipe.threads
+        )
+    if recipe.energy == "cubature":
+        return hyper_reduce(problem, subspace, snapshots, tets=recipe.tets)
+    return reduce(problem, subspace, snapshots=snapshots, threads=recipe.threads)
 
 
 def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:

@@ -22,6 +22,8 @@ class Recipe:
     sampling : how they were chosen, for the record
     solver : SolverOptions
     dimension, energy_fraction : one of them; see `snapshot_pca`
+    energy : quartic, exact, or cubature
+    tets : of the cubature, None for its default
     lumped, include_unconverged : as for `snapshot_pca`
     threads : None for all
     known : solutions that join the snapshots without solving, the poses of an interpolation
@@ -36,12 +38,16 @@ class Recipe:
     include_unconverged: bool = False
     threads: int | None = None
     known: int = 0
+    energy: str = "quartic"
+    tets: int | None = None
 
     def __post_init__(self) -> None:
         if (self.dimension is None) == (self.energy_fraction is None):
             raise ValueError("give either --dimension or --energy-fraction")
         if self.dimension is not None:
             check_dimension(self.dimension, self.samples.count, known=self.known)
+        if self.tets is not None and self.energy != "cubature":
+            raise ValueError("--tets is for --method cubature")
         if self.energy_fraction is not None and not 0 < self.energy_fraction <= 1:
             raise ValueError(f"energy fraction is {self.energy_fraction}, but must be in (0, 1]")
 

@@ -6,15 +6,19 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from ..reduction import InterpolationModel, PosingModel, ReducedModel
+from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
 from . import error_estimator, interpolation, posing
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
 VERSION = 1
 SUFFIX = ".snapspace"
-POSING, INTERPOLATION = "posing", "interpolation"
-_DTYPES = {POSING: posing.DTYPES, INTERPOLATION: interpolation.DTYPES}
+POSING, CUBATURE, INTERPOLATION = "posing", "posing-cubature", "interpolation"
+_DTYPES = {
+    POSING: posing.DTYPES,
+    CUBATURE: posing.CUBATURE_DTYPES,
+    INTERPOLATION: interpolation.DTYPES,
+}
 
 
 def save_model(model: ReducedModel, path: str | Path) -> Path:
@@ -30,7 +34,8 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
     path = Path(path)
     check_model_path(path)
     if isinstance(model, PosingModel):
-        kind, arrays, content = POSING, posing.posing_arrays(model), posing.posing_content(model)
+        kind = CUBATURE if isinstance(model.elastic, Cubature) else POSING
+        arrays, content = posing.posing_arrays(model), posing.posing_content(model)
     elif isinstance(model, InterpolationModel):
         kind = INTERPOLATION
         arrays = interpolation.interpolation_arrays(model)
@@ -73,7 +78,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     kind = header.get("kind", POSING)  # the first files had only one
     if kind not in _DTYPES:
         raise ValueError(
-            f"{path}: a model of kind '{kind}', this snapspace knows {' and '.join(_DTYPES)}; "
+            f"{path}: a model of kind '{kind}', this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
     check_dtypes(path, arrays, _DTYPES[kind] | error_estimator.dtypes(arrays))
@@ -81,7 +86,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
         )
-    make = posing.posing_model if kind == POSING else interpolation.interpolation_model
+    make = interpolation.interpolation_model if kind == INTERPOLATION else posing.posing_model
     try:
         model = make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
         return replace(model, error_estimator=error_estimator.estimator(arrays))

@@ -9,28 +9,30 @@ import numpy as np
 from ..energy import StVK
 from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
-from ..reduction import HandleQuadric, PosingModel, Quartic, coefficient_count
+from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
 from ..subspace import AffineSubspace
 from .container import Arrays, check_shapes
 
-DTYPES: dict[str, type] = {
+_COMMON: dict[str, type] = {
     "vertices": np.float64,
     "tets": np.int32,
     "handle_vertices": np.int32,
     "handle_sizes": np.int32,
     "basis": np.float64,
     "eigenvalues": np.float64,
-    "quartic": np.float64,
     "handle_K": np.float64,
     "handle_L": np.float64,
     "handle_S": np.float64,
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
+DTYPES = {**_COMMON, "quartic": np.float64}
+#: With few tets instead of the quartic; the rows are made of the basis again.
+CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
 
 
 def posing_arrays(model: PosingModel) -> Arrays:
-    """The arrays of a model; the names are those of DTYPES."""
+    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES."""
     problem = model.problem
     sizes = [len(handle.vertices) for handle in problem.handles]
     return {
@@ -41,7 +43,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         # (d, 3n): a mode is contiguous, and fewer modes are a prefix
         "basis": model.subspace.basis.T,
         "eigenvalues": model.subspace.eigenvalues,
-        "quartic": model.elastic.coefficients,
+        **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
         "handle_S": model.handles.S,
@@ -74,7 +76,6 @@ def posing_model(
         arrays,
         {
             "basis": (d, 3 * n),
-            "quartic": (coefficient_count(d),),
             "handle_K": (d, d),
             "handle_L": (h, d, 12),
             "handle_S": (h, 4, 4),
@@ -83,15 +84,31 @@ def posing_model(
         },
     )
     mass = mass_matrix(problem.mesh, lumped=content["lumped_mass"])
+    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"])
     return PosingModel(
         problem=problem,
-        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"]),
-        elastic=Quartic(d, arrays["quartic"]),
+        subspace=subspace,
+        elastic=_elastic(arrays, problem, subspace),
         handles=HandleQuadric(arrays["handle_K"], arrays["handle_L"], arrays["handle_S"]),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,
     )
+
+
+def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
+    if isinstance(elastic, Cubature):
+        return {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
+    return {"quartic": elastic.coefficients}
+
+
+def _elastic(
+    arrays: Arrays, problem: PosingProblem, subspace: AffineSubspace
+) -> Quartic | Cubature:
+    if "quartic" in arrays:
+        check_shapes(arrays, {"quartic": (coefficient_count(subspace.dimension),)})
+        return Quartic(subspace.dimension, arrays["quartic"])
+    return Cubature.of_tets(problem, subspace, arrays["cubature_tets"], arrays["cubature_weights"])
 
 
 def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:

@@ -1,5 +1,6 @@
 """Reduced energies and models."""
 
+from .cubature import Cubature
 from .handle_quadric import HandleQuadric, handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
@@ -8,6 +9,7 @@ from .reduce import reduce
 from .reduced_model import ReducedModel
 
 __all__ = [
+    "Cubature",
     "HandleQuadric",
     "InterpolationModel",
     "PosingModel",

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..problem import PosingProblem
+from .cubature import Cubature
 from .handle_quadric import HandleQuadric
 from .quartic import Quartic
 from .reduced_model import ReducedModel
@@ -24,16 +25,19 @@ class PosingModel(ReducedModel):
     """A posing problem restricted to a subspace attached to the rest shape.
 
     Fields as for `ReducedModel`, and
-    elastic : Quartic
+    elastic : Quartic, exact, or Cubature, a sum over few tets
     handles : HandleQuadric
     """
 
     problem: PosingProblem
-    elastic: Quartic
+    elastic: Quartic | Cubature
     handles: HandleQuadric
 
     def value(self, q: FloatArray, offsets: FloatArray) -> float:
-        """Reduced objective at coordinates (d,) for offsets (h, 3, 4); equal to F at tau + U q."""
+        """Reduced objective at coordinates (d,) for offsets (h, 3, 4).
+
+        Equal to F at tau + U q, but for the cubature's error.
+        """
         return self.elastic.value(q) + self.handles.value(q, offsets)
 
     def leading(self, dimension: int) -> PosingModel:

@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from typing import Any, overload
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ..mesh import EmbeddedSurface, boundary_surface
-from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
+from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
 from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
 from .quartic import pose_quartics, reduced_quartic
-
-FloatArray = NDArray[np.float64]
+from .training import check_attached, training
 
 
 @overload
@@ -76,12 +72,8 @@ def reduce(
         If the subspace is of another mesh or not attached to the problem's tau, or the surface is
         of another mesh.
     """
-    if subspace.tau.shape != problem.base.shape or not np.array_equal(subspace.tau, problem.tau):
-        raise ValueError(
-            "reduce: the subspace is not attached to the problem's reference shape: the rest shape "
-            "of posing, the mean shape of interpolation"
-        )
-    parameters, coordinates = _training(problem, subspace, snapshots)
+    check_attached(problem, subspace, who="reduce")
+    parameters, coordinates = training(problem, subspace, snapshots)
     if isinstance(problem, PosingProblem):
         if surface is not None:
             raise ValueError("reduce: posing shows the surface of its tets; leave surface out")
@@ -109,18 +101,3 @@ def reduce(
         training_coordinates=coordinates,
         provenance=provenance or {},
     )
-
-
-def _training(
-    problem: PosingProblem | InterpolationProblem,
-    subspace: AffineSubspace,
-    snapshots: Snapshots | None,
-) -> tuple[FloatArray, FloatArray]:
-    """Parameters and coordinates of the snapshots, and of the solutions known without solving."""
-    if snapshots is None:
-        return np.zeros((0, problem.parameter_count)), np.zeros((0, subspace.dimension))
-    known, shapes = solutions_beyond_tau(problem)
-    parameters = np.vstack([snapshots.parameters, known])
-    displacements = snapshots.displacements.followed_by(shapes - problem.base)
-    offset = problem.base - problem.tau
-    return parameters, subspace.row_coordinates(displacements.shifted(offset))

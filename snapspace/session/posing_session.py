@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -10,18 +11,28 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core as core
 from ..certificate import PosingProbe, ResidualSample
 from ..problem import affine_offset, rigid_offset
-from ..reduction import PosingModel
+from ..reduction import Cubature, PosingModel
 from .frame_report import FrameReport
+from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
 
 FloatArray = NDArray[np.float64]
+
+#: Times the samples' spacing: beyond this, nothing is known from them.
+FARTHEST = 1e3
 
 
 class PosingSession(Session[PosingModel]):
     """Poses of a reduced model: move handles, read vertices.
 
     Parameters and errors as for `Session`.
+
+    Notes
+    -----
+    A drag goes on from the last frame's shape. After a jump, a motion farther than the samples that
+    the model was trained with lie apart, a shape interpolated between these is the start if its
+    energy is lower: from afar the solve could end in another minimum.
 
     Examples
     --------
@@ -140,8 +151,17 @@ class PosingSession(Session[PosingModel]):
         """`pose`."""
         return self.pose(parameters)
 
-    def _make_loop(self, *, single: bool) -> core.PosingLoop:
+    def _default_minimizer(self, model: PosingModel) -> str:
+        # a Hessian of a cubature costs d / 4 times its gradient
+        return "bfgs" if isinstance(model.elastic, Cubature) else "newton"
+
+    def _make_loop(self, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
         elastic, handles = self.model.elastic, self.model.handles
+        if isinstance(elastic, Cubature):
+            rows, weights, material = elastic.rows, elastic.weights, elastic.material
+            return core.CubatureLoop(
+                rows, weights, material.lam, material.mu, handles.K, handles.L, handles.S
+            )
         return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
 
     def _state(self) -> FloatArray:
@@ -180,10 +200,29 @@ class PosingSession(Session[PosingModel]):
         """Sets and solves; sets back what was if the energy is beyond all numbers."""
         before = self._maps, self._offsets
         self._set(maps, offsets)
+        self._start_from(before[1])
         report = self.solve()
         if report.status == "not_finite":
             self._set(*before)
         return report
+
+    def _start_from(self, before: FloatArray) -> None:
+        """After a jump from offsets (h, 3, 4): a shape between the samples, if it is lower."""
+        if len(self.model.training_parameters) < 2:
+            return
+        with np.errstate(over="ignore"):  # motions far outside of any use
+            jump = self._starts.distance(self._offsets, before)
+        if not self._starts.spacing < jump < FARTHEST * self._starts.spacing:
+            return
+        candidate = self._starts(self._offsets)[: self.dimension]
+        present, _ = self._loop.value_and_gradient(self._loop.q)
+        known, _ = self._loop.value_and_gradient(candidate)
+        if not present <= known and np.isfinite(known):
+            self._loop.q = candidate
+
+    @cached_property
+    def _starts(self) -> SampleStarts:
+        return SampleStarts(self.model)
 
     def _set(self, maps: FloatArray, offsets: FloatArray) -> None:
         self._maps, self._offsets = maps, offsets

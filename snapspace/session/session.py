@@ -39,9 +39,10 @@ class Session(ABC, Generic[Model]):
         a displacement of a tenth of the diagonal.
     max_iterations, max_evaluations : int, default 300 and 500
         Bounds on the work of one frame: steps, and evaluations of the energy.
-    minimizer : "newton" or "bfgs", default "newton"
+    minimizer : "newton" or "bfgs", default "newton", but "bfgs" for a cubature
         Newton's method, with the exact Hessian, shifted where that is not positive definite; or
-        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2).
+        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2), or
+        that of the last frame where the energy is a cubature.
     precision : "double" or "single", default "double"
         Of the stored coefficients. Single takes half of the memory, and less time where the
         coefficients do not fit into the second-level cache (d = 60 and more); each coefficient is
@@ -62,7 +63,7 @@ class Session(ABC, Generic[Model]):
         tolerance: float | None = None,
         max_iterations: int = 300,
         max_evaluations: int = 500,
-        minimizer: str = "newton",
+        minimizer: str | None = None,
         precision: str = "double",
     ) -> None:
         tolerance = self.default_tolerance if tolerance is None else tolerance
@@ -71,6 +72,7 @@ class Session(ABC, Generic[Model]):
                 f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
                 f"max_evaluations {max_evaluations} must be positive"
             )
+        minimizer = self._default_minimizer(model) if minimizer is None else minimizer
         if minimizer not in MINIMIZERS:
             raise ValueError(
                 f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
@@ -88,6 +90,9 @@ class Session(ABC, Generic[Model]):
         self._polisher: Polisher | None = None
         self._probe: tuple[ResidualSample, ResidualProbe] | None = None
         self.reset()
+
+    def _default_minimizer(self, model: Model) -> str:
+        return "newton"
 
     @property
     def dimension(self) -> int:

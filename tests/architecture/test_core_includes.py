@@ -16,12 +16,13 @@ CORE = Path(__file__).parents[2] / "core"
 
 #: What a room's files may include of the project, besides their own room.
 ALLOWED: dict[str, set[str]] = {
+    "material": set(),
     "memory": set(),
     "mesh": {"memory"},
     "simd": set(),
     "threads": set(),
-    "online": {"simd"},
-    "energy": {"mesh", "simd"},
+    "online": {"material", "simd"},
+    "energy": {"material", "mesh", "simd"},
     "cholesky": set(),
     "snapshots": {"mesh", "memory", "energy", "simd", "threads", "cholesky"},
     "reduction": {"mesh", "energy", "online", "threads"},
@@ -45,8 +46,8 @@ ALLOWED: dict[str, set[str]] = {
 
 #: core/online is meant for WebAssembly too: no threads, files, output, exceptions, Eigen.
 ONLINE_MAY_INCLUDE = {
-    "algorithm", "array", "cmath", "cstddef", "cstdint", "cstring", "limits", "memory", "numeric",
-    "span", "utility", "vector",
+    "algorithm", "array", "bit", "cmath", "cstddef", "cstdint", "cstring", "limits", "memory",
+    "numeric", "span", "utility", "vector",
 }  # fmt: skip
 
 

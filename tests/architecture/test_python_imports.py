@@ -38,6 +38,7 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "subspace",
     },
+    "cubature": {"blas", "problem", "reduction", "snapshots", "subspace"},
     "growing": {"problem", "snapshots", "subspace", "reduction"},
     "greedy": {
         "_core",

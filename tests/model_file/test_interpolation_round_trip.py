@@ -253,5 +253,8 @@ def test_an_unknown_kind_is_named(saved: Path, kind: str) -> None:
 
     rewrite(saved, change)
     message = refused(saved)
-    assert f"a model of kind '{kind}', this snapspace knows posing and interpolation" in message
+    assert (
+        f"a model of kind '{kind}', this snapspace knows posing, posing-cubature, interpolation"
+        in message
+    )
     assert "install the snapspace that wrote it" in message

@@ -1,0 +1,66 @@
+#include "bindings/live_loop.h"
+#include "online/cubature_solver.h"
+
+namespace snapspace {
+
+namespace {
+
+using online::Cubature;
+using online::CubatureSolver;
+using CubatureLoop = Loop<CubatureSolver>;
+using RowsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+Cubature make_cubature(const RowsIn& rows, const VectorIn& weights, double lam, double mu) {
+  require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
+              weights.size() == rows.shape(0),
+          "rows (tets, 9, d) and weights (tets,) do not match");
+  return {static_cast<int>(rows.shape(2)),
+          static_cast<int>(rows.shape(0)),
+          rows.data(),
+          weights.data(),
+          {lam, mu}};
+}
+
+}  // namespace
+
+void bind_cubature(nb::module_& m) {
+  nb::class_<Cubature>(m, "Cubature", "Elastic energy as a weighted sum over few tets.")
+      .def(
+          "__init__",
+          [](Cubature* self, RowsIn rows, VectorIn weights, double lam, double mu) {
+            new (self) Cubature(make_cubature(rows, weights, lam, mu));
+          },
+          nb::arg("rows"), nb::arg("weights"), nb::arg("lam"), nb::arg("mu"))
+      .def_prop_ro("dimension", &Cubature::dimension)
+      .def(
+          "value_and_gradient",
+          [](Cubature& self, VectorIn q) { return value_and_gradient(self, q); }, nb::arg("q"))
+      .def(
+          "derivatives", [](Cubature& self, VectorIn q) { return derivatives(self, q); },
+          nb::arg("q"), "Value, gradient and Hessian.");
+
+  nb::class_<CubatureLoop> loop(m, "CubatureLoop",
+                                "The live loop of posing with a cubature instead of a quartic.");
+  loop.def(
+      "__init__",
+      [](CubatureLoop* self, RowsIn rows, VectorIn weights, double lam, double mu, MatrixIn K,
+         TensorIn L, TensorIn S) {
+        Cubature elastic = make_cubature(rows, weights, lam, mu);
+        const auto d = static_cast<std::size_t>(elastic.dimension());
+        require(K.shape(0) == d && K.shape(1) == d && L.shape(1) == d && L.shape(2) == 12 &&
+                    S.shape(0) == L.shape(0) && S.shape(1) == 4 && S.shape(2) == 4,
+                "rows (tets, 9, d), K (d,d), L (h,d,12), S (h,4,4) do not match");
+        CubatureSolver solver(std::move(elastic), static_cast<int>(L.shape(0)), K.data(), L.data(),
+                              S.data());
+        require_valid(solver,
+                      "the reduced Hessian at rest is not positive definite; the cubature has too "
+                      "few tets, or the handles do not hold the shape");
+        new (self) CubatureLoop{std::move(solver), std::vector<double>(d, 0.0)};
+      },
+      nb::arg("rows"), nb::arg("weights"), nb::arg("lam"), nb::arg("mu"), nb::arg("K"),
+      nb::arg("L"), nb::arg("S"));
+  bind_offsets(loop);
+  bind_loop(loop);
+}
+
+}  // namespace snapspace

@@ -1,0 +1,65 @@
+#pragma once
+#include <utility>
+
+#include "online/cubature.h"
+#include "online/handle_quadric.h"
+#include "online/minimizers.h"
+
+namespace snapspace::online {
+
+/// Minimises the reduced posing energy with a cubature instead of a quartic, frame by frame. As
+/// PosingSolver, but BFGS keeps its approximation from frame to frame: the handles' part of the
+/// Hessian never changes, and along a drag the elastic part changes slowly.
+class CubatureSolver {
+ public:
+  /// Copies K, L and S, which are as HandleQuadric takes them.
+  CubatureSolver(Cubature elastic, int handles, const double* K, const double* L, const double* S)
+      : elastic_(std::move(elastic)),
+        handles_(elastic_.dimension(), handles, K, L, S),
+        minimizers_(elastic_.dimension()),
+        valid_(minimizers_.prepare(*this, elastic_.dimension())) {}
+
+  /// False if the Hessian at rest is not positive definite: a solve has then no matrix to start
+  /// from.
+  [[nodiscard]] bool valid() const { return valid_; }
+
+  [[nodiscard]] int handles() const { return handles_.handles(); }
+  [[nodiscard]] int dimension() const { return elastic_.dimension(); }
+  [[nodiscard]] int capacity() const { return elastic_.capacity(); }
+
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; offsets stay.
+  void set_dimension(int dimension) {
+    elastic_.set_dimension(dimension);
+    handles_.set_dimension(dimension);
+    minimizers_.prepare(*this, dimension);
+  }
+
+  /// Takes new offsets of the handles (handles x 12): O(capacity * handles).
+  void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
+
+  double value_and_gradient(const double* q, double* gradient) {
+    const double elastic = elastic_.value_and_gradient(q, gradient);
+    return elastic + handles_.add_value_and_gradient(q, gradient);
+  }
+
+  /// The lower triangle of the Hessian, too.
+  double derivatives(const double* q, double* gradient, double* hessian) {
+    const double elastic = elastic_.derivatives(q, gradient, hessian);
+    handles_.add_hessian(hessian);
+    return elastic + handles_.add_value_and_gradient(q, gradient);
+  }
+
+  /// From q, in place.
+  Report solve(double* q, Method method, const Termination& stop) {
+    if (method == Method::newton) return minimizers_.minimize(*this, method, q, stop);
+    return minimizers_.minimize_onwards(*this, q, stop);
+  }
+
+ private:
+  Cubature elastic_;
+  HandleQuadric handles_;
+  Minimizers minimizers_;
+  bool valid_;
+};
+
+}  // namespace snapspace::online

@@ -1,0 +1,30 @@
+"""Which tets a cubature may choose from."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import PosingProblem
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+#: States whose forces decide.
+PILOTS = 12
+
+
+def candidate_tets(
+    problem: PosingProblem, subspace: AffineSubspace, states: FloatArray, count: int
+) -> NDArray[np.int32]:
+    """The tets with the largest forces at some of the states (s, d): (c,), c <= count, ascending.
+
+    Forces of tets differ by many powers of ten: on the Dragon a quarter of them carries all that a
+    fit ever takes, and the columns of the others would need three times the memory.
+    """
+    total = np.zeros(len(problem.mesh.tets))
+    for state in states[:: max(1, len(states) // PILOTS)]:
+        stresses, _ = problem.energy.core.tet_stresses(subspace.basis @ state)
+        total += np.linalg.norm(stresses, axis=1)
+    largest = np.argsort(-total, kind="stable")[:count]
+    return np.sort(largest[total[largest] > 0]).astype(np.int32)

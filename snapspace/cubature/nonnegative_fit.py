@@ -1,0 +1,106 @@
+"""Few columns with positive weights that sum up to a target."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+
+from ..blas import single_threaded_blas
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.intp]
+
+#: Share of the wanted columns that joins before the weights are found anew.
+BATCH = 0.1
+#: Added to the diagonal of the scaled normal equations: columns that are nearly the same share.
+RIDGE = 1e-9
+
+
+@single_threaded_blas
+def nonnegative_fit(
+    columns: NDArray[np.float32], target: FloatArray, count: int
+) -> tuple[IndexArray, FloatArray]:
+    """Least squares with at most `count` positive weights.
+
+    Greedy cubature (An, Kim, James 2008) as orthogonal matching pursuit with positive weights
+    (Bruckstein, Elad, Zibulevsky 2008): the columns with the largest products with the residual
+    join, a batch at a time, and the weights of all are found anew by non-negative least squares
+    (Lawson & Hanson 1974), which lets columns go again.
+    Products are not divided by the columns' norms, so that tets that hardly carry a force cannot
+    get huge weights.
+
+    Parameters
+    ----------
+    columns : (k, c) float32
+    target : (k,)
+    count : int, >= 1
+
+    Returns
+    -------
+    chosen : (r,) ascending indices, r <= count
+    weights : (r,) > 0
+    """
+    chosen: IndexArray = np.zeros(0, np.intp)
+    weights: FloatArray = np.zeros(0)
+    own: FloatArray = np.zeros((len(target), 0))
+    gram: FloatArray = np.zeros((0, 0))
+    residual = target
+    batch = max(1, round(BATCH * count))
+    best = np.inf
+    while len(chosen) < count:
+        products = residual.astype(np.float32) @ columns
+        products[chosen] = 0.0
+        fresh = _largest(products, min(batch, count - len(chosen)))
+        chosen = np.concatenate([chosen, fresh])
+        new = columns[:, fresh].astype(np.float64)
+        mixed = own.T @ new
+        gram = np.block([[gram, mixed], [mixed.T, new.T @ new]])
+        own = np.hstack([own, new])
+        start = np.concatenate([weights, np.zeros(len(fresh))])
+        weights = nonnegative_weights(gram, own.T @ target, start)
+        kept = weights > 0
+        chosen, weights = chosen[kept], weights[kept]
+        own, gram = own[:, kept], gram[np.ix_(kept, kept)]
+        residual = target - own @ weights
+        error = float(np.linalg.norm(residual))
+        if len(fresh) == 0 or not error < best * (1 - 1e-6):
+            break
+        best = error
+    order = np.argsort(chosen)
+    return chosen[order], weights[order]
+
+
+def nonnegative_weights(gram: FloatArray, moments: FloatArray, start: FloatArray) -> FloatArray:
+    """Minimum of x.Gx / 2 - m.x over x >= 0 among the columns, from a start >= 0.
+
+    The inner loop of Lawson & Hanson 1974, ch. 23: columns that would become negative leave at the
+    boundary, and do not come back. New columns start at zero.
+    """
+    scale = 1.0 / np.sqrt(np.diag(gram))
+    matrix = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
+    moments, x = moments * scale, start / scale
+    inside = np.ones(len(gram), bool)
+    while inside.any():
+        free = np.flatnonzero(inside)
+        solution = np.zeros(len(gram))
+        factor = cho_factor(matrix[np.ix_(free, free)], overwrite_a=True, check_finite=False)
+        solution[free] = cho_solve(factor, moments[free], check_finite=False)
+        negative = inside & (solution <= 0)
+        if not negative.any():
+            return solution * scale
+        at_zero = negative & (x <= 0)
+        if not at_zero.any():
+            step = np.min(x[negative] / (x[negative] - solution[negative]))
+            x += step * (solution - x)
+            at_zero = negative & (x <= 1e-12 * x.max())
+            x[at_zero] = 0.0
+        inside &= ~at_zero
+        x[~inside] = 0.0
+    return np.zeros(len(gram))
+
+
+def _largest(products: NDArray[np.float32], count: int) -> IndexArray:
+    """Indices of the largest positive entries, at most `count`, ascending."""
+    largest = np.argpartition(-products, count - 1)[:count]
+    return np.sort(largest[products[largest] > 0])

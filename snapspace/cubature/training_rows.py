@@ -1,0 +1,93 @@
+"""What a cubature is trained on: the forces and energies of single tets at solutions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blas import single_threaded_blas
+from ..problem import PosingProblem
+from ..reduction.displacement_gradients import displacement_gradients
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+#: Weight of the energy of a state, against the root mean square of all its force rows together. On
+#: the Dragon the energy's error falls from 4 % to 0.4 %, and the solutions stay where they are.
+ENERGY_WEIGHT = 0.5
+#: States at a time: their shapes and gradients are in memory together.
+_BLOCK = 16
+
+
+@dataclass(frozen=True)
+class TrainingRows:
+    """A linear system for the weights that multiply the tets' volumes.
+
+    columns : (k, c) float32, a column per candidate tet
+    target : (k,), the sums over all tets of the mesh
+    """
+
+    columns: NDArray[np.float32]
+    target: FloatArray
+
+
+@single_threaded_blas
+def training_rows(
+    problem: PosingProblem,
+    subspace: AffineSubspace,
+    states: FloatArray,
+    candidates: NDArray[np.int32],
+    compliance: FloatArray,
+    *,
+    directions: int,
+    seed: int,
+) -> TrainingRows:
+    """Rows of forces and energies at reduced states.
+
+    The equations of energy-conserving sampling and weighting (Farhat, Avery, Chapman, Cortial
+    2014), randomly compressed (Drineas, Mahoney, Muthukrishnan, Sarlos 2011): per state,
+    `directions` rows are the tets' reduced forces times compliance times a standard normal vector.
+    A residual is so measured as the displacement that the forces' error makes, not as a force: soft
+    directions count most. One more row is the energy.
+
+    Parameters
+    ----------
+    states : (s, d)
+    candidates : (c,) tets
+    compliance : (d, d), inverse Hessian at rest with the handles
+    directions : rows of forces per state
+    seed : of the random vectors
+
+    Returns
+    -------
+    TrainingRows
+        Of s * (directions + 1) rows. All-one weights of all tets would solve it exactly.
+    """
+    d = subspace.dimension
+    modes = displacement_gradients(problem.mesh, subspace.basis, candidates)
+    # (9, c, d): one entry of all candidates is contiguous
+    modes = np.ascontiguousarray(modes.swapaxes(0, 1)).reshape(-1, d)
+    rng = np.random.default_rng(seed)
+    columns = np.empty((len(states), directions + 1, len(candidates)), np.float32)
+    target = np.empty((len(states), directions + 1))
+    for begin in range(0, len(states), _BLOCK):
+        block = states[begin : begin + _BLOCK]
+        shapes = np.ascontiguousarray((subspace.basis @ block.T).T)
+        gradients = np.empty_like(shapes)
+        for k, shape in enumerate(shapes):
+            stresses, energies = problem.energy.core.tet_stresses(shape)
+            energy, gradients[k] = problem.energy.core.value_and_gradient(shape)
+            along = compliance @ rng.standard_normal((d, directions))
+            target[begin + k, :-1] = along.T @ (subspace.basis.T @ gradients[k])
+            pushed = (modes @ along.astype(np.float32)).reshape(9, len(candidates), directions)
+            entries = stresses[candidates].T.astype(np.float32)
+            forces = sum(entry[:, None] * push for entry, push in zip(entries, pushed, strict=True))
+            columns[begin + k, :-1] = forces.T
+            columns[begin + k, -1] = energies[candidates] / energy
+            target[begin + k, -1] = 1.0
+    scale = ENERGY_WEIGHT * np.sqrt(np.mean(target[:, :-1] ** 2) * directions)
+    columns[:, -1] *= np.float32(scale)
+    target[:, -1] *= scale
+    return TrainingRows(columns.reshape(-1, len(candidates)), target.reshape(-1))

@@ -1,0 +1,132 @@
+"""Models with a cubature: near the exact ones, positive, the same each time, honest on errors."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from snapspace import (
+    Cubature,
+    InterpolationModel,
+    PosingModel,
+    Snapshots,
+    hyper_reduce,
+    reduce,
+    sample,
+    snapshot_pca,
+)
+from snapspace.mesh import mass_norms
+
+
+def test_weights_are_positive_and_tets_few(cubature_model: PosingModel) -> None:
+    elastic = cubature_model.elastic
+    assert isinstance(elastic, Cubature)
+    assert 0 < len(elastic.tets) <= 8 * 16
+    assert (elastic.weights > 0).all()
+    assert (np.diff(elastic.tets) > 0).all()
+
+
+def test_solutions_are_near_those_of_the_exact_energy(
+    cubature_model: PosingModel, snapshots: Snapshots
+) -> None:
+    exact = reduce(snapshots.problem, cubature_model.subspace, snapshots=snapshots, threads=1)
+    here, there = cubature_model.session(), exact.session(minimizer="bfgs")
+    errors = []
+    for w in sample(snapshots.problem.domain, 15, seed=9):
+        here.reset()
+        there.reset()
+        assert here.pose(w).converged
+        assert there.pose(w).converged
+        errors.append(np.linalg.norm(here.q - there.q) / np.linalg.norm(there.q))
+    assert np.median(errors) < 0.01
+
+
+def test_errors_on_held_out_samples_are_recorded(cubature_model: PosingModel) -> None:
+    record = cubature_model.provenance["cubature"]
+    held = record["held_out"]
+    assert held["states"] == 6  # one in ten of sixty
+    assert 0 < held["energy_median"] <= held["energy_max"] < 0.1
+    assert 0 < held["force_median"] <= held["force_max"]
+    assert 0 < held["displacement_median"] <= held["displacement_max"] < 0.05
+    assert cubature_model.provenance["seed"] == 3
+    json.dumps(cubature_model.provenance)
+
+
+def test_more_tets_make_smaller_errors(snapshots: Snapshots) -> None:
+    subspace = snapshot_pca(snapshots, dimension=10)
+    errors = [
+        hyper_reduce(snapshots.problem, subspace, snapshots, tets=tets).provenance["cubature"][
+            "held_out"
+        ]["displacement_median"]
+        for tets in (15, 60, 240)
+    ]
+    assert errors[2] < errors[1] < errors[0]
+
+
+def test_the_same_arguments_give_the_same_model(
+    cubature_model: PosingModel, snapshots: Snapshots
+) -> None:
+    again = hyper_reduce(snapshots.problem, cubature_model.subspace, snapshots)
+    np.testing.assert_array_equal(again.elastic.tets, cubature_model.elastic.tets)
+    np.testing.assert_array_equal(again.elastic.weights, cubature_model.elastic.weights)
+    other = hyper_reduce(snapshots.problem, cubature_model.subspace, snapshots, seed=1)
+    assert len(other.elastic.tets) != len(again.elastic.tets) or not np.array_equal(
+        other.elastic.weights, again.elastic.weights
+    )
+
+
+def test_a_drag_there_and_back_ends_where_it_began(cubature_model: PosingModel) -> None:
+    session = cubature_model.session()
+    way = [(0.0, 0.0, 0.02 * k) for k in range(20)]
+    for euler in way:
+        assert session.move("head", euler=euler).converged
+    there = session.vertices
+    for euler in [*way[::-1], *way]:
+        session.move("head", euler=euler)
+    size = mass_norms(cubature_model.subspace.mass, (there - way[0]).reshape(-1, 1))
+    miss = mass_norms(cubature_model.subspace.mass, (session.vertices - there).reshape(-1, 1))
+    assert miss < 1e-3 * size
+
+
+def test_a_warm_frame_takes_fewer_evaluations_than_a_cold_one(cubature_model: PosingModel) -> None:
+    session = cubature_model.session()
+    cold = session.move("head", euler=(0.3, 0.2, 0.4)).evaluations
+    warm = [session.move("head", euler=(0.3, 0.2, 0.4 + 0.01 * k)).evaluations for k in range(1, 8)]
+    assert np.median(warm) < cold
+
+
+def test_newton_and_bfgs_reach_the_same_minimum(cubature_model: PosingModel) -> None:
+    shapes = []
+    for minimizer in ("bfgs", "newton"):
+        session = cubature_model.session(minimizer=minimizer, tolerance=1e-12)
+        session.move("head", euler=(0.1, 0.2, 0.1), translation=(0.1, 0.0, 0.2))
+        shapes.append(session.q)
+    assert shapes[0] == pytest.approx(shapes[1], abs=1e-5 * np.linalg.norm(shapes[0]))
+
+
+def test_fewer_dimensions_of_a_model_work(cubature_model: PosingModel) -> None:
+    small = cubature_model.leading(7)
+    report = small.session().move("head", euler=(0.1, 0.0, 0.2))
+    assert report.converged
+    session = cubature_model.session()
+    q = small.session().q
+    assert q.shape == (7,)
+    assert session.q.shape == (16,)
+
+
+def test_bad_input_is_named(
+    snapshots: Snapshots, blending_model: InterpolationModel, posing_model: PosingModel
+) -> None:
+    problem, subspace = snapshots.problem, snapshot_pca(snapshots, dimension=5)
+    for tets in (0, len(problem.mesh.tets) + 1):
+        with pytest.raises(ValueError, match=f"tets is {tets}, but must be between 1 and"):
+            hyper_reduce(problem, subspace, snapshots, tets=tets)
+    few = snapshots.select(np.arange(len(snapshots)) < 9)
+    with pytest.raises(ValueError, match="9 snapshots are too few"):
+        hyper_reduce(problem, subspace, few)
+    with pytest.raises(ValueError, match="posing problems, got a InterpolationProblem"):
+        hyper_reduce(blending_model.problem, blending_model.subspace, snapshots)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="not attached"):
+        hyper_reduce(problem, posing_model.subspace, snapshots)

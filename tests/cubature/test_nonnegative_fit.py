@@ -1,0 +1,88 @@
+"""Few positive weights: what is found, what is refused, and against SciPy's solver."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from snapspace.cubature.nonnegative_fit import nonnegative_fit, nonnegative_weights
+
+FloatArray = NDArray[np.float64]
+
+
+def columns(rows: int, count: int, seed: int = 0) -> NDArray[np.float32]:
+    return np.random.default_rng(seed).normal(size=(rows, count)).astype(np.float32)
+
+
+def test_a_planted_sum_of_few_columns_is_found_again() -> None:
+    A = columns(80, 200)
+    planted = np.array([3, 50, 51, 120, 199])
+    weights = np.array([2.0, 0.5, 1.0, 4.0, 0.1])
+    chosen, found = nonnegative_fit(A, A[:, planted].astype(float) @ weights, 20)
+    large = found > 1e-4
+    np.testing.assert_array_equal(chosen[large], planted)
+    assert found[large] == pytest.approx(weights, rel=1e-4)
+
+
+@given(st.integers(0, 50), st.integers(1, 30))
+def test_weights_are_positive_and_no_more_than_asked_for(seed: int, count: int) -> None:
+    A = columns(40, 60, seed)
+    target = A.sum(axis=1, dtype=float)
+    chosen, weights = nonnegative_fit(A, target, count)
+    assert 1 <= len(chosen) <= count
+    assert (weights > 0).all()
+    assert (np.diff(chosen) > 0).all()
+    residual = target - A[:, chosen].astype(float) @ weights
+    # at the minimum over the chosen columns the residual has nothing along any of them
+    along = A[:, chosen].T.astype(float) @ residual
+    assert along == pytest.approx(np.zeros(len(chosen)), abs=1e-5 * np.linalg.norm(target) * 10)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_more_columns_are_never_worse_and_near_the_best_there_is(seed: int) -> None:
+    A = columns(60, 40, seed)
+    target = np.random.default_rng(100 + seed).normal(size=60) + A.sum(axis=1)
+    _, best = nnls(A.astype(float), target)
+    errors = []
+    for count in (5, 10, 20, 40):
+        chosen, weights = nonnegative_fit(A, target, count)
+        errors.append(np.linalg.norm(A[:, chosen].astype(float) @ weights - target))
+    assert all(later <= former * (1 + 1e-9) for former, later in pairwise(errors))
+    assert best * (1 - 1e-6) <= errors[-1] <= 1.05 * best
+
+
+def test_a_target_that_no_positive_sum_comes_near_is_left_alone() -> None:
+    A = np.abs(columns(20, 30))
+    chosen, weights = nonnegative_fit(A, -np.ones(20), 10)
+    assert len(chosen) == len(weights) == 0
+
+
+def test_columns_that_hardly_matter_get_no_huge_weights() -> None:
+    A = columns(60, 100)
+    A[:, 50:] *= 1e-9  # tets that are carried along rigidly
+    target = A.sum(axis=1, dtype=float) + 0.1 * np.random.default_rng(5).normal(size=60)
+    chosen, weights = nonnegative_fit(A, target, 30)
+    assert (chosen < 50).all()
+    assert weights.max() < 100
+
+
+def test_without_bounds_in_the_way_the_weights_solve_the_normal_equations() -> None:
+    A = np.abs(columns(30, 6)).astype(float)
+    x = np.arange(1.0, 7.0)
+    gram = A.T @ A
+    assert nonnegative_weights(gram, gram @ x, np.zeros(6)) == pytest.approx(x, rel=1e-5)
+
+
+def test_the_start_does_not_get_worse() -> None:
+    A = columns(30, 12).astype(float)
+    target = np.random.default_rng(3).normal(size=30)
+    start = np.abs(np.random.default_rng(4).normal(size=12))
+    x = nonnegative_weights(A.T @ A, A.T @ target, start)
+    assert (x >= 0).all()
+    assert np.linalg.norm(A @ x - target) <= np.linalg.norm(A @ start - target)

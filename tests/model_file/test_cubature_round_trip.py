@@ -1,0 +1,65 @@
+"""Models with a cubature in files: the same bits, and no quartic."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from safetensors import safe_open
+from safetensors.numpy import load_file
+
+from snapspace import Cubature, PosingModel, hyper_reduce, load, snapshot_pca, solve_snapshots
+from snapspace.model_file.container import write_container
+
+from ..snapshots.bars import parameters, posing_bar
+
+
+@pytest.fixture(scope="module")
+def model() -> PosingModel:
+    problem = posing_bar()
+    snapshots = solve_snapshots(problem, parameters(problem, 20), threads=1)
+    return hyper_reduce(problem, snapshot_pca(snapshots, dimension=6), snapshots, tets=20)
+
+
+def test_nothing_is_lost(model: PosingModel, tmp_path: Path) -> None:
+    other = load(model.save(tmp_path / "bar.snapspace"))
+    assert isinstance(other, PosingModel)
+    assert isinstance(other.elastic, Cubature)
+    assert isinstance(model.elastic, Cubature)
+    for name in ("tets", "weights", "rows"):
+        np.testing.assert_array_equal(getattr(other.elastic, name), getattr(model.elastic, name))
+    assert other.provenance == model.provenance
+    here, there = model.session(), other.session()
+    for w in parameters(model.problem, 3, seed=8):
+        here.pose(w)
+        there.pose(w)
+        np.testing.assert_array_equal(here.vertices, there.vertices)
+
+
+def test_the_file_names_its_kind_so_that_older_readers_refuse_it(
+    model: PosingModel, tmp_path: Path
+) -> None:
+    path = model.save(tmp_path / "bar.snapspace")
+    with safe_open(path, framework="np") as file:
+        assert file.metadata()["kind"] == "posing-cubature"
+        assert "quartic" not in file.keys()
+
+
+@pytest.mark.parametrize("change", ["weight", "tet", "length"])
+def test_a_cubature_that_does_not_fit_is_refused(
+    model: PosingModel, tmp_path: Path, change: str
+) -> None:
+    path = model.save(tmp_path / "bar.snapspace")
+    arrays = load_file(path)
+    with safe_open(path, framework="np") as file:
+        header = {k: v for k, v in file.metadata().items() if k != "checksum"}
+    if change == "weight":
+        arrays["cubature_weights"][2] = -1.0
+    elif change == "tet":
+        arrays["cubature_tets"][-1] = len(model.problem.mesh.tets)
+    else:
+        arrays["cubature_weights"] = arrays["cubature_weights"][:-1]
+    write_container(path, arrays, header)
+    with pytest.raises(ValueError, match="does not fit together"):
+        load(path)

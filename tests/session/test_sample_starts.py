@@ -1,0 +1,69 @@
+"""Starts between samples: they reproduce these, and only jumps take them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel
+from snapspace.session.sample_starts import SampleStarts
+
+
+def test_at_a_sample_the_start_is_the_sample(posing_model: PosingModel) -> None:
+    starts = SampleStarts(posing_model)
+    for w, q in zip(
+        posing_model.training_parameters, posing_model.training_coordinates, strict=True
+    ):
+        found = starts(posing_model.problem.offsets(w))
+        assert found == pytest.approx(q, abs=1e-4 * np.abs(posing_model.training_coordinates).max())
+
+
+def test_repeated_samples_do_no_harm(posing_model: PosingModel) -> None:
+    twice = replace(
+        posing_model,
+        training_parameters=np.vstack([posing_model.training_parameters] * 2),
+        training_coordinates=np.vstack([posing_model.training_coordinates] * 2),
+    )
+    offsets = posing_model.problem.offsets(0.4 * posing_model.problem.domain.half_widths)
+    once = SampleStarts(posing_model)(offsets)
+    assert SampleStarts(twice)(offsets) == pytest.approx(once, abs=1e-3 * np.abs(once).max())
+
+
+def test_distances_are_those_of_the_handles_energy(posing_model: PosingModel) -> None:
+    problem = posing_model.problem
+    starts = SampleStarts(posing_model)
+    w = np.zeros(problem.parameter_count)
+    w[:3] = (0.3, -0.1, 0.2)
+    offsets = problem.offsets(w)
+    expected = np.sqrt(posing_model.handles.value(np.zeros(posing_model.dimension), offsets))
+    assert starts.distance(offsets, np.zeros_like(offsets)) == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_jump_to_a_sample_starts_there(posing_model: PosingModel) -> None:
+    w = posing_model.training_parameters[7]
+    with_samples = posing_model.session()
+    bare = replace(
+        posing_model,
+        training_parameters=np.zeros((0, len(w))),
+        training_coordinates=np.zeros((0, posing_model.dimension)),
+    ).session()
+    near, far = with_samples.pose(w), bare.pose(w)
+    assert near.converged
+    assert near.evaluations <= far.evaluations
+    assert near.value <= far.value * (1 + 1e-6)
+
+
+def test_a_drag_never_asks_the_samples(posing_model: PosingModel) -> None:
+    session = posing_model.session()
+    broken = replace(
+        posing_model, training_coordinates=np.full_like(posing_model.training_coordinates, np.nan)
+    ).session()
+    for k in range(10):
+        euler = (0.0, 0.0, 0.01 * k)
+        assert broken.move("head", euler=euler).converged
+        session.move("head", euler=euler)
+    np.testing.assert_array_equal(session.q, broken.q)
+    # and a guess that is no number is not taken either
+    assert broken.move("head", euler=(0.0, 0.0, 0.7)).converged
