@@ -101,15 +101,15 @@ def show(
 
 
 def drag(
-    model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int
+    model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int, **options: Any
 ) -> tuple[np.ndarray, np.ndarray]:
     """Milliseconds of solve and of solve + all vertices along a smooth path through the domain.
 
     The path joins random parameters of the domain by straight lines, 60 frames each: a hand that
-    moves from one end of the domain to another in a second.
+    moves from one end of the domain to another in a second. Options are those of the session.
     """
     corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
-    session = model.session()
+    session = model.session(**options)
     session.set_parameters(corners[0])
     solve, frame = [], []
     for k in range(frames):

@@ -480,6 +480,14 @@ def peak_flops(*, single: bool, repeats: int = 20) -> float:
 def read_bandwidth(bytes: int, *, repeats: int = 20) -> float:
     """Bytes per second that one thread reads from an array of this size."""
 
+def time_quartic(dimension: int, coefficients: NDArray[numpy.float64], q: NDArray[numpy.float64], *, single: bool = False, repeats: int = 1000) -> tuple[float, float]:
+    """
+    Seconds of value and gradient, and of value, gradient and Hessian, on one thread.
+    """
+
+def time_reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64], *, repeats: int = 30) -> float:
+    """Seconds of tau + sum of q_i modes_i, on one thread."""
+
 class PartTimes:
     """Seconds and operations of the parts of an L-BFGS step."""
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import _core as core
+from snapspace.reduction import coefficient_count
 
 from .snapshots.bars import posing_bar
 
@@ -29,3 +30,16 @@ def test_single_precision_has_twice_the_peak() -> None:
 def test_reading_takes_time() -> None:
     """A loop that the compiler leaves out reads at any rate."""
     assert 1e8 < core.read_bandwidth(1 << 24, repeats=3) < 1e13
+
+
+def test_an_evaluation_reads_all_coefficients() -> None:
+    """Of a quartic beyond the caches: not much faster than reading them."""
+    d = 60
+    rng = np.random.default_rng(0)
+    coefficients, q = rng.normal(size=coefficient_count(d)), rng.normal(size=d)
+    bound = coefficients.nbytes / core.read_bandwidth(coefficients.nbytes, repeats=5)
+    first, both = core.time_quartic(d, coefficients, q, repeats=5)
+    assert 0.5 * bound < first and 0.5 * bound < both
+    modes = rng.normal(size=(30, 90_000))
+    bound = modes.nbytes / core.read_bandwidth(modes.nbytes, repeats=3)
+    assert core.time_reconstruct(modes[0], modes, q[:30], repeats=3) > 0.5 * bound

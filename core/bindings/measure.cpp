@@ -1,5 +1,6 @@
 #include "bindings/arrays.h"
 #include "measure/machine_peak.h"
+#include "measure/online_times.h"
 #include "measure/solver_parts.h"
 
 namespace snapspace {
@@ -24,6 +25,36 @@ void bind_measure(nb::module_& m) {
       },
       nb::arg("bytes"), nb::kw_only(), nb::arg("repeats") = 20,
       "Bytes per second that one thread reads from an array of this size.");
+
+  m.def(
+      "time_quartic",
+      [](int dimension, VectorIn coefficients, VectorIn q, bool single, int repeats) {
+        require(dimension >= 1 && q.size() == static_cast<std::size_t>(dimension) &&
+                    coefficients.size() == online::quartic_count(dimension + 1),
+                "coefficients (C(d+4,4),) and q (d,) do not match");
+        volatile double sink = 0.0;
+        const auto storage =
+            single ? online::Storage::single_precision : online::Storage::double_precision;
+        online::Quartic quartic(dimension, coefficients.data(), storage);
+        const nb::gil_scoped_release release;
+        const QuarticTimes times = time_quartic(quartic, q.data(), repeats, sink);
+        return std::make_pair(times.value_and_gradient, times.derivatives);
+      },
+      nb::arg("dimension"), nb::arg("coefficients"), nb::arg("q"), nb::kw_only(),
+      nb::arg("single") = false, nb::arg("repeats") = 1000,
+      "Seconds of value and gradient, and of value, gradient and Hessian, on one thread.");
+  m.def(
+      "time_reconstruct",
+      [](VectorIn tau, MatrixIn modes, VectorIn q, int repeats) {
+        require(modes.shape(0) == q.size() && modes.shape(1) == tau.size(),
+                "tau (3n,), modes (d, 3n) and q (d,) do not match");
+        volatile double sink = 0.0;
+        const nb::gil_scoped_release release;
+        return time_reconstruct(tau.size(), static_cast<int>(q.size()), tau.data(), modes.data(),
+                                q.data(), repeats, sink);
+      },
+      nb::arg("tau"), nb::arg("modes"), nb::arg("q"), nb::kw_only(), nb::arg("repeats") = 30,
+      "Seconds of tau + sum of q_i modes_i, on one thread.");
 
   nb::class_<PartTimes>(m, "PartTimes", "Seconds and operations of the parts of an L-BFGS step.")
       .def_ro("kernel_seconds", &PartTimes::kernel_seconds)

@@ -28,7 +28,7 @@ ALLOWED: dict[str, set[str]] = {
     "reduction": {"mesh", "energy", "online", "threads"},
     "polish": {"simd", "snapshots", "threads"},
     "fitting": {"mesh", "cholesky", "energy", "snapshots", "threads"},
-    "measure": {"energy", "mesh", "simd", "snapshots", "threads"},
+    "measure": {"energy", "mesh", "online", "simd", "snapshots", "threads"},
     "bindings": {
         "measure",
         "cholesky",

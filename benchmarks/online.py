@@ -1,0 +1,279 @@
+"""The live solve: the exact quartic, a drag, ARAP beside it, vertices, large meshes, coefficients.
+
+    python benchmarks/online.py --part quartic       # against what the caches deliver, and NumPy
+    python benchmarks/online.py --part drag          # Newton's method and BFGS on a hand's way
+    python benchmarks/online.py --part arap          # libigl's ARAP on the same mesh and handles
+    python benchmarks/online.py --part vertices      # against what the memory delivers
+    python benchmarks/online.py --part mesh          # frame time at 25k and at 1M tets
+    python benchmarks/online.py --part coefficients  # against the rate of a symmetric product
+
+Times of one run are compared with each other: ratios hold, seconds depend on the machine. A model
+file (--model) spares the snapshots.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import common
+import numpy as np
+from scipy.linalg.blas import dsyrk
+
+import snapspace as ss
+from snapspace import _core as core
+from snapspace.reduction import coefficient_count
+
+Rows = list[tuple[str, Any, str]]
+
+
+def model_of(args: argparse.Namespace) -> ss.PosingModel:
+    """The model file, or a new model of the problem."""
+    if args.model:
+        model = ss.load(args.model)
+        assert isinstance(model, ss.PosingModel)
+        return model.leading(min(args.dimension, model.dimension))
+    problem = common.read_problem(args.problem)
+    samples = ss.sample(problem.domain, args.samples, seed=args.seed)
+    snapshots = common.solved(problem, samples)
+    subspace = ss.snapshot_pca(snapshots, dimension=args.dimension)
+    return ss.reduce(problem, subspace, snapshots=snapshots)
+
+
+def best_of(repeats: int, work: Callable[[], Any]) -> float:
+    """Shortest seconds of work()."""
+    seconds = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - begin)
+    return min(seconds)
+
+
+def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """Energy, gradient and Hessian of random quartics; bound: reading the coefficients once."""
+    rng = np.random.default_rng(args.seed)
+    result: dict[str, Any] = {}
+    rows: Rows = []
+    for d in (20, 40, 60):
+        coefficients, q = rng.normal(size=coefficient_count(d)), rng.normal(size=d)
+        x = np.append(1.0, q)
+        pairs = np.triu_indices(d + 1)
+        gram = rng.normal(size=(len(pairs[0]), len(pairs[0])))
+
+        def dense(x: np.ndarray = x, pairs: Any = pairs, gram: np.ndarray = gram) -> Any:
+            """x_i x_j (A x x)_ij with its gradient: the form that a dense matrix has."""
+            outer = x[pairs[0]] * x[pairs[1]]
+            product = gram @ outer
+            gradient = np.zeros(len(x))
+            np.add.at(gradient, pairs[0], product * x[pairs[1]])
+            np.add.at(gradient, pairs[1], product * x[pairs[0]])
+            return outer @ product, 2.0 * gradient
+
+        numpy_seconds = best_of(200 if d < 60 else 30, dense)
+        entry: dict[str, Any] = {"numpy_value_and_gradient": numpy_seconds}
+        for single in (False, True):
+            size = coefficients.size * (4 if single else 8)
+            bound = size / core.read_bandwidth(size, repeats=300)
+            first, second = core.time_quartic(d, coefficients, q, single=single)
+            name = "single" if single else "double"
+            entry[name] = {"bound": bound, "value_and_gradient": first, "derivatives": second}
+            goal = "<= 30" if d == 40 and not single else ""
+            aim = ">= 0.5" if d == 40 and not single else ""
+            label = f"d = {d}, {name}"
+            rows += [
+                (f"{label}: reading {size / 1e6:.2f} MB once, us", 1e6 * bound, ""),
+                (f"{label}: value + gradient, us", 1e6 * first, ""),
+                (f"{label}: share of the read rate", bound / first, ""),
+                (f"{label}: value + gradient + Hessian, us", 1e6 * second, goal),
+                (f"{label}: share of the read rate", bound / second, aim),
+            ]
+        rows.append(
+            (f"d = {d}: NumPy, dense matrix, value + gradient, us", 1e6 * numpy_seconds, "")
+        )
+        ratio = numpy_seconds / entry["double"]["value_and_gradient"]
+        rows.append((f"d = {d}: times faster than NumPy", ratio, ""))
+        result[str(d)] = entry
+    return result, rows
+
+
+def drag(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """A hand that moves through the domain, 60 frames from one end to another."""
+    model = model_of(args)
+    result: dict[str, Any] = {"dimension": model.dimension}
+    rows: Rows = []
+    for minimizer in ("newton", "bfgs"):
+        for precision in ("double", "single"):
+            solve, frame = common.drag(
+                model, frames=args.frames, seed=7, minimizer=minimizer, precision=precision
+            )
+            label = f"{minimizer}, {precision}"
+            goal = "<= 0.5" if label == "newton, double" else ""
+            figures = {
+                "solve_median": float(np.median(solve)),
+                "solve_p95": float(np.percentile(solve, 95)),
+                "frame_median": float(np.median(frame)),
+                "frame_p95": float(np.percentile(frame, 95)),
+            }
+            result[label] = figures
+            rows += [
+                (f"{label}: solve, ms, median", figures["solve_median"], goal),
+                (f"{label}: solve, ms, 95 %", figures["solve_p95"], ""),
+                (f"{label}: with vertices, ms, median", figures["frame_median"], ""),
+                (f"{label}: with vertices, ms, 95 %", figures["frame_p95"], ""),
+            ]
+    return result, rows
+
+
+def arap(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """As-rigid-as-possible on the tets with the same handles, ten iterations a frame."""
+    try:
+        import igl
+    except ImportError:
+        sys.exit("--part arap needs libigl: pip install libigl")
+    model = model_of(args)
+    problem = model.problem
+    vertices, tets = problem.mesh.vertices, problem.mesh.tets.astype(np.int64)
+    data = igl.ARAPData()
+    data.max_iter = 10
+    igl.arap_precomputation(vertices, tets, 3, problem.pinned.astype(np.int32), data)
+    ends = ss.sample(problem.domain, 2, seed=7)
+    session, shape = model.session(), vertices.copy()
+    ours, with_vertices, theirs = [], [], []
+    for share in np.linspace(0, 1, args.arap_frames):
+        w = share * ends[0]
+        begin = time.perf_counter()
+        ours.append(session.pose(w).seconds)
+        _ = session.vertices
+        with_vertices.append(time.perf_counter() - begin)
+        pinned = vertices[problem.pinned] + problem.target_displacements(problem.offsets(w))
+        begin = time.perf_counter()
+        shape = igl.arap_solve(pinned, data, shape)
+        theirs.append(time.perf_counter() - begin)
+    result = {
+        "arap": float(np.median(theirs)),
+        "solve": float(np.median(ours)),
+        "frame": float(np.median(with_vertices)),
+    }
+    rows: Rows = [
+        ("ARAP of libigl, 10 iterations, ms a frame", 1e3 * result["arap"], ""),
+        ("solve, ms", 1e3 * result["solve"], ""),
+        ("solve and vertices, ms", 1e3 * result["frame"], ""),
+        ("times faster, solve", result["arap"] / result["solve"], ""),
+        ("times faster, with vertices", result["arap"] / result["frame"], ""),
+    ]
+    return result, rows
+
+
+def vertices(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """tau + U q for 32k vertices; bound: reading U once."""
+    rng = np.random.default_rng(args.seed)
+    n, d = 32_000, args.dimension
+    tau, modes, q = rng.normal(size=3 * n), rng.normal(size=(d, 3 * n)), rng.normal(size=d)
+    bound = modes.nbytes / core.read_bandwidth(modes.nbytes)
+    compiled = core.time_reconstruct(tau, modes, q)
+    called = best_of(30, lambda: core.reconstruct(tau, modes, q))
+    peer = best_of(30, lambda: tau + q @ modes)
+    result = {"bound": bound, "compiled": compiled, "called": called, "numpy": peer}
+    rows: Rows = [
+        ("reading U once, ms", 1e3 * bound, f"{modes.nbytes / 1e6:.0f} MB"),
+        ("tau + U q, ms", 1e3 * compiled, ""),
+        ("share of the read rate", bound / compiled, ">= 0.6"),
+        ("into a new NumPy array, ms", 1e3 * called, ""),
+        ("NumPy, ms", 1e3 * peer, ""),
+    ]
+    return result, rows
+
+
+def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """The same reduced problem beside a small and a large mesh, frames in turn."""
+    problem = common.creature_problem(args.sizes[0])
+    samples = ss.sample(problem.domain, 40, seed=args.seed)
+    snapshots = common.solved(problem, samples)
+    subspace = ss.snapshot_pca(snapshots, dimension=min(args.dimension, 36))
+    small = ss.reduce(problem, subspace, snapshots=snapshots)
+    large_problem = common.creature_problem(args.sizes[1])
+    size = (subspace.dimension, large_problem.tau.size)
+    basis = np.random.default_rng(args.seed).normal(size=size).T  # only its size matters here
+    large = replace(
+        small,
+        problem=large_problem,
+        subspace=ss.AffineSubspace(
+            large_problem.tau, basis, large_problem.mass(), subspace.eigenvalues
+        ),
+    )
+    sessions = [small.session(), large.session()]
+    corners = ss.sample(problem.domain, args.frames // 60 + 2, seed=7)
+    seconds: list[list[float]] = [[], []]
+    for k in range(args.frames):
+        w = corners[k // 60] + (corners[k // 60 + 1] - corners[k // 60]) * (k % 60) / 60.0
+        for session, times in zip(sessions, seconds, strict=True):
+            begin = time.perf_counter()
+            session.pose(w)
+            times.append(time.perf_counter() - begin)
+    medians = [float(np.median(times)) for times in seconds]
+    result = {"sizes": [len(m.problem.mesh.tets) for m in (small, large)], "medians": medians}
+    rows: Rows = [
+        (f"{len(m.problem.mesh.tets)} tets: set and solve, ms, median", 1e3 * t, "")
+        for m, t in zip((small, large), medians, strict=True)
+    ]
+    rows.append(("ratio", medians[1] / medians[0], "0.9 to 1.1"))
+    return result, rows
+
+
+def coefficients(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
+    """The quartic's coefficients; bound: the symmetric product that they are, at BLAS's rate."""
+    problem = common.read_problem(args.problem)
+    rng = np.random.default_rng(args.seed)
+    d, n = args.dimension, len(problem.mesh.vertices)
+    noise = ss.AffineSubspace(
+        problem.tau, rng.normal(size=(d, 3 * n)).T, problem.mass(), np.ones(d)
+    )
+    problem.energy.value(problem.base)
+    seconds = best_of(2, lambda: ss.reduced_quartic(problem.energy, noise))
+    columns = (d + 1) * (d + 2) // 2
+    flops = 6.0 * len(problem.mesh.tets) * columns * (columns + 1)
+    panel = rng.normal(size=(columns, 6 * 2048)).T
+    syrk = columns * (columns + 1) * len(panel) / best_of(5, lambda: dsyrk(1.0, panel, trans=1))
+    threads = os.cpu_count() or 1
+    peak = threads * core.peak_flops(single=False)
+    result = {"seconds": seconds, "rate": flops / seconds, "syrk": syrk, "peak": peak}
+    rows: Rows = [
+        (f"coefficients at d = {d}, s", seconds, "<= 15"),
+        ("GFLOP/s", result["rate"] / 1e9, ""),
+        ("BLAS dsyrk of such a panel, GFLOP/s", syrk / 1e9, "all threads"),
+        ("share of dsyrk", result["rate"] / syrk, ">= 0.7"),
+        ("share of the multiply-adds in registers", result["rate"] / peak, f"{threads} threads"),
+    ]
+    return result, rows
+
+
+PARTS = {f.__name__: f for f in (quartic, drag, arap, vertices, mesh, coefficients)}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--part", choices=PARTS, default="quartic")
+    parser.add_argument("--problem", default="dragon")
+    parser.add_argument("--model", help="a .snapspace file: drag and arap take it as it is")
+    parser.add_argument("--samples", type=int, default=64)
+    parser.add_argument("--dimension", type=int, default=40)
+    parser.add_argument("--frames", type=int, default=600)
+    parser.add_argument("--arap-frames", type=int, default=20)
+    parser.add_argument("--sizes", type=int, nargs=2, default=[25_000, 1_000_000])
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+    result, rows = PARTS[args.part](args)
+    common.show(args.part, rows, {"part": args.part, **result}, args.json)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
