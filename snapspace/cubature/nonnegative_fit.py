@@ -13,6 +13,8 @@ IndexArray = NDArray[np.intp]
 
 #: Share of the wanted columns that joins before the weights are found anew.
 BATCH = 0.1
+#: Share that may be missing at the end: the last columns would take as many rounds as all others.
+MISSING = 0.02
 #: Added to the diagonal of the scaled normal equations: columns that are nearly the same share.
 RIDGE = 1e-9
 
@@ -48,7 +50,7 @@ def nonnegative_fit(
     residual = target
     batch = max(1, round(BATCH * count))
     best = np.inf
-    while len(chosen) < count:
+    while count - len(chosen) > MISSING * count:
         products = residual.astype(np.float32) @ columns
         products[chosen] = 0.0
         fresh = _largest(products, min(batch, count - len(chosen)))
