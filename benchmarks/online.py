@@ -27,7 +27,7 @@ from scipy.linalg.blas import dsyrk
 
 import snapspace as ss
 from snapspace import _core as core
-from snapspace.reduction import coefficient_count
+from snapspace.reduction import coefficient_count, reduced_quartic
 
 Rows = list[tuple[str, Any, str]]
 
@@ -235,7 +235,7 @@ def coefficients(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         problem.tau, rng.normal(size=(d, 3 * n)).T, problem.mass(), np.ones(d)
     )
     problem.energy.value(problem.base)
-    seconds = best_of(2, lambda: ss.reduced_quartic(problem.energy, noise))
+    seconds = best_of(2, lambda: reduced_quartic(problem.energy, noise))
     columns = (d + 1) * (d + 2) // 2
     flops = 6.0 * len(problem.mesh.tets) * columns * (columns + 1)
     panel = rng.normal(size=(columns, 6 * 2048)).T

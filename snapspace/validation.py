@@ -30,7 +30,7 @@ class Validation:
     shape; of interpolations after rigid registration
     projection_error : the same for the M-projection of x_full into the subspace: the least possible
     energy_ratio : objective of the reduced solution over that of the full one
-    iterations : of BFGS
+    iterations : of the session
     solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
     reference : the full solutions
     """

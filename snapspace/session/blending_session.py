@@ -29,7 +29,7 @@ class BlendingSession(Session[InterpolationModel]):
     Notes
     -----
     A solve starts from the last frame's shape or from the nearest sample that the model was trained
-    with, whichever has the lower energy: from afar BFGS could end in another minimum.
+    with, whichever has the lower energy: from afar a descent could end in another minimum.
 
     Examples
     --------
