@@ -106,14 +106,25 @@ def test_newton_and_bfgs_reach_the_same_minimum(cubature_model: PosingModel) -> 
     assert shapes[0] == pytest.approx(shapes[1], abs=1e-5 * np.linalg.norm(shapes[0]))
 
 
-def test_fewer_dimensions_of_a_model_work(cubature_model: PosingModel) -> None:
-    small = cubature_model.leading(7)
-    report = small.session().move("head", euler=(0.1, 0.0, 0.2))
-    assert report.converged
+@pytest.mark.parametrize("dimension", [7, 10])
+def test_fewer_dimensions_are_those_of_the_smaller_model(
+    cubature_model: PosingModel, dimension: int
+) -> None:
+    small = cubature_model.leading(dimension).session(tolerance=1e-11)
+    session = cubature_model.session(tolerance=1e-11)
+    session.dimension = dimension
+    for one in (small, session):
+        assert one.move("head", euler=(0.1, 0.0, 0.2)).converged
+    assert session.q == pytest.approx(small.q, abs=1e-5 * np.linalg.norm(small.q))
+    before = session.solve().value
+    session.dimension = 16
+    assert session.solve().value < before
+
+
+def test_a_solve_anew_is_never_higher(cubature_model: PosingModel) -> None:
     session = cubature_model.session()
-    q = small.session().q
-    assert q.shape == (7,)
-    assert session.q.shape == (16,)
+    value = session.move("head", euler=(0.2, -0.3, 0.2), translation=(0.2, 0.0, 0.1)).value
+    assert session.solve_anew().value <= value * (1 + 1e-6)
 
 
 def test_bad_input_is_named(
