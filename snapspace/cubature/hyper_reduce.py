@@ -21,9 +21,10 @@ from .training_rows import training_rows
 
 FloatArray = NDArray[np.float64]
 
-#: Tets per dimension by default. On the Dragon the solutions are then those of the exact energy.
+#: Tets per dimension by default. On the Dragon, d = 120, solutions are then as far from the full
+#: ones as those of the exact energy.
 TETS_PER_DIMENSION = 8
-#: But no more than this: frames of d = 250 then take some 3 ms.
+#: But no more than this: an evaluation takes time in proportion.
 MOST_TETS = 1000
 #: Candidates, and rows of forces, per wanted tet.
 CANDIDATES, ROWS = 20, 3

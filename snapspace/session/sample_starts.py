@@ -18,9 +18,9 @@ class SampleStarts:
 
     Radial basis functions -r with a constant, over the offsets D_h of the moving handles in the
     metric of the handles' energy: the distance of two motions is how far they move the handles
-    apart, whatever parameters describe them. On the Dragon, d = 120, exact solves that start here
-    end 0.019 (median) from the full solutions, against 0.022 from the nearest sample: with many
-    minima near each other the start decides.
+    apart, whatever parameters describe them. On the Dragon (d = 120, 960 tets, 30 unseen poses)
+    solves that start here end 0.018 / 0.029 (median / mean) from the full solutions, from the
+    nearest sample 0.022 / 0.028, from rest 0.025 / 0.041.
 
     Parameters
     ----------
