@@ -1,12 +1,14 @@
+#include "online/cubature.h"
+
 #include "bindings/live_loop.h"
-#include "online/cubature_solver.h"
+#include "online/posing_solver.h"
 
 namespace snapspace {
 
 namespace {
 
 using online::Cubature;
-using online::CubatureSolver;
+using CubatureSolver = online::PosingSolver<Cubature>;
 using CubatureLoop = Loop<CubatureSolver>;
 using RowsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 

@@ -8,13 +8,13 @@ namespace snapspace {
 namespace {
 
 using online::BlendingSolver;
-using online::PosingSolver;
 using online::Quartic;
 
 online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
+using PosingSolver = online::PosingSolver<Quartic>;
 using PosingLoop = Loop<PosingSolver>;
 using BlendingLoop = Loop<BlendingSolver>;
 
@@ -79,8 +79,8 @@ void bind_online(nb::module_& m) {
                     S.shape(1) == 4 && S.shape(2) == 4,
                 "coefficients (C(d+4,4),), K (d,d), L (h,d,12), S (h,4,4) do not match");
         const auto dimension = static_cast<int>(d);
-        PosingSolver solver(dimension, static_cast<int>(L.shape(0)), coefficients.data(), K.data(),
-                            L.data(), S.data(), storage(single));
+        PosingSolver solver(Quartic(dimension, coefficients.data(), storage(single)),
+                            static_cast<int>(L.shape(0)), K.data(), L.data(), S.data());
         require_valid(solver,
                       "the reduced Hessian at rest is not positive definite; the model is "
                       "damaged or its handles do not hold the shape");

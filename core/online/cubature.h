@@ -18,6 +18,9 @@ namespace snapspace::online {
 /// per SIMD lane. Takes no memory after construction.
 class Cubature {
  public:
+  /// Whether a Hessian costs much more than a gradient.
+  static constexpr bool kHessianIsDear = true;
+
   /// Copies its arrays.
   /// @param rows  tets x 9 x dimension; entry 3 a + b of the second is d u_a / d x_b
   /// @param weights  tets, the volume that each stands for

@@ -1,23 +1,25 @@
 #pragma once
+#include <utility>
+
 #include "online/handle_quadric.h"
 #include "online/minimizers.h"
-#include "online/quartic.h"
 
 namespace snapspace::online {
 
-/// Minimises the reduced posing energy, elastic quartic + handle quadric, frame by frame.
+/// Minimises the reduced posing energy, elastic energy + handle quadric, frame by frame.
 ///
-/// This is the live loop. Its cost depends on the dimension and the number of handles only, and it
-/// takes no memory after construction.
+/// This is the live loop. Its cost does not depend on the mesh, and it takes no memory after
+/// construction.
+/// @tparam Elastic  Quartic or Cubature
+template <class Elastic>
 class PosingSolver {
  public:
-  /// Copies the arrays, which are as Quartic and HandleQuadric take them.
-  PosingSolver(int dimension, int handles, const double* quartic_coefficients, const double* K,
-               const double* L, const double* S, Storage storage = Storage::double_precision)
-      : elastic_(dimension, quartic_coefficients, storage),
-        handles_(dimension, handles, K, L, S),
-        minimizers_(dimension),
-        valid_(minimizers_.prepare(*this, dimension)) {}
+  /// Copies K, L and S, which are as HandleQuadric takes them.
+  PosingSolver(Elastic elastic, int handles, const double* K, const double* L, const double* S)
+      : elastic_(std::move(elastic)),
+        handles_(elastic_.dimension(), handles, K, L, S),
+        minimizers_(elastic_.dimension()),
+        valid_(minimizers_.prepare(*this, elastic_.dimension())) {}
 
   /// False if the Hessian at rest is not positive definite: a solve has then no matrix to start
   /// from.
@@ -49,13 +51,16 @@ class PosingSolver {
     return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
-  /// From q, in place.
+  /// From q, in place. Where a Hessian is dear, BFGS keeps its approximation from frame to frame:
+  /// the handles' part never changes, and along a drag the elastic part changes slowly.
   Report solve(double* q, Method method, const Termination& stop) {
+    if constexpr (Elastic::kHessianIsDear)
+      if (method == Method::bfgs) return minimizers_.minimize_onwards(*this, q, stop);
     return minimizers_.minimize(*this, method, q, stop);
   }
 
  private:
-  Quartic elastic_;
+  Elastic elastic_;
   HandleQuadric handles_;
   Minimizers minimizers_;
   bool valid_;

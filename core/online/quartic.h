@@ -26,6 +26,9 @@ enum class Storage : int { double_precision = 0, single_precision = 1 };
 /// From them H follows at the cost of a form of degree three.
 class Quartic {
  public:
+  /// Whether a Hessian costs much more than a gradient.
+  static constexpr bool kHessianIsDear = false;
+
   /// All coefficients are zero until they are set. Takes all its memory here.
   explicit Quartic(int dimension, Storage storage = Storage::double_precision);
   /// @param coefficients  quartic_count(dimension + 1) doubles

@@ -8,12 +8,14 @@
 
 #include "online/blending_solver.h"
 #include "online/posing_solver.h"
+#include "online/quartic.h"
 #include "online/reconstruct.h"
 
 using snapspace::online::BlendingSolver;
 using snapspace::online::Method;
-using snapspace::online::PosingSolver;
+using snapspace::online::Quartic;
 using snapspace::online::Report;
+using PosingSolver = snapspace::online::PosingSolver<Quartic>;
 
 /// One of the two solvers, with its coordinates.
 struct snapspace_session {
@@ -54,7 +56,7 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
                                            const snapspace_basis* basis, int* error) {
   if (dimension < 1 || handles < 1 || !quartic || !K || !L || !S || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
-  auto solver = std::make_unique<PosingSolver>(dimension, handles, quartic, K, L, S);
+  auto solver = std::make_unique<PosingSolver>(Quartic(dimension, quartic), handles, K, L, S);
   if (!solver->valid()) return fail(error, SNAPSPACE_NOT_DEFINITE);
   auto session = std::make_unique<snapspace_session>();
   session->posing = std::move(solver);

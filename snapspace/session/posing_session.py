@@ -158,6 +158,11 @@ class PosingSession(Session[PosingModel]):
     def _make_loop(self, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
         elastic, handles = self.model.elastic, self.model.handles
         if isinstance(elastic, Cubature):
+            if single:
+                raise ValueError(
+                    "Session: precision 'single' is for exact quartics; a cubature always keeps its "
+                    "rows so"
+                )
             rows, weights, material = elastic.rows, elastic.weights, elastic.material
             return core.CubatureLoop(
                 rows, weights, material.lam, material.mu, handles.K, handles.L, handles.S

@@ -127,6 +127,12 @@ def test_a_solve_anew_is_never_higher(cubature_model: PosingModel) -> None:
     assert session.solve_anew().value <= value * (1 + 1e-6)
 
 
+def test_a_precision_that_it_does_not_have_is_refused(cubature_model: PosingModel) -> None:
+    """Rows are always kept in one way; silence would promise another model."""
+    with pytest.raises(ValueError, match="a cubature always keeps its rows so"):
+        cubature_model.session(precision="single")
+
+
 def test_bad_input_is_named(
     snapshots: Snapshots, blending_model: InterpolationModel, posing_model: PosingModel
 ) -> None:
