@@ -28,12 +28,12 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
-	$(BIN)/clang-format --dry-run --Werror $$(find core -name '*.h' -o -name '*.cpp')
+	$(BIN)/clang-format --dry-run --Werror $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 format: setup
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
-	$(BIN)/clang-format -i $$(find core -name '*.h' -o -name '*.cpp')
+	$(BIN)/clang-format -i $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 clean:
 	rm -rf $(VENV) build demo

@@ -22,7 +22,8 @@ struct snapspace_session {
   std::unique_ptr<PosingSolver> posing;
   std::unique_ptr<BlendingSolver> blending;
   snapspace_basis basis;
-  std::vector<double> q;  // as many as the model has
+  std::vector<double> q;         // as many as the model has
+  std::vector<double> gradient;  // as many; of a value that is asked for
 
   [[nodiscard]] int dimension() const {
     return posing ? posing->dimension() : blending->dimension();
@@ -62,6 +63,7 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
   session->posing = std::move(solver);
   session->basis = *basis;
   session->q.assign(dimension, 0.0);
+  session->gradient.assign(dimension, 0.0);
   return succeed(error, std::move(session));
 }
 
@@ -75,6 +77,7 @@ snapspace_session* snapspace_create_blending(int dimension, int poses, const dou
   session->blending = std::move(solver);
   session->basis = *basis;
   session->q.assign(dimension, 0.0);
+  session->gradient.assign(dimension, 0.0);
   return succeed(error, std::move(session));
 }
 
@@ -127,6 +130,15 @@ int snapspace_solve(snapspace_session* session, const snapspace_options* options
                                         : session->blending->solve(q, method, stop);
   *report = {static_cast<snapspace_status>(result.status), result.iterations, result.evaluations,
              result.value, result.gradient_norm};
+  return SNAPSPACE_OK;
+}
+
+int snapspace_value(snapspace_session* session, const double* q, double* value) {
+  if (!session || !q || !value) return SNAPSPACE_BAD_ARGUMENT;
+  if (!all_finite(q, session->dimension())) return SNAPSPACE_NOT_FINITE;
+  double* gradient = session->gradient.data();
+  *value = session->posing ? session->posing->value_and_gradient(q, gradient)
+                           : session->blending->value_and_gradient(q, gradient);
   return SNAPSPACE_OK;
 }
 

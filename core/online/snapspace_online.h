@@ -89,6 +89,10 @@ int snapspace_dimension(const snapspace_session* session);
 int snapspace_solve(snapspace_session* session, const snapspace_options* options,
                     snapspace_report* report);
 
+/* The reduced objective at coordinates q (dimension), for what is set; the session stays as it is.
+ */
+int snapspace_value(snapspace_session* session, const double* q, double* value);
+
 /* Coordinates of the present shape (dimension). */
 int snapspace_get_q(const snapspace_session* session, double* q);
 int snapspace_set_q(snapspace_session* session, const double* q);

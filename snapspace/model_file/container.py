@@ -22,8 +22,15 @@ def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
     """Writes arrays and header with their checksum; the file is complete or not there."""
     arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
     header = {**header, "checksum": checksum(arrays, header)}
+    content = container_bytes(arrays, header)
     with atomic_file(path) as temporary:
-        temporary.write_bytes(_sorted_header(save(arrays, header)))
+        temporary.write_bytes(content)
+
+
+def container_bytes(arrays: Arrays, header: dict[str, str]) -> bytes:
+    """Arrays and header in safetensors layout; the same bytes for the same content."""
+    whole = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
+    return _sorted_header(save(whole, header))
 
 
 def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:

@@ -78,6 +78,7 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "validation",
     },
+    "page": {"mesh", "model_file", "reduction"},
     "validation": {"mesh", "problem", "snapshots", "subspace", "reduction", "session", "sampling"},
 }
 

@@ -120,6 +120,20 @@ def test_blends_are_those_of_the_session(
     library.snapspace_destroy(entry.session)
 
 
+def test_the_value_is_told_at_any_coordinates(posing: Entry) -> None:
+    model, q = posing.model, np.linspace(-0.1, 0.1, 20)
+    assert isinstance(model, PosingModel)
+    w = 0.5 * model.problem.domain.half_widths
+    offsets = np.ascontiguousarray(model.problem.offsets(w))
+    posing.call("set_offsets", address(offsets))
+    value = ctypes.c_double(np.nan)
+    assert posing.call("value", address(q), posing._to(value)) == 0
+    assert value.value == pytest.approx(model.value(q, offsets), rel=1e-9)
+    assert not posing.read("get_q", 20).any(), "asking does not move the shape"
+    assert posing.call("value", address(np.full(20, np.nan)), posing._to(value)) == NOT_FINITE
+    assert posing.call("value", None, posing._to(value)) == BAD_ARGUMENT
+
+
 def test_only_creating_takes_memory(posing: Entry) -> None:
     before = posing.library.allocations()
     assert before > 0, "what creating took was counted"

@@ -1,0 +1,119 @@
+"""The part of a model that the page needs, small enough to travel inside of it."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model_file.container import Arrays, container_bytes
+from ..reduction import InterpolationModel, PosingModel, ReducedModel
+from .shape_space import quantised
+
+FORMAT, VERSION = "snapspace-page", 1
+
+FloatArray = NDArray[np.float64]
+
+
+def packed(model: ReducedModel, *, name: str) -> bytes:
+    """The model as the page reads it: surface only, modes in 16 bits, coefficients in single.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    name : str
+        Shown as the title.
+
+    Returns
+    -------
+    bytes
+        safetensors layout; the same bytes for the same model and name. On the surface, shapes
+        differ from the model's by some 1e-5 of the displacement.
+
+    Raises
+    ------
+    TypeError
+        For another model.
+    """
+    if isinstance(model, PosingModel):
+        kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
+    elif isinstance(model, InterpolationModel):
+        kind, arrays = "interpolation", _interpolation_arrays(model)
+        about = {
+            "poses": list(model.problem.poses.names),
+            "lowest_weight": model.problem.domain.lowest,
+        }
+    else:
+        raise TypeError(f"packed: the page does not know {type(model).__name__}")
+    about |= {
+        "name": name,
+        "diagonal": model.problem.mesh.diagonal,
+        "value_scale": model.value_scale,
+        "coordinate_scale": model.coordinate_scale,
+    }
+    header = {
+        "format": FORMAT,
+        "version": str(VERSION),
+        "kind": kind,
+        "about": json.dumps(about, sort_keys=True),
+    }
+    return container_bytes(arrays, header)
+
+
+def _posing_about(model: PosingModel) -> dict[str, Any]:
+    problem = model.problem
+    bounds = problem.domain.half_widths[:6].tolist()
+    return {
+        "handles": [
+            {"name": name, "center": center}
+            for name, center in zip(problem.handles.names, problem.centroids.tolist(), strict=True)
+        ],
+        "box": {"translation": bounds[:3], "angle": bounds[3:]},
+    }
+
+
+def _posing_arrays(model: PosingModel) -> Arrays:
+    problem, mesh = model.problem, model.problem.mesh
+    surface = mesh.surface_vertices
+    handle_of = np.full(len(mesh.vertices), -1, np.int32)
+    for index, handle in enumerate(problem.handles):
+        handle_of[handle.vertices] = index
+
+    def on_surface(rows: FloatArray) -> FloatArray:
+        return rows.reshape(len(rows), -1, 3)[:, surface].reshape(len(rows), -1)
+
+    return {
+        "base": on_surface(model.subspace.tau[None])[0].astype(np.float32),
+        "faces": np.searchsorted(surface, mesh.surface).astype(np.int32),
+        "handle_of_vertex": handle_of[surface],
+        **_modes("space", on_surface(model.subspace.basis.T)),
+        "quartic": model.elastic.coefficients.astype(np.float32),
+        "handle_K": model.handles.K,
+        "handle_L": model.handles.L,
+        "handle_S": model.handles.S,
+    }
+
+
+def _interpolation_arrays(model: InterpolationModel) -> Arrays:
+    problem, tau = model.problem, model.subspace.tau
+
+    def on_surface(rows: FloatArray) -> FloatArray:
+        shapes = [model.surface.vertices(row.reshape(-1, 3)).reshape(-1) for row in rows]
+        return np.array(shapes)
+
+    return {
+        "base": on_surface(tau[None])[0].astype(np.float32),
+        "faces": model.surface.faces,
+        **_modes("space", on_surface(model.subspace.basis.T)),
+        **_modes("poses", on_surface(problem.pose_shapes - tau)),
+        "quartics": model.coefficients.astype(np.float32),
+        "sample_weights": model.training_parameters.astype(np.float32),
+        "sample_coordinates": model.training_coordinates.astype(np.float32),
+    }
+
+
+def _modes(name: str, rows: FloatArray) -> Arrays:
+    integers, scales = quantised(rows)
+    return {f"{name}_modes": integers, f"{name}_scales": scales}

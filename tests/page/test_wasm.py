@@ -1,0 +1,28 @@
+"""The WebAssembly module that is checked in is what the present sources give."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+
+import pytest
+
+from .tools import tool
+
+build_wasm = tool("build_wasm")
+RUN = "run: pip install ziglang; python tools/build_wasm.py"
+
+
+def test_the_module_is_of_the_present_sources() -> None:
+    record = json.loads(build_wasm.RECORD.read_text(encoding="utf-8"))
+    module = build_wasm.MODULE.read_bytes()
+    assert record["sources_sha256"] == build_wasm.sources_hash(), f"core/online changed; {RUN}"
+    assert record["module_sha256"] == hashlib.sha256(module).hexdigest(), f"altered by hand; {RUN}"
+    assert module[:4] == b"\0asm" and len(module) < 120_000
+
+
+@pytest.mark.skipif(
+    not build_wasm.has_compiler(), reason=f"needs ziglang {build_wasm.ZIGLANG} to build it anew"
+)
+def test_building_gives_the_same_bytes() -> None:
+    assert build_wasm.build() == build_wasm.MODULE.read_bytes(), RUN

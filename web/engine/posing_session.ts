@@ -1,0 +1,136 @@
+import { Core, type FrameReport, type Termination } from "./core.ts";
+import type { PosingModel } from "./model.ts";
+import {
+  applied, eulerOfRotation, IDENTITY, minus, plus, product, rotationOfEuler, transposed,
+  type RigidMap, type Rotation, type Vector,
+} from "./motion.ts";
+import { beyondBox } from "./sampled_box.ts";
+
+/** A motion of a handle from rest, about its centroid. */
+export interface Motion {
+  readonly rotation: Rotation;
+  readonly translation: Vector;
+}
+
+/** Poses of a reduced model: move handles, read q. As PosingSession of the Python package. */
+export class PosingSession {
+  readonly model: PosingModel;
+  readonly #core: Core;
+  readonly #stop: Termination;
+  #maps: RigidMap[];
+
+  static async create(module: WebAssembly.Module, model: PosingModel): Promise<PosingSession> {
+    return new PosingSession(model, await Core.create(module, model));
+  }
+
+  private constructor(model: PosingModel, core: Core) {
+    this.model = model;
+    this.#core = core;
+    const { valueScale, coordinateScale } = model;
+    this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
+    this.#maps = model.handles.map(() => IDENTITY);
+    this.#set(this.#maps);
+  }
+
+  get dimension(): number {
+    return this.#core.dimension;
+  }
+
+  set dimension(dimension: number) {
+    this.#core.dimension = dimension;
+  }
+
+  /** Reduced coordinates of the shape, as many as `dimension`. */
+  get q(): Float64Array {
+    return this.#core.q;
+  }
+
+  /** The first handle's motion, which carries the shape tau + U q along. */
+  get carriedBy(): RigidMap {
+    return this.#maps[0];
+  }
+
+  motion(handle: number): Motion {
+    const { rotation, shift } = this.#maps[handle];
+    const { center } = this.model.handles[handle];
+    return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
+  }
+
+  /** Where the handle's centroid is asked to be. */
+  place(handle: number): Vector {
+    return plus(this.model.handles[handle].center, this.motion(handle).translation);
+  }
+
+  /** Puts a handle at a motion from rest, Euler angles in radians, and solves. */
+  move(handle: number, euler: Vector, translation: Vector): FrameReport {
+    return this.moveAll(new Map([[handle, { rotation: rotationOfEuler(euler), translation }]]));
+  }
+
+  /** Puts some handles at motions from rest, and solves once. A motion beyond all numbers is taken back. */
+  moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
+    const before = this.#maps;
+    this.#set(
+      this.#maps.map((map, handle) => {
+        const motion = motions.get(handle);
+        if (!motion) return map;
+        const { center } = this.model.handles[handle];
+        const shift = minus(plus(center, motion.translation), applied(motion.rotation, center));
+        return { rotation: motion.rotation, shift };
+      }),
+    );
+    const report = this.solve();
+    if (report.status === "not_finite") this.#set(before);
+    return report;
+  }
+
+  /** Solves for what is set, from the present shape. */
+  solve(): FrameReport {
+    return this.#core.solve(this.#stop);
+  }
+
+  /** Back to rest. */
+  reset(): void {
+    this.#set(this.model.handles.map(() => IDENTITY));
+    this.#core.q = new Float64Array(this.dimension);
+  }
+
+  /** The handles outside of the box of motions that was sampled, and how. */
+  get outside(): { handle: number; how: string }[] {
+    return this.model.handles.flatMap((_, handle) => {
+      if (handle === 0) return [];
+      const { rotation, translation } = this.#relative(handle);
+      const how = beyondBox(this.model.box, rotation, translation);
+      return how ? [{ handle, how }] : [];
+    });
+  }
+
+  /** Euler angles of a handle's motion, in radians. */
+  euler(handle: number): Vector {
+    return eulerOfRotation(this.#maps[handle].rotation);
+  }
+
+  #relative(handle: number): Motion {
+    const [first, own] = [this.#maps[0], this.#maps[handle]];
+    const back = transposed(first.rotation);
+    const rotation = product(back, own.rotation);
+    const shift = applied(back, minus(own.shift, first.shift));
+    const { center } = this.model.handles[handle];
+    return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
+  }
+
+  #set(maps: RigidMap[]): void {
+    const before = this.#maps;
+    this.#maps = maps;
+    const offsets = maps.flatMap((_, handle) => {
+      if (handle === 0) return Array<number>(12).fill(0);
+      const { rotation: R, translation: t } = this.#relative(handle);
+      return [R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]];
+    });
+    try {
+      this.#core.setOffsets(offsets);
+    } catch (error) {
+      this.#maps = before;
+      throw error;
+    }
+  }
+}

@@ -1,0 +1,150 @@
+import type { Container } from "./container.ts";
+import { UnreadableModel } from "./errors.ts";
+import { coefficientCount, type Handle, type Model } from "./model.ts";
+import { registered } from "./registration.ts";
+import { quantised } from "./shape_space.ts";
+import { boundaryFaces, diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
+
+/** Reads a .snapspace file (snapspace/model_file); `name` is shown where the file has none. */
+export function readFile(container: Container, name: string): Model {
+  const kind = container.header["kind"] ?? "posing"; // the first files had only one
+  if (kind === "posing") return readPosing(container, name);
+  if (kind === "interpolation") return readInterpolation(container, name);
+  throw new UnreadableModel(`This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`);
+}
+
+function readPosing(container: Container, name: string): Model {
+  const about = JSON.parse(container.header["problem"]);
+  const [dimension] = container.shape("basis", 2);
+  const [vertices] = container.shape("vertices", 2);
+  const [tetCount] = container.shape("tets", 2);
+  const rest = container.doubles("vertices", vertices, 3);
+  const tets = container.indices("tets", vertices, [tetCount, 4]);
+  const basis = container.doubles("basis", dimension, 3 * vertices);
+  const count = about.handles.length as number;
+  const [pinned] = container.shape("handle_vertices", 1);
+  const members = container.indices("handle_vertices", vertices, [pinned]);
+  const sizes = container.indices("handle_sizes", pinned + 1, [count]);
+
+  const volumes = tetVolumes(rest, tets);
+  const masses = vertexMasses(volumes, tets, vertices);
+  const handleOf = new Int32Array(vertices).fill(-1);
+  const handles: Handle[] = [];
+  for (let handle = 0, start = 0; handle < count; start += sizes[handle++]) {
+    const own = members.subarray(start, start + sizes[handle]);
+    own.forEach((vertex) => (handleOf[vertex] = handle));
+    handles.push({ name: String(about.handles[handle]), center: centroid(own, rest, masses) });
+  }
+
+  const faces = boundaryFaces(tets, vertices);
+  const { surface, compact } = compacted(faces, vertices);
+  const diagonal = diagonalOf(rest);
+  return {
+    kind: "posing",
+    name,
+    dimension,
+    faces: compact,
+    space: quantised(picked(rest, surface, vertices), picked(basis, surface, vertices)),
+    ...scales(about.material.mu, volumes, diagonal),
+    handles,
+    handleOfVertex: Int32Array.from(surface, (vertex) => handleOf[vertex]),
+    box: about.domain,
+    quartic: container.doubles("quartic", coefficientCount(dimension)),
+    K: container.doubles("handle_K", dimension, dimension),
+    L: container.doubles("handle_L", count, dimension, 12),
+    S: container.doubles("handle_S", count, 4, 4),
+  };
+}
+
+function readInterpolation(container: Container, name: string): Model {
+  const about = JSON.parse(container.header["problem"]);
+  const poses = about.poses as string[];
+  const [dimension] = container.shape("basis", 2);
+  const [, vertices] = container.shape("poses", 3);
+  const [tetCount] = container.shape("tets", 2);
+  const [faceCount] = container.shape("surface_faces", 2);
+  const [surfaceCount] = container.shape("surface_corners", 2);
+  const [samples] = container.shape("training_parameters", 2);
+  const tets = container.indices("tets", vertices, [tetCount, 4]);
+  const mean = container.doubles("mean_shape", 3 * vertices);
+  const shapes = container.doubles("poses", poses.length, vertices, 3);
+  const corners = container.indices("surface_corners", vertices, [surfaceCount, 4]);
+  const weights = container.doubles("surface_weights", surfaceCount, 4);
+  const embedded = (rows: Float64Array) => onSurface(rows, vertices, corners, weights);
+
+  const meanVolumes = tetVolumes(mean, tets);
+  const offsets = new Float64Array(shapes.length); // of the registered poses from the mean shape
+  for (let pose = 0; pose < poses.length; pose++) {
+    const start = 3 * vertices * pose;
+    const moved = registered(shapes.subarray(start, start + 3 * vertices), mean, tets, meanVolumes);
+    offsets.set(moved.map((x, i) => x - mean[i]), start);
+  }
+
+  const first = shapes.subarray(0, 3 * vertices);
+  const base = embedded(mean);
+  return {
+    kind: "interpolation",
+    name,
+    dimension,
+    faces: Uint32Array.from(container.indices("surface_faces", surfaceCount, [faceCount, 3])),
+    space: quantised(base, embedded(container.doubles("basis", dimension, 3 * vertices))),
+    ...scales(about.material.mu, tetVolumes(first, tets), diagonalOf(first)),
+    poses,
+    poseSpace: quantised(base, embedded(offsets)),
+    lowestWeight: -about.extrapolation / poses.length,
+    quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
+    sampleWeights: container.doubles("training_parameters", samples, poses.length),
+    sampleCoordinates: container.doubles("training_coordinates", samples, dimension),
+  };
+}
+
+/** Units for the termination tests: the energy of a strain of 10 %, a displacement by a tenth of the diagonal. */
+function scales(mu: number, volumes: Float64Array, diagonal: number) {
+  const volume = volumes.reduce((sum, tet) => sum + tet, 0);
+  return { valueScale: 0.01 * mu * volume, coordinateScale: 0.1 * diagonal * Math.sqrt(volume), diagonal };
+}
+
+function centroid(members: Int32Array, rest: Float64Array, masses: Float64Array): [number, number, number] {
+  const sum = [0, 0, 0, 0];
+  for (const vertex of members) {
+    for (let axis = 0; axis < 3; axis++) sum[axis] += masses[vertex] * rest[3 * vertex + axis];
+    sum[3] += masses[vertex];
+  }
+  return [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]];
+}
+
+/** The vertices that faces use, in order, and the faces numbered by them. */
+function compacted(faces: Uint32Array, vertices: number) {
+  const number = new Int32Array(vertices).fill(-1);
+  faces.forEach((vertex) => (number[vertex] = 0));
+  const surface: number[] = [];
+  number.forEach((used, vertex) => {
+    if (used === 0) number[vertex] = surface.push(vertex) - 1;
+  });
+  return { surface, compact: Uint32Array.from(faces, (vertex) => number[vertex]) };
+}
+
+/** Rows of 3 * vertices numbers, at some of the vertices only. */
+function picked(rows: Float64Array, chosen: number[], vertices: number): Float64Array {
+  const count = rows.length / (3 * vertices);
+  const out = new Float64Array(count * 3 * chosen.length);
+  let next = 0;
+  for (let row = 0; row < count; row++)
+    for (const vertex of chosen)
+      for (let axis = 0; axis < 3; axis++) out[next++] = rows[(row * vertices + vertex) * 3 + axis];
+  return out;
+}
+
+/** Rows of 3 * vertices numbers, at points that are weighted sums of four vertices each. */
+function onSurface(rows: Float64Array, vertices: number, corners: Int32Array, weights: Float64Array): Float64Array {
+  const points = corners.length / 4;
+  const count = rows.length / (3 * vertices);
+  const out = new Float64Array(count * 3 * points);
+  for (let row = 0; row < count; row++)
+    for (let corner = 0; corner < corners.length; corner++) {
+      const to = 3 * (row * points + (corner >> 2));
+      const from = 3 * (row * vertices + corners[corner]);
+      for (let axis = 0; axis < 3; axis++) out[to + axis] += weights[corner] * rows[from + axis];
+    }
+  return out;
+}

@@ -1,0 +1,27 @@
+import { Container } from "./container.ts";
+import { UnreadableModel } from "./errors.ts";
+import type { Model } from "./model.ts";
+import { readFile } from "./read_file.ts";
+import { readPacked } from "./read_packed.ts";
+
+const VERSION = "1";
+
+/** Reads a .snapspace file, or the model of an exported page.
+ *
+ * Throws UnreadableModel, whose message the user can read, for anything else. */
+export function readModel(bytes: ArrayBuffer, name: string): Model {
+  const container = new Container(bytes);
+  const { format, version } = container.header;
+  if (format !== "snapspace-model" && format !== "snapspace-page")
+    throw new UnreadableModel("This is not a Snapspace model. `snapspace build` makes one.");
+  if (version !== VERSION)
+    throw new UnreadableModel(
+      `This model has version ${version}, and this page reads version ${VERSION}. Open it with the Snapspace that wrote it.`,
+    );
+  try {
+    return format === "snapspace-page" ? readPacked(container) : readFile(container, name);
+  } catch (error) {
+    if (error instanceof UnreadableModel) throw error;
+    throw new UnreadableModel(`The model does not fit together (${String(error)}). Build it again.`);
+  }
+}

@@ -1,0 +1,59 @@
+import type { Container } from "./container.ts";
+import { UnreadableModel } from "./errors.ts";
+import { coefficientCount, type Model } from "./model.ts";
+import type { ShapeSpace } from "./shape_space.ts";
+
+/** Reads the model of an exported page (snapspace/page/pack.py). */
+export function readPacked(container: Container): Model {
+  const about = JSON.parse(container.header["about"]);
+  const [dimension] = container.shape("space_scales", 1);
+  const [faceCount] = container.shape("faces", 2);
+  const space = readSpace(container, "space");
+  const common = {
+    name: String(about.name),
+    dimension,
+    space,
+    faces: Uint32Array.from(container.indices("faces", space.vertices, [faceCount, 3])),
+    valueScale: Number(about.value_scale),
+    coordinateScale: Number(about.coordinate_scale),
+    diagonal: Number(about.diagonal),
+  };
+  if (container.header["kind"] === "posing") {
+    const count = about.handles.length as number;
+    return {
+      ...common,
+      kind: "posing",
+      handles: about.handles,
+      handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
+      box: about.box,
+      quartic: container.doubles("quartic", coefficientCount(dimension)),
+      K: container.doubles("handle_K", dimension, dimension),
+      L: container.doubles("handle_L", count, dimension, 12),
+      S: container.doubles("handle_S", count, 4, 4),
+    };
+  }
+  if (container.header["kind"] !== "interpolation")
+    throw new UnreadableModel(`This page knows no models of kind '${container.header["kind"]}'.`);
+  const poses = about.poses as string[];
+  const [samples] = container.shape("sample_weights", 2);
+  return {
+    ...common,
+    kind: "interpolation",
+    poses,
+    poseSpace: readSpace(container, "poses"),
+    lowestWeight: Number(about.lowest_weight),
+    quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
+    sampleWeights: container.doubles("sample_weights", samples, poses.length),
+    sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
+  };
+}
+
+function readSpace(container: Container, name: string): ShapeSpace {
+  const [count, size] = container.shape(`${name}_modes`, 2);
+  return {
+    vertices: size / 3,
+    base: container.floats("base", size),
+    modes: container.shorts(`${name}_modes`, count, size),
+    scales: container.floats(`${name}_scales`, count),
+  };
+}

@@ -1,0 +1,86 @@
+/** Rigid registration in the M-norm, M the consistent mass matrix of linear tets (Horn 1987, Closed-form
+ * solution of absolute orientation using unit quaternions). */
+
+type Rows = Float64Array; // x0 y0 z0 x1 ...
+
+/** The shape after the proper rigid motion that brings it closest to `onto`. */
+export function registered(shape: Rows, onto: Rows, tets: Int32Array, volumes: Float64Array): Rows {
+  const massOnto = massTimes(onto, tets, volumes);
+  const total = volumes.reduce((sum, volume) => sum + Math.abs(volume), 0);
+  const from = centroid(massTimes(shape, tets, volumes), total);
+  const to = centroid(massOnto, total);
+  const covariance = new Float64Array(9); // sum over rows of shape_a (M onto)_b, about the centroids
+  for (let i = 0; i < shape.length; i += 3)
+    for (let a = 0; a < 3; a++)
+      for (let b = 0; b < 3; b++) covariance[3 * a + b] += shape[i + a] * massOnto[i + b];
+  for (let a = 0; a < 3; a++) for (let b = 0; b < 3; b++) covariance[3 * a + b] -= total * from[a] * to[b];
+  const R = bestRotation(covariance);
+  const moved = new Float64Array(shape.length);
+  for (let i = 0; i < shape.length; i += 3)
+    for (let a = 0; a < 3; a++)
+      moved[i + a] =
+        R[3 * a] * (shape[i] - from[0]) +
+        R[3 * a + 1] * (shape[i + 1] - from[1]) +
+        R[3 * a + 2] * (shape[i + 2] - from[2]) +
+        to[a];
+  return moved;
+}
+
+function massTimes(shape: Rows, tets: Int32Array, volumes: Float64Array): Rows {
+  const product = new Float64Array(shape.length);
+  for (let tet = 0; tet < volumes.length; tet++) {
+    const twentieth = Math.abs(volumes[tet]) / 20;
+    for (let axis = 0; axis < 3; axis++) {
+      let sum = 0;
+      for (let corner = 0; corner < 4; corner++) sum += shape[3 * tets[4 * tet + corner] + axis];
+      for (let corner = 0; corner < 4; corner++) {
+        const i = 3 * tets[4 * tet + corner] + axis;
+        product[i] += twentieth * (sum + shape[i]);
+      }
+    }
+  }
+  return product;
+}
+
+function centroid(massTimesShape: Rows, total: number): number[] {
+  const sums = [0, 0, 0];
+  for (let i = 0; i < massTimesShape.length; i++) sums[i % 3] += massTimesShape[i];
+  return sums.map((sum) => sum / total);
+}
+
+/** The rotation (3 x 3) that maximises tr(R C): the quaternion to the largest eigenvalue of Horn's matrix. */
+function bestRotation(C: Float64Array): number[] {
+  const [xx, xy, xz, yx, yy, yz, zx, zy, zz] = C;
+  const N = [
+    [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+    [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+    [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+    [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+  ];
+  const [w, x, y, z] = largestEigenvector(N);
+  return [
+    1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
+    2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+    2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+  ];
+}
+
+/** Unit eigenvector to the largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. */
+function largestEigenvector(N: number[][]): number[] {
+  const n = N.length;
+  const A = N.map((row) => [...row]);
+  const V = A.map((_, i) => A.map((_, j) => (i === j ? 1 : 0)));
+  for (let sweep = 0; sweep < 30; sweep++)
+    for (let p = 0; p < n; p++)
+      for (let q = p + 1; q < n; q++) {
+        if (A[p][q] === 0) continue;
+        const theta = 0.5 * Math.atan2(2 * A[p][q], A[q][q] - A[p][p]);
+        const [c, s] = [Math.cos(theta), Math.sin(theta)];
+        const turn = (row: number[]) => ([row[p], row[q]] = [c * row[p] - s * row[q], s * row[p] + c * row[q]]);
+        A.forEach(turn);
+        for (let k = 0; k < n; k++) [A[p][k], A[q][k]] = [c * A[p][k] - s * A[q][k], s * A[p][k] + c * A[q][k]];
+        V.forEach(turn);
+      }
+  const best = A.reduce((most, row, i) => (row[i] > A[most][most] ? i : most), 0);
+  return V.map((row) => row[best]);
+}

@@ -1,0 +1,38 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { BlendingSession } from "../blending_session.ts";
+import type { BlendingModel } from "../model.ts";
+import { readModel } from "../read_model.ts";
+import { reconstruct } from "../shape_space.ts";
+import { bytes, core, distance, expected } from "./expected.ts";
+
+interface Frame {
+  weights: number[];
+  value: number;
+  surface: number[];
+  linear: number[];
+  outside: string[];
+}
+
+const { frames, diagonal } = expected<{ frames: Frame[]; diagonal: number }>("blending.json");
+
+for (const file of ["blending.snapspace", "blending.packed"])
+  test(`blends are those of Session: ${file}`, async () => {
+    const model = readModel(bytes(file), "poses") as BlendingModel;
+    const session = await BlendingSession.create(core, model);
+    const shape = new Float32Array(3 * model.space.vertices);
+    for (const frame of frames) {
+      const report = session.blend(frame.weights);
+      assert.equal(report.status, "converged");
+      assert.ok(Math.abs(report.value - frame.value) < 1e-4 * Math.abs(frame.value) + 1e-6 * model.valueScale);
+      reconstruct(model.space, session.q, shape);
+      assert.ok(distance(shape, frame.surface) < 1e-4 * diagonal);
+      reconstruct(model.poseSpace, frame.weights, shape);
+      assert.ok(distance(shape, frame.linear) < 3e-5 * diagonal, "the linear blend of registered poses");
+      assert.deepEqual(session.outside, frame.outside);
+    }
+    assert.throws(() => session.blend(model.poses.map(() => 1)), /a sum of one/);
+    session.reset();
+    assert.ok(session.q.every((x) => x === 0));
+  });

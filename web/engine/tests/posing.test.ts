@@ -1,0 +1,90 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import type { PosingModel } from "../model.ts";
+import { applied, eulerOfRotation, plus, rotationOfEuler, type Vector } from "../motion.ts";
+import { PosingSession } from "../posing_session.ts";
+import { readModel } from "../read_model.ts";
+import { reconstruct } from "../shape_space.ts";
+import { bytes, core, distance, expected } from "./expected.ts";
+
+interface Frame {
+  motions: [number, Vector, Vector][];
+  value: number;
+  q: number[];
+  surface: number[];
+  outside: number[];
+}
+
+const { frames, diagonal, leading } = expected<{
+  frames: Frame[];
+  diagonal: number;
+  leading: { dimension: number; value: number };
+}>("posing.json");
+
+/** The shown surface: tau + U q, carried along by the first handle. */
+function surface(session: PosingSession): Float32Array {
+  const { space } = session.model;
+  const shape = new Float32Array(3 * space.vertices);
+  reconstruct(space, session.q, shape);
+  const { rotation, shift } = session.carriedBy;
+  for (let i = 0; i < shape.length; i += 3)
+    shape.set(plus(applied(rotation, [shape[i], shape[i + 1], shape[i + 2]]), shift), i);
+  return shape;
+}
+
+for (const file of ["posing.snapspace", "posing.packed"])
+  test(`a drag is that of Session: ${file}`, async () => {
+    const model = readModel(bytes(file), "bar") as PosingModel;
+    const session = await PosingSession.create(core, model);
+    // coefficients of the packed model are in single precision
+    const exact = file.endsWith(".snapspace") ? 1e-6 : 1e-5;
+    for (const frame of frames) {
+      const motions = frame.motions.map(([handle, euler, translation]) => {
+        const rotation = rotationOfEuler(euler);
+        assert.ok(distance(rotationOfEuler(eulerOfRotation(rotation)), rotation) < 1e-12);
+        return [handle, { rotation, translation }] as const;
+      });
+      const report = session.moveAll(new Map(motions));
+      assert.equal(report.status, "converged");
+      assert.ok(Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * model.valueScale);
+      assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
+      assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
+      assert.deepEqual(session.outside.map(({ handle }) => handle), frame.outside);
+    }
+    session.dimension = leading.dimension;
+    assert.equal(session.q.length, leading.dimension);
+    assert.ok(Math.abs(session.solve().value - leading.value) < 1e-4 * Math.abs(leading.value));
+    session.reset();
+    assert.ok(distance(surface(session), model.space.base) === 0);
+  });
+
+test("a motion beyond all numbers is taken back", async () => {
+  const session = await PosingSession.create(core, readModel(bytes("posing.packed"), "") as PosingModel);
+  session.move(1, [0, 0, 0.2], [0.1, 0, 0]);
+  const [q, motion] = [session.q, session.motion(1)];
+  assert.equal(session.move(1, [0, 0, 0], [1e300, 0, 0]).status, "not_finite");
+  assert.deepEqual(session.q, q);
+  assert.deepEqual(session.motion(1), motion);
+  assert.throws(() => session.move(1, [0, NaN, 0], [0, 0, 0]), RangeError);
+  assert.deepEqual(session.motion(1), motion);
+  assert.throws(() => (session.dimension = 0), /not between 1 and/);
+});
+
+test("the packed model is the file's, on the surface", () => {
+  const file = readModel(bytes("posing.snapspace"), "bar") as PosingModel;
+  const packed = readModel(bytes("posing.packed"), "") as PosingModel;
+  assert.deepEqual(packed.faces, file.faces);
+  assert.deepEqual(packed.handleOfVertex, file.handleOfVertex);
+  assert.ok(distance(packed.space.modes, file.space.modes) <= 1);
+  assert.ok(distance(packed.handles[1].center, file.handles[1].center) < 1e-12 * diagonal);
+  assert.ok(Math.abs(packed.valueScale / file.valueScale - 1) < 1e-12);
+  assert.deepEqual(packed.box, file.box);
+});
+
+test("a gimbal-locked rotation keeps its matrix", () => {
+  for (const beta of [Math.PI / 2, -Math.PI / 2]) {
+    const rotation = rotationOfEuler([0.3, beta, -1.1]);
+    assert.ok(distance(rotationOfEuler(eulerOfRotation(rotation)), rotation) < 1e-12);
+  }
+});
