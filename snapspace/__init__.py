@@ -24,6 +24,7 @@ from .mesh import (
     write_tets,
 )
 from .model_file import load, save_model
+from .page import export_html
 from .problem import (
     Handle,
     HandleBox,
@@ -114,6 +115,7 @@ __all__ = [
     "calibrated",
     "carried",
     "embed_surface",
+    "export_html",
     "fill_surface",
     "fit_poses",
     "greedy_snapshots",

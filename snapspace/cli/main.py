@@ -18,6 +18,7 @@ from .blend import blend
 from .build import build
 from .console import notice, one_line
 from .demo import demo
+from .export import export
 from .info import info
 from .interpolate import interpolate
 from .pose import pose
@@ -42,6 +43,7 @@ def snapspace(ctx: click.Context) -> None:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace validate dragon.snapspace
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 -o posed.obj
+      snapspace export dragon.snapspace --html dragon.html
     With poses of your own:
       snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
       snapspace blend cat.snapspace --path 60 -o frames
@@ -53,7 +55,7 @@ def snapspace(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (demo, build, interpolate, validate, pose, blend, info):
+for command in (demo, build, interpolate, validate, pose, blend, export, info):
     snapspace.add_command(command)
 
 

@@ -1,5 +1,6 @@
 """The page: models that are posed and blended in the browser."""
 
+from .export import export_html, page_with_model
 from .pack import packed
 
-__all__ = ["packed"]
+__all__ = ["export_html", "packed", "page_with_model"]

@@ -26,7 +26,8 @@ def test_demo(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     words = ("--tets", 5000, "--samples", 16, "--dimension", 8)
     result = run("demo", "--output", folder, *words, "--json")
     figures = result.json
-    names = ["creature.json", "creature.msh", "creature.obj", "creature.png", "creature.snapspace"]
+    kinds = ("html", "json", "msh", "obj", "png", "snapspace")
+    names = [f"creature.{kind}" for kind in kinds]
     assert sorted(path.name for path in folder.iterdir()) == names
     assert sorted(figures["files"].values()) == [str(folder / name) for name in names]
     assert figures["build"]["samples"] == 16

@@ -57,7 +57,9 @@ export class Container {
   /** Numbers of an array in double precision, whichever it is stored in; `shape` is what it must be. */
   doubles(name: string, ...shape: number[]): Float64Array<ArrayBuffer> {
     const entry = this.#checked(name, shape, ["F64", "F32"]);
-    return entry.dtype === "F64" ? this.#view(entry, Float64Array) : Float64Array.from(this.#view(entry, Float32Array));
+    return entry.dtype === "F64"
+      ? this.#view(entry, Float64Array)
+      : Float64Array.from(this.#view(entry, Float32Array));
   }
 
   floats(name: string, ...shape: number[]): Float32Array<ArrayBuffer> {
@@ -96,6 +98,8 @@ export class Container {
 
   #view<T>(entry: Entry, type: { new (bytes: ArrayBuffer): T }): T {
     // a copy: views need addresses that are multiples of the item
-    return new type(this.#bytes.slice(this.#start + entry.data_offsets[0], this.#start + entry.data_offsets[1]));
+    return new type(
+      this.#bytes.slice(this.#start + entry.data_offsets[0], this.#start + entry.data_offsets[1]),
+    );
   }
 }

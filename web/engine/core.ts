@@ -9,9 +9,22 @@ interface Exports {
   malloc(bytes: number): number;
   free(pointer: number): void;
   snapspace_create_posing(
-    dimension: number, handles: number, quartic: number, K: number, L: number, S: number, basis: number, error: number,
+    dimension: number,
+    handles: number,
+    quartic: number,
+    K: number,
+    L: number,
+    S: number,
+    basis: number,
+    error: number,
   ): number;
-  snapspace_create_blending(dimension: number, poses: number, quartics: number, basis: number, error: number): number;
+  snapspace_create_blending(
+    dimension: number,
+    poses: number,
+    quartics: number,
+    basis: number,
+    error: number,
+  ): number;
   snapspace_destroy(session: number): void;
   snapspace_set_offsets(session: number, offsets: number): number;
   snapspace_set_weights(session: number, weights: number): number;
@@ -23,7 +36,13 @@ interface Exports {
   snapspace_set_q(session: number, q: number): number;
 }
 
-const STATUS = ["converged", "max_iterations", "line_search_failed", "not_finite", "max_evaluations"] as const;
+const STATUS = [
+  "converged",
+  "max_iterations",
+  "line_search_failed",
+  "not_finite",
+  "max_evaluations",
+] as const;
 const NOT_DEFINITE = -3;
 
 /** How one frame was solved; as FrameReport of the Python package. */
@@ -71,13 +90,26 @@ export class Core {
       const arrays = [model.quartic, model.K, model.L, model.S].map((array) => this.#copied(array));
       const [quartic, K, L, S] = arrays;
       this.#session = exports.snapspace_create_posing(
-        model.dimension, model.handles.length, quartic, K, L, S, basis, error,
+        model.dimension,
+        model.handles.length,
+        quartic,
+        K,
+        L,
+        S,
+        basis,
+        error,
       );
       arrays.forEach((array) => exports.free(array));
     } else {
       inputs = model.poses.length;
       const quartics = this.#copied(model.quartics); // read in place: stays
-      this.#session = exports.snapspace_create_blending(model.dimension, model.poses.length, quartics, basis, error);
+      this.#session = exports.snapspace_create_blending(
+        model.dimension,
+        model.poses.length,
+        quartics,
+        basis,
+        error,
+      );
     }
     const code = new Int32Array(exports.memory.buffer, error, 1)[0];
     if (this.#session === 0)
@@ -129,7 +161,11 @@ export class Core {
     const { buffer } = this.#call.memory;
     // snapspace_options: method (0, Newton), then doubles at 8, 16, 24, then ints at 32, 36
     new Int32Array(buffer, this.#options, 10).fill(0);
-    new Float64Array(buffer, this.#options + 8, 3).set([stop.tolerance, stop.valueScale, stop.coordinateScale]);
+    new Float64Array(buffer, this.#options + 8, 3).set([
+      stop.tolerance,
+      stop.valueScale,
+      stop.coordinateScale,
+    ]);
     new Int32Array(buffer, this.#options + 32, 2).set([stop.maxIterations, stop.maxEvaluations]);
     const begin = performance.now();
     this.#check(this.#call.snapspace_solve(this.#session, this.#options, this.#report));
@@ -153,6 +189,7 @@ export class Core {
   }
 
   #check(code: number): void {
-    if (code < 0) throw new RangeError(code === -2 ? "a number is not finite" : `the core refused (error ${code})`);
+    if (code < 0)
+      throw new RangeError(code === -2 ? "a number is not finite" : `the core refused (error ${code})`);
   }
 }

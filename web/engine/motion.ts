@@ -13,12 +13,23 @@ export const IDENTITY: RigidMap = { rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1], shift
 /** R = Rz(gamma) Ry(beta) Rx(alpha) of extrinsic Euler angles in radians. */
 export function rotationOfEuler([alpha, beta, gamma]: Vector): Rotation {
   const [ca, sa, cb, sb, cg, sg] = [
-    Math.cos(alpha), Math.sin(alpha), Math.cos(beta), Math.sin(beta), Math.cos(gamma), Math.sin(gamma),
+    Math.cos(alpha),
+    Math.sin(alpha),
+    Math.cos(beta),
+    Math.sin(beta),
+    Math.cos(gamma),
+    Math.sin(gamma),
   ];
   return [
-    cg * cb, cg * sb * sa - sg * ca, cg * sb * ca + sg * sa,
-    sg * cb, sg * sb * sa + cg * ca, sg * sb * ca - cg * sa,
-    -sb, cb * sa, cb * ca,
+    cg * cb,
+    cg * sb * sa - sg * ca,
+    cg * sb * ca + sg * sa,
+    sg * cb,
+    sg * sb * sa + cg * ca,
+    sg * sb * ca - cg * sa,
+    -sb,
+    cb * sa,
+    cb * ca,
   ];
 }
 

@@ -1,8 +1,17 @@
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { PosingModel } from "./model.ts";
 import {
-  applied, eulerOfRotation, IDENTITY, minus, plus, product, rotationOfEuler, transposed,
-  type RigidMap, type Rotation, type Vector,
+  applied,
+  eulerOfRotation,
+  IDENTITY,
+  minus,
+  plus,
+  product,
+  rotationOfEuler,
+  transposed,
+  type RigidMap,
+  type Rotation,
+  type Vector,
 } from "./motion.ts";
 import { beyondBox } from "./sampled_box.ts";
 

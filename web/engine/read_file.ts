@@ -10,7 +10,9 @@ export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
   if (kind === "posing") return readPosing(container, name);
   if (kind === "interpolation") return readInterpolation(container, name);
-  throw new UnreadableModel(`This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`);
+  throw new UnreadableModel(
+    `This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`,
+  );
 }
 
 function readPosing(container: Container, name: string): Model {
@@ -77,7 +79,10 @@ function readInterpolation(container: Container, name: string): Model {
   for (let pose = 0; pose < poses.length; pose++) {
     const start = 3 * vertices * pose;
     const moved = registered(shapes.subarray(start, start + 3 * vertices), mean, tets, meanVolumes);
-    offsets.set(moved.map((x, i) => x - mean[i]), start);
+    offsets.set(
+      moved.map((x, i) => x - mean[i]),
+      start,
+    );
   }
 
   const first = shapes.subarray(0, 3 * vertices);
@@ -136,7 +141,12 @@ function picked(rows: Float64Array, chosen: number[], vertices: number): Float64
 }
 
 /** Rows of 3 * vertices numbers, at points that are weighted sums of four vertices each. */
-function onSurface(rows: Float64Array, vertices: number, corners: Int32Array, weights: Float64Array): Float64Array {
+function onSurface(
+  rows: Float64Array,
+  vertices: number,
+  corners: Int32Array,
+  weights: Float64Array,
+): Float64Array {
   const points = corners.length / 4;
   const count = rows.length / (3 * vertices);
   const out = new Float64Array(count * 3 * points);

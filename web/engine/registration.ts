@@ -59,9 +59,15 @@ function bestRotation(C: Float64Array): number[] {
   ];
   const [w, x, y, z] = largestEigenvector(N);
   return [
-    1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-    2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-    2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+    1 - 2 * (y * y + z * z),
+    2 * (x * y - w * z),
+    2 * (x * z + w * y),
+    2 * (x * y + w * z),
+    1 - 2 * (x * x + z * z),
+    2 * (y * z - w * x),
+    2 * (x * z - w * y),
+    2 * (y * z + w * x),
+    1 - 2 * (x * x + y * y),
   ];
 }
 
@@ -76,9 +82,11 @@ function largestEigenvector(N: number[][]): number[] {
         if (A[p][q] === 0) continue;
         const theta = 0.5 * Math.atan2(2 * A[p][q], A[q][q] - A[p][p]);
         const [c, s] = [Math.cos(theta), Math.sin(theta)];
-        const turn = (row: number[]) => ([row[p], row[q]] = [c * row[p] - s * row[q], s * row[p] + c * row[q]]);
+        const turn = (row: number[]) =>
+          ([row[p], row[q]] = [c * row[p] - s * row[q], s * row[p] + c * row[q]]);
         A.forEach(turn);
-        for (let k = 0; k < n; k++) [A[p][k], A[q][k]] = [c * A[p][k] - s * A[q][k], s * A[p][k] + c * A[q][k]];
+        for (let k = 0; k < n; k++)
+          [A[p][k], A[q][k]] = [c * A[p][k] - s * A[q][k], s * A[p][k] + c * A[q][k]];
         V.forEach(turn);
       }
   const best = A.reduce((most, row, i) => (row[i] > A[most][most] ? i : most), 0);

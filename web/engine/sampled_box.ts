@@ -18,7 +18,8 @@ export function beyondBox(box: Box, rotation: Rotation, translation: Vector): st
   const angles = eulerOfRotation(rotation);
   const [alpha, beta, gamma] = angles;
   const other: Vector = [wrapped(alpha + Math.PI), wrapped(Math.PI - beta), wrapped(gamma + Math.PI)];
-  const outside = (triple: Vector) => triple.findIndex((angle, i) => Math.abs(angle) > box.angle[i] + ROUNDING);
+  const outside = (triple: Vector) =>
+    triple.findIndex((angle, i) => Math.abs(angle) > box.angle[i] + ROUNDING);
   if (outside(angles) < 0 || outside(other) < 0) return null;
   const axis = outside(angles);
   const degrees = (angle: number) => Math.round((180 * angle) / Math.PI);

@@ -25,7 +25,8 @@ export function quantised(base: Float64Array, modes: Float64Array): ShapeSpace {
     scales[mode] = most / LARGEST;
     if (!(most > 0)) continue;
     // by the scale as it was rounded to single precision; a hair beyond the largest cannot come of it
-    for (let i = mode * size; i < (mode + 1) * size; i++) integers[i] = Math.round((modes[i] / most) * LARGEST);
+    for (let i = mode * size; i < (mode + 1) * size; i++)
+      integers[i] = Math.round((modes[i] / most) * LARGEST);
   }
   return { vertices: size / 3, base: Float32Array.from(base), modes: integers, scales };
 }

@@ -62,5 +62,7 @@ export function boundaryFaces(tets: Int32Array, vertices: number): Uint32Array<A
     seen.set(face, seen.has(face) ? -1 : corner);
   }
   const once = [...seen.values()].filter((corner) => corner >= 0).sort((a, b) => a - b);
-  return Uint32Array.from(once.flatMap((corner) => FACES[corner & 3].map((i) => tets[4 * (corner >> 2) + i])));
+  return Uint32Array.from(
+    once.flatMap((corner) => FACES[corner & 3].map((i) => tets[4 * (corner >> 2) + i])),
+  );
 }

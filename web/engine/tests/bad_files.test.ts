@@ -24,7 +24,10 @@ function container(header: object | string, data = 0): ArrayBuffer {
 
 test("what is no model is told", () => {
   refused(new ArrayBuffer(0), /fewer than 8 bytes/);
-  refused(new TextEncoder().encode("solid teapot, no model at all").buffer as ArrayBuffer, /header is cut off/);
+  refused(
+    new TextEncoder().encode("solid teapot, no model at all").buffer as ArrayBuffer,
+    /header is cut off/,
+  );
   refused(container("not json"), /not JSON/);
   refused(container({ __metadata__: { format: "other" } }), /not a Snapspace model/);
   refused(container({ __metadata__: { format: "snapspace-model", version: "99" } }), /version 99/);

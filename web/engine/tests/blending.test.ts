@@ -25,7 +25,9 @@ for (const file of ["blending.snapspace", "blending.packed"])
     for (const frame of frames) {
       const report = session.blend(frame.weights);
       assert.equal(report.status, "converged");
-      assert.ok(Math.abs(report.value - frame.value) < 1e-4 * Math.abs(frame.value) + 1e-6 * model.valueScale);
+      assert.ok(
+        Math.abs(report.value - frame.value) < 1e-4 * Math.abs(frame.value) + 1e-6 * model.valueScale,
+      );
       reconstruct(model.space, session.q, shape);
       assert.ok(distance(shape, frame.surface) < 1e-4 * diagonal);
       reconstruct(model.poseSpace, frame.weights, shape);

@@ -14,7 +14,9 @@ export function expected<T>(name: string): T {
   return JSON.parse(readFileSync(join(folder!, name), "utf-8")) as T;
 }
 
-export const core = await WebAssembly.compile(readFileSync(new URL("../../generated/core.wasm", import.meta.url)));
+export const core = await WebAssembly.compile(
+  readFileSync(new URL("../../generated/core.wasm", import.meta.url)),
+);
 
 /** The largest difference of two rows of numbers; NaN counts as infinite. */
 export function distance(a: ArrayLike<number>, b: ArrayLike<number>): number {

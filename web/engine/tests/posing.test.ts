@@ -47,10 +47,15 @@ for (const file of ["posing.snapspace", "posing.packed"])
       });
       const report = session.moveAll(new Map(motions));
       assert.equal(report.status, "converged");
-      assert.ok(Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * model.valueScale);
+      assert.ok(
+        Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * model.valueScale,
+      );
       assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
       assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
-      assert.deepEqual(session.outside.map(({ handle }) => handle), frame.outside);
+      assert.deepEqual(
+        session.outside.map(({ handle }) => handle),
+        frame.outside,
+      );
     }
     session.dimension = leading.dimension;
     assert.equal(session.q.length, leading.dimension);

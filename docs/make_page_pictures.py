@@ -1,0 +1,87 @@
+"""Makes the pictures of the page: screenshots of exported models in headless Chromium.
+
+Needs a chromium on the path, and playwright.
+
+python docs/make_page_pictures.py
+"""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from pictures_creature import creature_problem
+from pictures_poses import creature_poses
+from playwright.sync_api import sync_playwright
+
+import snapspace as ss
+from snapspace.generators import creature
+
+FOLDER = Path(__file__).parent / "pictures"
+SOFTWARE_WEBGL = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+TETS = 30_000
+DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+
+
+def model_of(problem: Any, samples: int, dimension: int) -> ss.ReducedModel:
+    """A model of a problem from so many samples."""
+    snapshots = ss.solve_snapshots(problem, ss.sample(problem.domain, samples, method="sobol"))
+    subspace = ss.snapshot_pca(snapshots, dimension=dimension)
+    return ss.reduce(problem, subspace, snapshots=snapshots)
+
+
+def drag(page: Any, handle: int, dx: float, dy: float) -> None:
+    """Drags a handle by its centre, in steps."""
+    x, y = page.evaluate(f"snapspace.handle({handle})")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 13):
+        page.mouse.move(x + dx * step / 12, y + dy * step / 12)
+        page.evaluate(DRAWN)
+    page.mouse.up()
+
+
+def posing(page: Any) -> None:
+    """The head is turned down, the tail raised."""
+    drag(page, 1, 40, 26)
+    drag(page, 2, -24, -34)
+    page.keyboard.press("t")
+    page.keyboard.press("2")
+    for key in ("ArrowRight", "ArrowRight", "ArrowDown", "ArrowDown"):
+        page.keyboard.press(key)
+
+
+def blending(page: Any) -> None:
+    """Half of two poses, beside the straight blend."""
+    page.get_by_role("button", name="Compare").click()
+    sliders = page.locator("section", has_text="Poses").locator("input")
+    sliders.nth(0).fill("0.5")
+    sliders.nth(1).fill("0.5")
+    page.wait_for_timeout(2500)  # the small pictures of the poses
+
+
+def main() -> None:
+    poses = ss.InterpolationProblem(creature_poses(creature(TETS)))
+    plans = [
+        ("page-posing", model_of(creature_problem(TETS), 200, 40), "light", posing),
+        ("page-blending", model_of(poses, 30, 20), "dark", blending),
+    ]
+    program = shutil.which("chromium")
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:
+        browser = playwright.chromium.launch(executable_path=program, args=SOFTWARE_WEBGL)
+        for name, model, theme, act in plans:
+            path = ss.export_html(model, Path(folder) / f"{name}.html", title="Creature")
+            page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme=theme)
+            page.goto(path.as_uri())
+            while not page.evaluate("Boolean(snapspace.ready)"):
+                page.wait_for_timeout(50)
+            act(page)
+            page.wait_for_timeout(500)
+            page.screenshot(path=FOLDER / f"{name}.png")
+        browser.close()
+
+
+if __name__ == "__main__":
+    main()

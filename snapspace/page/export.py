@@ -1,0 +1,71 @@
+"""One HTML file with the page and a model inside: no network, opens from a disk."""
+
+from __future__ import annotations
+
+import base64
+import html
+from pathlib import Path
+
+from ..mesh.atomic_file import atomic_file
+from ..reduction import ReducedModel
+from .pack import packed
+from .page_file import page_html
+
+SUFFIXES = (".html", ".htm")
+_PLACE = "<!-- model -->"
+_TITLE = "<title>Snapspace</title>"
+
+
+def page_with_model(model: ReducedModel, *, title: str) -> str:
+    """The page as text, with a model inside.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    title : str
+        Shown as the heading and as the window's title.
+
+    Raises
+    ------
+    ValueError
+        If the package was made without its page.
+    """
+    content = base64.b64encode(packed(model, name=title)).decode("ascii")
+    element = f'<script id="model" type="application/octet-stream">{content}</script>'
+    page = page_html()
+    for place in (_PLACE, _TITLE):
+        if page.count(place) != 1:
+            raise ValueError(f"the page of this package has no {place}; install the package again")
+    return page.replace(_PLACE, element).replace(
+        _TITLE, f"<title>{html.escape(title, quote=False)}</title>"
+    )
+
+
+def export_html(model: ReducedModel, path: str | Path, *, title: str | None = None) -> Path:
+    """Writes one self-contained file that poses or blends a model in any browser.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    path : str or Path
+        Ends in .html or .htm.
+    title : str, optional
+        Default: the file's name without its extension.
+
+    Returns
+    -------
+    Path
+        The file: complete, or not there.
+
+    Raises
+    ------
+    ValueError
+        For another extension, or if the file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() not in SUFFIXES:
+        raise ValueError(f"{path}: a page ends in {' or '.join(SUFFIXES)}")
+    content = page_with_model(model, title=path.stem if title is None else title)
+    with atomic_file(path) as temporary:
+        temporary.write_text(content, encoding="utf-8")
+    return path

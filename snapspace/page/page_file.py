@@ -1,0 +1,24 @@
+"""The built page (web/), one file, as it lies in the package."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+
+
+@cache
+def page_html() -> str:
+    """The page without a model.
+
+    Raises
+    ------
+    ValueError
+        If the package was made without it: then tools/build_page.py has not run.
+    """
+    try:
+        return resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ValueError(
+            "this copy of snapspace has no page; run `python tools/build_page.py` in its sources, "
+            "or install the package again"
+        ) from None

@@ -1,0 +1,32 @@
+"""`snapspace export`: one page with the model inside."""
+
+from __future__ import annotations
+
+import base64
+import re
+from pathlib import Path
+
+from snapspace import load
+from snapspace.page import packed
+
+from .conftest import Run
+
+
+def test_the_page_holds_the_model(run: Run, model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out.html"
+    figures = run(
+        "export", model, "--html", out, "--title", "A bar", "--dimension", 6, "--json"
+    ).json
+    text = out.read_text(encoding="utf-8")
+    assert figures == {"file": str(out), "bytes": out.stat().st_size, "dimension": 6}
+    found = re.search(r'octet-stream">([^<]*)</script>', text)
+    assert found is not None
+    assert base64.b64decode(found[1]) == packed(load(model).leading(6), name="A bar")
+    assert "<title>A bar</title>" in text
+
+
+def test_mistakes_are_one_line(run: Run, model: Path, tmp_path: Path) -> None:
+    assert "a page ends in .html" in run("export", model, "--html", tmp_path / "a.pdf").error
+    assert "no such model file" in run("export", "none.snapspace", "--html", "a.html").error
+    assert "--html" in run("export", model).error
+    assert "cannot be written" in run("export", model, "--html", tmp_path / "no" / "a.html").error

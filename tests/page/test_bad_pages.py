@@ -1,0 +1,64 @@
+"""What the page says of models that it cannot read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from snapspace import InterpolationModel, PosingModel
+
+from .pages import OpenPage
+
+
+def damaged(page: Path, folder: Path, old: str, new: str) -> str:
+    text = page.read_text(encoding="utf-8")
+    assert old in text
+    path = folder / "damaged.html"
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
+    return path.as_uri()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('octet-stream">', 'octet-stream">%%%', "The model in this page is damaged"),
+        ('octet-stream">', 'octet-stream">AAAA', "not a complete Snapspace model"),
+        ('<script id="model"', '<script id="none"', "Drop a .snapspace file here"),
+    ],
+)
+def test_a_damaged_page_is_told(
+    posing_page: Path, tmp_path: Path, opened: OpenPage, old: str, new: str, message: str
+) -> None:
+    page = opened(damaged(posing_page, tmp_path, old, new))
+    assert message in page.text("#message")
+    assert page.page.get_by_role("button", name="Open a model").first.is_visible()
+
+
+@pytest.fixture
+def built(
+    posing_model: PosingModel, blending_model: InterpolationModel, tmp_path: Path
+) -> dict[str, Path]:
+    """Model files, as `snapspace build` writes them, by kind."""
+    return {
+        "interpolation": blending_model.save(tmp_path / "poses.snapspace"),
+        "posing": posing_model.save(tmp_path / "bar.snapspace"),
+    }
+
+
+def test_files_are_opened_and_bad_ones_are_told(
+    posing_page: Path, tmp_path: Path, opened: OpenPage, built: dict[str, Path]
+) -> None:
+    page = opened(posing_page.as_uri())
+    bad = tmp_path / "teapot.snapspace"
+    bad.write_bytes(b"this is no model at all")
+    chosen = page.page.locator("#panel input[type=file]")
+    chosen.set_input_files(bad)
+    page.page.wait_for_selector("#message.error")
+    assert "not a complete Snapspace model" in page.text("#message")
+    assert page.run("snapspace.kind") == "posing", "the model that was open stays"
+    for kind, file in built.items():
+        chosen.set_input_files(file)
+        page.wait(f"snapspace.kind === '{kind}' && !snapspace.message")
+        assert page.text(".hud h1") == file.stem
+        assert page.page.is_hidden("#message")

@@ -1,0 +1,68 @@
+"""The exported page of an interpolation model, in a browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from snapspace import InterpolationModel
+
+from .pages import OpenPage, Page
+
+
+def assert_shown(model: InterpolationModel, page: Page) -> None:
+    """Both shapes are those of the weights that the page has."""
+    shown, straight = page.shown(), page.shown("straight")
+    weights = np.array(page.run("snapspace.session.weights"))
+    weights /= weights.sum()
+    session = model.session()
+    session.blend(weights)
+    close = 1e-4 * model.problem.mesh.diagonal
+    assert np.abs(shown - model.surface.vertices(session.vertices)).max() < close
+    linear = model.surface.vertices(model.problem.linear_blend(weights))
+    assert np.abs(straight - linear).max() < close
+
+
+def test_sliders_and_polygon_blend(
+    blending_model: InterpolationModel, blending_page: Path, opened: OpenPage
+) -> None:
+    page = opened(blending_page.as_uri())
+    assert_shown(blending_model, page)
+    names = blending_model.problem.poses.names
+    page.page.get_by_role("slider", name=names[1]).fill("0.6")
+    page.settle()
+    weights = page.run("snapspace.session.weights")
+    assert np.allclose(weights, [0.2, 0.6, 0.2])
+    assert_shown(blending_model, page)
+
+    box = page.page.locator(".polygon").bounding_box()
+    start = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.drag(start, 0, -40)
+    weights = page.run("snapspace.session.weights")
+    assert np.isclose(sum(weights), 1) and weights[0] == max(weights)
+    assert_shown(blending_model, page)
+    page.page.locator(".corner").nth(2).click()
+    page.settle()
+    assert page.run("snapspace.session.weights") == [0, 0, 1]
+
+
+def test_a_path_plays_beside_the_straight_blend(
+    blending_model: InterpolationModel, blending_page: Path, opened: OpenPage
+) -> None:
+    page = opened(blending_page.as_uri())
+    page.page.get_by_role("button", name="Compare").click()
+    page.settle()
+    assert page.text(".tag >> nth=0") == "elastic" and page.text(".tag >> nth=1") == "straight"
+    play = page.page.get_by_role("button", name="Play")
+    play.click()
+    seen = []
+    for _ in range(6):
+        page.settle()
+        seen.append(page.run("snapspace.session.weights"))
+    play.click()
+    assert len({tuple(weights) for weights in seen}) > 3, "it moves"
+    assert_shown(blending_model, page)
+    page.wait(
+        "[...document.querySelectorAll('.corner image')].every((i) => i.getAttribute('href'))"
+    )

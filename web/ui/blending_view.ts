@@ -1,0 +1,187 @@
+import { Vector3 } from "three";
+
+import { BlendingSession, type BlendingModel } from "../engine/index.ts";
+import { withWeight } from "./barycentric.ts";
+import { BlendPath } from "./blend_path.ts";
+import { BlendPolygon } from "./blend_polygon.ts";
+import { h, section, slider, toggle } from "./dom.ts";
+import { CLAY } from "./handle_colors.ts";
+import { Hud } from "./hud.ts";
+import { lookSection, qualitySection } from "./look_panel.ts";
+import type { Stage } from "./stage.ts";
+import { Surface } from "./surface.ts";
+import { thumbnail } from "./thumbnail.ts";
+import type { View, ViewOptions } from "./view.ts";
+
+/** Blending: a shape between poses, and beside it the straight blend if that is asked for. */
+export async function blendingView(
+  stage: Stage,
+  module: WebAssembly.Module,
+  model: BlendingModel,
+  options: ViewOptions,
+): Promise<View> {
+  const session = await BlendingSession.create(module, model);
+  const make = (space: BlendingModel["space"]) =>
+    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu);
+  const [elastic, straight] = [make(model.space), make(model.poseSpace)];
+  for (const surface of [elastic, straight]) {
+    surface.paint(() => CLAY);
+    stage.root.add(surface.object);
+  }
+  straight.object.visible = false;
+  stage.place(model.space.base, options.up);
+
+  const hud = new Hud(
+    model.name,
+    `${model.poses.length} poses, ${model.space.vertices.toLocaleString("en")} surface vertices`,
+  );
+  hud.dimension(model.dimension, model.dimension);
+  const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
+  const path = new BlendPath(model.poses.length);
+  let [wish, compared] = [[...session.weights], false];
+  let solved: number[] | null = null;
+
+  const ask = (weights: readonly number[]) => {
+    wish = [...weights];
+    stage.draw();
+  };
+  const stopAndAsk = (weights: readonly number[]) => {
+    path.play(false);
+    play.setAttribute("aria-pressed", "false");
+    ask(weights);
+  };
+  const polygon = new BlendPolygon(model.poses, stopAndAsk);
+  const percent = (w: number) => `${Math.round(100 * w)} %`;
+  const sliders = model.poses.map((name, pose) =>
+    slider(name, { min: 0, max: 1, step: 0.001, value: wish[pose] }, percent, (w) =>
+      stopAndAsk(withWeight(wish, pose, w)),
+    ),
+  );
+  const play = toggle("Play", "Space", false, (on) => {
+    path.play(on);
+    stage.draw();
+  });
+  const compare = toggle("Compare", "The straight blend of the poses beside it", false, (on) => {
+    compared = on;
+    place();
+  });
+  const mean = h(
+    "button",
+    { type: "button", onclick: () => stopAndAsk(model.poses.map(() => 1 / model.poses.length)) },
+    "Mean",
+  );
+
+  const place = () => {
+    straight.object.visible = compared;
+    stage.look(compared ? 1.9 : 1);
+    const right = new Vector3(1, 0, 0).applyQuaternion(stage.camera.quaternion);
+    right.setY(0).normalize();
+    const apart = right
+      .applyQuaternion(stage.root.quaternion.clone().invert())
+      .multiplyScalar(0.45 / stage.root.scale.x);
+    const side = compared ? 1 : 0;
+    elastic.object.matrix.makeTranslation(apart.clone().multiplyScalar(-side));
+    straight.object.matrix.makeTranslation(apart.clone().multiplyScalar(side));
+    for (const surface of [elastic, straight]) surface.object.matrixWorldNeedsUpdate = true;
+    stage.root.updateMatrixWorld();
+  };
+  const solve = () => {
+    if (solved && solved.every((w, i) => w === wish[i])) return;
+    hud.solved(session.blend(wish));
+    solved = [...wish];
+    elastic.show(session.q);
+    straight.show(wish);
+    polygon.show(wish);
+    sliders.forEach(({ set }, pose) => set(wish[pose]));
+  };
+  stage.beforeFrame = (seconds) => {
+    if (path.playing) wish = path.advance(seconds);
+    solve();
+    hud.frame(seconds);
+    label(stage, names, [elastic, straight], compared);
+  };
+  stage.afterFrame = () => {
+    if (path.playing) stage.draw();
+  };
+  const stop = new AbortController();
+  document.addEventListener(
+    "keydown",
+    (event) => {
+      if (
+        event.key !== " " ||
+        event.target instanceof HTMLButtonElement ||
+        event.target instanceof HTMLInputElement
+      )
+        return;
+      event.preventDefault();
+      play.click();
+    },
+    { signal: stop.signal },
+  );
+  stage.renderer.domElement.parentElement!.append(...names);
+  solve();
+  const illustrate = (pose: number) => {
+    if (pose === model.poses.length || stop.signal.aborted) return;
+    const alone = model.poses.map((_, k) => (k === pose ? 1 : 0));
+    polygon.illustrate(pose, thumbnail(stage, straight, elastic, alone));
+    straight.show(wish);
+    stage.renderer.render(stage.scene, stage.camera);
+    setTimeout(illustrate, 0, pose + 1);
+  };
+  setTimeout(illustrate, 60, 0); // after the first picture, one by one
+
+  return {
+    hud,
+    panel: [
+      section("Blend", polygon.element, h("div", { className: "row" }, play, compare, mean)),
+      section("Poses", ...sliders.map(({ element }) => element)),
+      qualitySection(model.dimension, (d) => {
+        session.dimension = d;
+        solved = null;
+        hud.dimension(d, model.dimension);
+        stage.draw();
+      }),
+      lookSection(stage, [elastic, straight], model, options.up),
+    ],
+    script: {
+      kind: "interpolation",
+      session,
+      shown: () => elastic.shown(),
+      straight: () => straight.shown(),
+      onGpu: elastic.onGpu,
+    },
+    dispose: () => {
+      stop.abort();
+      stage.beforeFrame = () => {};
+      stage.afterFrame = () => {};
+      names.forEach((name) => name.remove());
+      for (const surface of [elastic, straight]) {
+        surface.object.removeFromParent();
+        surface.dispose();
+      }
+    },
+  };
+}
+
+/** Puts the names below their shapes. */
+function label(stage: Stage, names: HTMLElement[], surfaces: Surface[], visible: boolean): void {
+  const { clientWidth, clientHeight } = stage.renderer.domElement;
+  names.forEach((name, i) => {
+    name.hidden = !visible;
+    if (!visible) return;
+    const foot = new Vector3().setFromMatrixPosition(surfaces[i].object.matrixWorld);
+    const middle = new Vector3(...middleOf(surfaces[i].space.base)).applyMatrix4(
+      surfaces[i].object.matrixWorld,
+    );
+    foot.set(middle.x, 0, middle.z).project(stage.camera);
+    name.style.left = `${((foot.x + 1) / 2) * clientWidth}px`;
+    name.style.top = `${((1 - foot.y) / 2) * clientHeight + 26}px`;
+  });
+}
+
+function middleOf(shape: Float32Array): [number, number, number] {
+  const sum = [0, 0, 0];
+  for (let i = 0; i < shape.length; i++) sum[i % 3] += shape[i];
+  const count = shape.length / 3;
+  return [sum[0] / count, sum[1] / count, sum[2] / count];
+}

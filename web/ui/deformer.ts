@@ -1,0 +1,39 @@
+import type { Texture } from "three";
+
+import type { ShapeSpace } from "../engine/index.ts";
+
+/** Turns coefficients into positions and normals of a surface's vertices, as textures for the vertex shader. */
+export interface Deformer {
+  /** One texel per vertex, row by row: x, y, z, and 1. */
+  readonly positions: Texture;
+  readonly normals: Texture;
+  /** Texels in a row. */
+  readonly width: number;
+  update(coefficients: ArrayLike<number>): void;
+  /** The positions as the vertex shader gets them, 3 per vertex. */
+  read(): Float32Array;
+  dispose(): void;
+}
+
+/** Width and height of a texture with a texel for each of `count` items. */
+export function textureSize(count: number): [number, number] {
+  const width = 2 ** Math.ceil(Math.log2(Math.max(Math.sqrt(count), 1)));
+  return [width, Math.max(Math.ceil(count / width), 1)];
+}
+
+/** Rows of 3 numbers as texels of 4. */
+export function asTexels(rows: ArrayLike<number>, texels: Float32Array): void {
+  for (let from = 0, to = 0; from < rows.length; from += 3, to += 4) {
+    texels[to] = rows[from];
+    texels[to + 1] = rows[from + 1];
+    texels[to + 2] = rows[from + 2];
+    texels[to + 3] = 1;
+  }
+}
+
+/** Texels of 4 as rows of 3 numbers. */
+export function fromTexels(texels: Float32Array, space: ShapeSpace): Float32Array {
+  const rows = new Float32Array(3 * space.vertices);
+  for (let i = 0; i < rows.length; i++) rows[i] = texels[4 * Math.floor(i / 3) + (i % 3)];
+  return rows;
+}

@@ -1,0 +1,82 @@
+/** Makes an element: h("button", { type: "button", onclick: act }, "Undo"). Keys with a dash are attributes. */
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  properties: Record<string, unknown> = {},
+  ...children: (Node | string)[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [key, value] of Object.entries(properties)) {
+    if (key.includes("-") || key === "role" || key === "for") element.setAttribute(key, String(value));
+    else Object.assign(element, { [key]: value });
+  }
+  element.append(...children);
+  return element;
+}
+
+/** A group of a panel with a heading. */
+export function section(title: string, ...children: (Node | string)[]): HTMLElement {
+  return h("section", {}, h("h2", {}, title), ...children);
+}
+
+/** A button that is pressed or not. */
+export function toggle(label: string, title: string, pressed: boolean, act: (pressed: boolean) => void) {
+  const button = h("button", { type: "button", title, "aria-pressed": pressed }, label);
+  button.addEventListener("click", () => {
+    const next = button.getAttribute("aria-pressed") !== "true";
+    button.setAttribute("aria-pressed", String(next));
+    act(next);
+  });
+  return button;
+}
+
+/** One of several; `act` gets the chosen value. */
+export function choice<T extends string>(
+  label: string,
+  options: readonly (readonly [T, string])[],
+  chosen: T,
+  act: (value: T) => void,
+) {
+  const buttons = options.map(([value, text]) =>
+    h(
+      "button",
+      { type: "button", role: "radio", "aria-checked": value === chosen, onclick: () => set(value, true) },
+      text,
+    ),
+  );
+  const set = (value: T, tell = false) => {
+    options.forEach(([own], i) => buttons[i].setAttribute("aria-checked", String(own === value)));
+    if (tell) act(value);
+  };
+  return {
+    element: h("div", { className: "choice", role: "radiogroup", "aria-label": label }, ...buttons),
+    set,
+  };
+}
+
+/** A range with its label and its value beside it. */
+export function slider(
+  label: string,
+  range: { min: number; max: number; step: number; value: number },
+  shown: (value: number) => string,
+  act: (value: number) => void,
+) {
+  const text = h("output", {}, shown(range.value));
+  const input = h("input", {
+    type: "range",
+    min: range.min,
+    max: range.max,
+    step: range.step,
+    "aria-label": label,
+  });
+  input.value = String(range.value);
+  const set = (value: number) => {
+    input.value = String(value);
+    text.textContent = shown(value);
+  };
+  input.addEventListener("input", () => {
+    text.textContent = shown(input.valueAsNumber);
+    act(input.valueAsNumber);
+  });
+  const element = h("label", { className: "slider" }, h("span", {}, label), text, input);
+  return { element, input, set };
+}

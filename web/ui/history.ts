@@ -1,0 +1,41 @@
+/** States that can be gone back to. */
+export class History<T> {
+  #past: T[] = [];
+  #future: T[] = [];
+  #present: T;
+
+  constructor(present: T) {
+    this.#present = present;
+  }
+
+  get canUndo(): boolean {
+    return this.#past.length > 0;
+  }
+
+  get canRedo(): boolean {
+    return this.#future.length > 0;
+  }
+
+  push(state: T): void {
+    this.#past.push(this.#present);
+    if (this.#past.length > 200) this.#past.shift();
+    this.#present = state;
+    this.#future = [];
+  }
+
+  undo(): T | undefined {
+    return this.#step(this.#past, this.#future);
+  }
+
+  redo(): T | undefined {
+    return this.#step(this.#future, this.#past);
+  }
+
+  #step(from: T[], to: T[]): T | undefined {
+    const state = from.pop();
+    if (state === undefined) return undefined;
+    to.push(this.#present);
+    this.#present = state;
+    return state;
+  }
+}

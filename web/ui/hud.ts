@@ -1,0 +1,78 @@
+import type { FrameReport } from "../engine/index.ts";
+import { h } from "./dom.ts";
+
+const STATUS: Partial<Record<FrameReport["status"], string>> = {
+  max_iterations: "stopped early",
+  max_evaluations: "stopped early",
+  not_finite: "beyond all numbers",
+  unbounded: "no minimum here",
+};
+
+/** Dimension, time of a solve and rate of frames, in a corner; and what the user should know, below. */
+export class Hud {
+  readonly element: HTMLElement;
+  readonly notice = h("p", { className: "notice", role: "status", hidden: true });
+  readonly #figures = {
+    d: figure("d", "coordinates"),
+    solve: figure("solve", "of one solve"),
+    fps: figure("fps", ""),
+  };
+  readonly #solves: number[] = [];
+  readonly #frames: number[] = [];
+  #shown = 0;
+
+  constructor(title: string, detail: string) {
+    const { d, solve, fps } = this.#figures;
+    this.element = h(
+      "header",
+      { className: "hud" },
+      h("h1", {}, title),
+      h("p", {}, detail),
+      h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes),
+    );
+  }
+
+  dimension(d: number, whole: number): void {
+    this.#figures.d.value.textContent = d === whole ? String(d) : `${d} of ${whole}`;
+  }
+
+  solved(report: FrameReport): void {
+    keep(this.#solves, report.milliseconds);
+    const told = STATUS[report.status];
+    if (told) this.#figures.solve.value.textContent = told;
+    else this.#tell();
+  }
+
+  /** Time since the frame before; long ones are pauses. */
+  frame(seconds: number): void {
+    if (seconds > 0.5) this.#frames.length = 0;
+    else keep(this.#frames, seconds);
+    this.#tell();
+  }
+
+  /** What must be known, or an empty text. */
+  warn(text: string): void {
+    if (this.notice.textContent !== text) this.notice.textContent = text;
+    this.notice.hidden = text === "";
+  }
+
+  #tell(): void {
+    const now = performance.now();
+    if (now - this.#shown < 120) return; // numbers that change faster cannot be read
+    this.#shown = now;
+    if (this.#solves.length) this.#figures.solve.value.textContent = `${mean(this.#solves).toFixed(2)} ms`;
+    if (this.#frames.length > 3) this.#figures.fps.value.textContent = (1 / mean(this.#frames)).toFixed(0);
+  }
+}
+
+function figure(name: string, title: string) {
+  const value = h("dd", {}, "–");
+  return { value, nodes: [h("dt", { title }, name), value] };
+}
+
+function keep(values: number[], value: number): void {
+  values.push(value);
+  if (values.length > 30) values.shift();
+}
+
+const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;

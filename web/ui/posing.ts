@@ -1,0 +1,142 @@
+import { Color, Matrix4 } from "three";
+
+import type { FrameReport, Motion, PosingSession } from "../engine/index.ts";
+import { CLAY, handleColor } from "./handle_colors.ts";
+import { History } from "./history.ts";
+import type { Stage } from "./stage.ts";
+import type { Surface } from "./surface.ts";
+
+export type Mode = "move" | "turn";
+
+/** The state of posing: what is asked of the handles, what is selected, and what was before.
+ *
+ * Wishes are collected and solved once before the next picture. */
+export class Posing {
+  readonly session: PosingSession;
+  readonly surface: Surface;
+  readonly stage: Stage;
+  mode: Mode = "move";
+  onSolved: (report: FrameReport) => void = () => {};
+  /** After anything that controls show has changed. */
+  onChange: () => void = () => {};
+  #selected = -1;
+  readonly #wishes = new Map<number, Motion>();
+  readonly #history: History<Motion[]>;
+
+  constructor(stage: Stage, session: PosingSession, surface: Surface) {
+    this.stage = stage;
+    this.session = session;
+    this.surface = surface;
+    this.#history = new History(this.#motions());
+    this.#paint();
+    this.#show();
+  }
+
+  get selected(): number {
+    return this.#selected;
+  }
+
+  select(handle: number): void {
+    if (handle === this.#selected) return;
+    this.#selected = handle;
+    this.#paint();
+    this.onChange();
+    this.stage.draw();
+  }
+
+  setMode(mode: Mode): void {
+    this.mode = mode;
+    this.onChange();
+    this.stage.draw();
+  }
+
+  /** Asks for a motion of a handle; it is solved for before the next picture. */
+  wish(handle: number, motion: Motion): void {
+    this.#wishes.set(handle, motion);
+    this.stage.draw();
+  }
+
+  /** The motion that is asked for, or the present one. */
+  motion(handle: number): Motion {
+    return this.#wishes.get(handle) ?? this.session.motion(handle);
+  }
+
+  /** Solves for what was asked since the last time. */
+  solveWishes(): void {
+    if (this.#wishes.size === 0) return;
+    const report = this.session.moveAll(this.#wishes);
+    this.#wishes.clear();
+    this.#solved(report);
+  }
+
+  /** The end of a drag: a step of undo. */
+  commit(): void {
+    this.solveWishes();
+    this.#history.push(this.#motions());
+    this.onChange();
+  }
+
+  get canUndo(): boolean {
+    return this.#history.canUndo;
+  }
+
+  get canRedo(): boolean {
+    return this.#history.canRedo;
+  }
+
+  undo(): void {
+    this.#goTo(this.#history.undo());
+  }
+
+  redo(): void {
+    this.#goTo(this.#history.redo());
+  }
+
+  reset(): void {
+    this.#wishes.clear();
+    this.session.reset();
+    this.#history.push(this.#motions());
+    this.#solved(this.session.solve());
+  }
+
+  set dimension(dimension: number) {
+    this.session.dimension = dimension;
+    this.#solved(this.session.solve());
+  }
+
+  #goTo(motions: Motion[] | undefined): void {
+    if (!motions) return;
+    this.#wishes.clear();
+    this.#solved(this.session.moveAll(new Map(motions.entries())));
+  }
+
+  #motions(): Motion[] {
+    return this.session.model.handles.map((_, handle) => this.session.motion(handle));
+  }
+
+  #solved(report: FrameReport): void {
+    this.#show();
+    this.onSolved(report);
+    this.onChange();
+    this.stage.draw();
+  }
+
+  #show(): void {
+    this.surface.show(this.session.q);
+    const { rotation: R, shift: t } = this.session.carriedBy;
+    this.surface.object.matrix.copy(
+      new Matrix4().set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1),
+    );
+    this.surface.object.matrixWorldNeedsUpdate = true;
+  }
+
+  #paint(): void {
+    const white = new Color("#ffffff");
+    const colors = this.session.model.handles.map((_, handle) => {
+      const color = new Color(handleColor(handle));
+      return handle === this.#selected ? color.lerp(white, 0.1) : color;
+    });
+    const { handleOfVertex } = this.session.model;
+    this.surface.paint((vertex) => (handleOfVertex[vertex] < 0 ? CLAY : colors[handleOfVertex[vertex]]));
+  }
+}

@@ -1,0 +1,74 @@
+import { Matrix4, Object3D } from "three";
+import { TransformControls } from "three/addons/controls/TransformControls.js";
+
+import type { Posing } from "./posing.ts";
+
+/** Arrows or rings at the selected handle. */
+export class Gizmo {
+  readonly #controls: TransformControls;
+  readonly #proxy = new Object3D();
+  readonly #posing: Posing;
+  readonly #canvas: HTMLCanvasElement;
+
+  constructor(posing: Posing) {
+    const { stage } = posing;
+    this.#posing = posing;
+    this.#canvas = stage.renderer.domElement;
+    this.#controls = new TransformControls(stage.camera, this.#canvas);
+    this.#controls.size = 0.62;
+    stage.root.add(this.#proxy);
+    stage.scene.add(this.#controls.getHelper());
+    this.#controls.addEventListener("change", () => stage.draw());
+    this.#controls.addEventListener("objectChange", () => this.#wish());
+    this.#controls.addEventListener("dragging-changed", (event) => {
+      stage.controls.enabled = !event.value;
+      if (!event.value) posing.commit();
+    });
+  }
+
+  /** Whether a press at this place would take hold of an arrow or ring. */
+  isBelow(event: PointerEvent): boolean {
+    if (this.#posing.selected < 0) return false;
+    const box = this.#canvas.getBoundingClientRect();
+    const x = (2 * (event.clientX - box.left)) / box.width - 1;
+    const y = 1 - (2 * (event.clientY - box.top)) / box.height;
+    this.#controls.pointerHover({ x, y, button: -1 } as never);
+    return this.#controls.axis !== null;
+  }
+
+  /** Follows the selected handle. */
+  update(): void {
+    const { selected, session, mode } = this.#posing;
+    if (selected < 0) {
+      this.#controls.detach();
+      return;
+    }
+    if (this.#controls.object !== this.#proxy) this.#controls.attach(this.#proxy);
+    this.#controls.setMode(mode === "move" ? "translate" : "rotate");
+    if (this.#controls.dragging) return;
+    const { rotation: R } = session.motion(selected);
+    this.#proxy.position.set(...session.place(selected));
+    this.#proxy.quaternion.setFromRotationMatrix(
+      new Matrix4().set(R[0], R[1], R[2], 0, R[3], R[4], R[5], 0, R[6], R[7], R[8], 0, 0, 0, 0, 1),
+    );
+    this.#proxy.updateMatrixWorld(true);
+  }
+
+  dispose(): void {
+    this.#controls.detach();
+    this.#controls.getHelper().removeFromParent();
+    this.#controls.dispose();
+    this.#proxy.removeFromParent();
+  }
+
+  #wish(): void {
+    const { selected, session } = this.#posing;
+    const e = new Matrix4().makeRotationFromQuaternion(this.#proxy.quaternion).elements;
+    const { center } = session.model.handles[selected];
+    const { x, y, z } = this.#proxy.position;
+    this.#posing.wish(selected, {
+      rotation: [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]],
+      translation: [x - center[0], y - center[1], z - center[2]],
+    });
+  }
+}

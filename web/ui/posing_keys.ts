@@ -1,0 +1,59 @@
+import { Vector3 } from "three";
+
+import { turnedInView } from "./posing_drag.ts";
+import type { Posing } from "./posing.ts";
+
+const STEP = 0.015; // of the diagonal
+const TURN = Math.PI / 36;
+
+/** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z and Ctrl+Shift+Z, T, R, F, W, Escape. */
+export function listenToKeys(posing: Posing, signal: AbortSignal): void {
+  document.addEventListener("keydown", (event) => handle(posing, event), { signal });
+}
+
+function handle(posing: Posing, event: KeyboardEvent): void {
+  if (event.target instanceof HTMLInputElement) return;
+  if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
+    event.shiftKey ? posing.redo() : posing.undo();
+  } else if (event.ctrlKey || event.metaKey || event.altKey) {
+    return;
+  } else if (/^[1-9]$/.test(event.key) && Number(event.key) <= posing.session.model.handles.length) {
+    posing.select(Number(event.key) - 1);
+  } else if (event.key.startsWith("Arrow") && posing.selected >= 0) {
+    step(posing, event.key);
+  } else if (event.key === "Escape") {
+    posing.select(-1);
+  } else if (!letter(posing, event.key.toLowerCase())) {
+    return;
+  }
+  event.preventDefault();
+}
+
+function letter(posing: Posing, key: string): boolean {
+  if (key === "t") posing.setMode(posing.mode === "move" ? "turn" : "move");
+  else if (key === "r") posing.reset();
+  else if (key === "f") document.getElementById("frame")?.click();
+  else if (key === "w") document.getElementById("wires")?.click();
+  else return false;
+  return true;
+}
+
+function step(posing: Posing, key: string): void {
+  const across = key === "ArrowLeft" ? -1 : key === "ArrowRight" ? 1 : 0;
+  const up = key === "ArrowDown" ? -1 : key === "ArrowUp" ? 1 : 0;
+  const { selected, session, stage } = posing;
+  const before = posing.motion(selected);
+  if (posing.mode === "turn") {
+    posing.wish(selected, turnedInView(posing, before, across * TURN, -up * TURN));
+  } else {
+    const size = STEP * session.model.diagonal;
+    const shift = new Vector3(across, up, 0).applyQuaternion(stage.camera.quaternion);
+    const [x, y, z] = shift
+      .applyQuaternion(stage.root.quaternion.clone().invert())
+      .multiplyScalar(size)
+      .toArray();
+    const t = before.translation;
+    posing.wish(selected, { rotation: before.rotation, translation: [t[0] + x, t[1] + y, t[2] + z] });
+  }
+  posing.commit();
+}

@@ -1,0 +1,84 @@
+import {
+  BoxGeometry,
+  CanvasTexture,
+  EdgesGeometry,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Sprite,
+  SpriteMaterial,
+  SRGBColorSpace,
+} from "three";
+
+import { handleColor } from "./handle_colors.ts";
+import type { Posing } from "./posing.ts";
+
+/** A dot at every handle, and the sampled box of each that has left it. */
+export class Marks {
+  readonly #posing: Posing;
+  readonly #dots: Sprite[];
+  readonly #boxes = new Map<number, LineSegments>();
+  readonly #group = new Group();
+
+  constructor(posing: Posing) {
+    this.#posing = posing;
+    const { handles, box } = posing.session.model;
+    this.#dots = handles.map((_, handle) => dot(handleColor(handle)));
+    const [x, y, z] = box.translation;
+    handles.forEach(({ center }, handle) => {
+      if (handle === 0 || !(x > 0 || y > 0 || z > 0)) return;
+      const edges = new EdgesGeometry(new BoxGeometry(2 * x, 2 * y, 2 * z));
+      const lines = new LineSegments(
+        edges,
+        new LineBasicMaterial({ color: handleColor(handle), transparent: true, opacity: 0.8 }),
+      );
+      lines.position.set(...center);
+      this.#boxes.set(handle, lines);
+      posing.surface.object.add(lines); // the box is relative to the first handle
+    });
+    this.#group.add(...this.#dots);
+    posing.stage.root.add(this.#group);
+    this.update();
+  }
+
+  update(): void {
+    const { session, selected } = this.#posing;
+    this.#dots.forEach((sprite, handle) => {
+      sprite.position.set(...session.place(handle));
+      sprite.scale.setScalar((handle === selected ? 0.034 : 0.026) * session.model.diagonal);
+    });
+    const outside = new Set(session.outside.map(({ handle }) => handle));
+    this.#boxes.forEach((lines, handle) => (lines.visible = outside.has(handle)));
+  }
+
+  dispose(): void {
+    this.#group.removeFromParent();
+    this.#boxes.forEach((lines) => {
+      lines.removeFromParent();
+      lines.geometry.dispose();
+    });
+    this.#dots.forEach((sprite) => sprite.material.map?.dispose());
+  }
+}
+
+function dot(color: string): Sprite {
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = 64;
+  const pen = canvas.getContext("2d")!;
+  const disc = (radius: number, fill: string) => {
+    pen.beginPath();
+    pen.arc(32, 32, radius, 0, 2 * Math.PI);
+    pen.fillStyle = fill;
+    pen.fill();
+  };
+  disc(30, "rgba(20, 24, 32, 0.28)");
+  disc(27, "#ffffff");
+  disc(20, color);
+  const map = new CanvasTexture(canvas);
+  map.colorSpace = SRGBColorSpace;
+  const sprite = new Sprite(
+    new SpriteMaterial({ map, depthTest: false, toneMapped: false, transparent: true }),
+  );
+  sprite.renderOrder = 5;
+  return sprite;
+}

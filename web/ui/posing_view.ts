@@ -1,0 +1,130 @@
+import { PosingSession, type PosingModel } from "../engine/index.ts";
+import { choice, h, section } from "./dom.ts";
+import { handleColor } from "./handle_colors.ts";
+import { Hud } from "./hud.ts";
+import { lookSection, qualitySection } from "./look_panel.ts";
+import { Posing, type Mode } from "./posing.ts";
+import { HandleDrag } from "./posing_drag.ts";
+import { Gizmo } from "./posing_gizmo.ts";
+import { listenToKeys } from "./posing_keys.ts";
+import { Marks } from "./posing_marks.ts";
+import type { Stage } from "./stage.ts";
+import { Surface } from "./surface.ts";
+import type { View, ViewOptions } from "./view.ts";
+
+const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
+
+/** Posing: handles on the stage, controls in the panel. */
+export async function posingView(
+  stage: Stage,
+  module: WebAssembly.Module,
+  model: PosingModel,
+  options: ViewOptions,
+): Promise<View> {
+  const session = await PosingSession.create(module, model);
+  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, options.forceCpu);
+  stage.root.add(surface.object);
+  stage.place(model.space.base, options.up);
+  const posing = new Posing(stage, session, surface);
+  const stop = new AbortController();
+  const gizmo = new Gizmo(posing);
+  const marks = new Marks(posing);
+  const drag = new HandleDrag(posing, gizmo, stop.signal);
+  listenToKeys(posing, stop.signal);
+
+  const hud = new Hud(model.name, `${model.space.vertices.toLocaleString("en")} surface vertices`);
+  hud.dimension(model.dimension, model.dimension);
+  const list = model.handles.map(({ name }, handle) => {
+    const swatch = h("i", { className: "swatch", "aria-hidden": true });
+    swatch.style.background = handleColor(handle);
+    const act = () => posing.select(posing.selected === handle ? -1 : handle);
+    return h("button", { type: "button", "aria-pressed": false, onclick: act }, swatch, name);
+  });
+  const modes = choice<Mode>(
+    "What a drag does",
+    [
+      ["move", "Move"],
+      ["turn", "Turn"],
+    ],
+    "move",
+    (mode) => posing.setMode(mode),
+  );
+  const undo = h("button", { type: "button", title: "Ctrl+Z", onclick: () => posing.undo() }, "Undo");
+  const redo = h("button", { type: "button", title: "Ctrl+Shift+Z", onclick: () => posing.redo() }, "Redo");
+  const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
+  const figures = h("p", { className: "figures" });
+
+  posing.onSolved = (report) => hud.solved(report);
+  posing.onChange = () => {
+    list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
+    modes.set(posing.mode);
+    undo.disabled = !posing.canUndo;
+    redo.disabled = !posing.canRedo;
+    figures.textContent = posing.selected < 0 ? HELP : described(session, posing.selected);
+    const { outside } = session;
+    hud.warn(
+      outside.length === 0
+        ? ""
+        : `Beyond what was sampled: ${outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`).join("; ")}`,
+    );
+    gizmo.update();
+    marks.update();
+  };
+  posing.onChange();
+  stage.beforeFrame = (seconds) => {
+    posing.solveWishes();
+    hud.frame(seconds);
+  };
+
+  const panel = [
+    section(
+      "Handles",
+      h("div", { className: "list" }, ...list),
+      modes.element,
+      figures,
+      h("div", { className: "row" }, undo, redo, reset),
+    ),
+    qualitySection(model.dimension, (d) => {
+      posing.dimension = d;
+      hud.dimension(d, model.dimension);
+    }),
+    lookSection(stage, [surface], model, options.up),
+  ];
+  return {
+    hud,
+    panel,
+    script: {
+      kind: "posing",
+      session,
+      shown: () => carried(surface.shown(), session),
+      handle: (handle: number) => drag.screen(handle),
+      onGpu: surface.onGpu,
+    },
+    dispose: () => {
+      stop.abort();
+      stage.beforeFrame = () => {};
+      gizmo.dispose();
+      marks.dispose();
+      surface.object.removeFromParent();
+      surface.dispose();
+    },
+  };
+}
+
+function described(session: PosingSession, handle: number): string {
+  const { translation } = session.motion(handle);
+  const short = (x: number) =>
+    Math.abs(x) < 5e-4 * session.model.diagonal ? "0" : Number(x.toPrecision(2)).toString();
+  const degrees = session.euler(handle).map((angle) => `${Math.round((180 * angle) / Math.PI)}°`);
+  return `Moved ${translation.map(short).join(", ")}; turned ${degrees.join(", ")}`;
+}
+
+/** Positions after the first handle's motion. */
+function carried(shape: Float32Array, session: PosingSession): Float32Array {
+  const { rotation: R, shift: t } = session.carriedBy;
+  for (let i = 0; i < shape.length; i += 3) {
+    const [x, y, z] = shape.subarray(i, i + 3);
+    for (let a = 0; a < 3; a++) shape[i + a] = R[3 * a] * x + R[3 * a + 1] * y + R[3 * a + 2] * z + t[a];
+  }
+  return shape;
+}

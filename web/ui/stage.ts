@@ -1,0 +1,167 @@
+import {
+  Box3,
+  CircleGeometry,
+  DirectionalLight,
+  Group,
+  HemisphereLight,
+  Mesh,
+  NeutralToneMapping,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Scene,
+  ShadowMaterial,
+  Sphere,
+  SRGBColorSpace,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+export type Axis = "x" | "y" | "z";
+
+/** From the middle to the camera. */
+const VIEW = new Vector3(0.62, 0.36, 0.8).normalize();
+
+/** Canvas, camera, studio light and ground. Models stand in `root`, which is about one unit large. */
+export class Stage {
+  readonly renderer: WebGLRenderer;
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(32, 1, 0.01, 50);
+  readonly root = new Group();
+  readonly controls: OrbitControls;
+  /** Called before each picture that is drawn. */
+  beforeFrame: (seconds: number) => void = () => {};
+  afterFrame: () => void = () => {};
+  /** Milliseconds that the last frame took apart from drawing. */
+  work = 0;
+  readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
+  #height = 0.5;
+  readonly #before = new PerspectiveCamera(); // while another picture is taken
+  #asked = false;
+  #last = 0;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.renderer = new WebGLRenderer({
+      canvas,
+      antialias: true,
+      alpha: true,
+      powerPreference: "high-performance",
+    });
+    this.renderer.outputColorSpace = SRGBColorSpace;
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.minDistance = 0.15;
+    this.controls.maxDistance = 8;
+    this.controls.addEventListener("change", () => this.draw());
+    this.#ground = new Mesh(new CircleGeometry(6, 48), new ShadowMaterial({ opacity: 0.28 }));
+    this.#ground.rotation.x = -Math.PI / 2;
+    this.#ground.receiveShadow = true;
+    this.scene.add(this.root, this.#ground, ...studio());
+    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
+    this.#resize();
+  }
+
+  /** Asks for a picture; several wishes before the next frame are one. */
+  draw(): void {
+    if (this.#asked) return;
+    this.#asked = true;
+    requestAnimationFrame((now) => {
+      this.#asked = false;
+      const seconds = (now - this.#last) / 1000;
+      this.#last = now;
+      const begin = performance.now();
+      this.beforeFrame(seconds);
+      this.work = performance.now() - begin;
+      this.renderer.render(this.scene, this.camera);
+      this.afterFrame();
+    });
+  }
+
+  /** Puts the bounding box of a shape on the ground, its diagonal one unit long, with an axis up. */
+  place(shape: Float32Array, up: Axis): void {
+    const box = boxOf(shape);
+    const diagonal = box.getSize(new Vector3()).length();
+    this.root.scale.setScalar(1 / diagonal);
+    this.root.rotation.set(up === "z" ? -Math.PI / 2 : 0, 0, up === "x" ? Math.PI / 2 : 0);
+    const foot = box.getCenter(new Vector3());
+    foot[up] = box.min[up];
+    this.root.position.set(0, 0, 0);
+    this.root.updateMatrixWorld(true);
+    this.root.position.copy(this.root.localToWorld(foot).negate());
+    this.root.updateMatrixWorld(true);
+    this.#height = (box.max[up] - box.min[up]) / diagonal;
+    this.look();
+  }
+
+  /** The first view: from the front, a little to the side and above. `width` is what must be seen across. */
+  look(width = 1): void {
+    const target = new Vector3(0, 0.5 * this.#height, 0);
+    const half = Math.tan((this.camera.fov * Math.PI) / 360);
+    const distance = Math.max(0.5 / half, (0.5 * width) / half / this.camera.aspect);
+    this.controls.target.copy(target);
+    this.camera.position.copy(VIEW).multiplyScalar(distance).add(target);
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Looks at a shape that stands in the root; the ground is hidden. For small pictures. */
+  lookAt(shape: Float32Array): void {
+    const sphere = boxOf(shape).getBoundingSphere(new Sphere()).applyMatrix4(this.root.matrixWorld);
+    this.#ground.visible = false;
+    this.#before.copy(this.camera);
+    this.camera.position
+      .copy(VIEW)
+      .multiplyScalar(sphere.radius / Math.sin((this.camera.fov * Math.PI) / 360))
+      .add(sphere.center);
+    this.camera.lookAt(sphere.center);
+    this.camera.updateMatrixWorld();
+  }
+
+  /** Back from `lookAt`. */
+  lookBack(): void {
+    this.#ground.visible = true;
+    this.camera.position.copy(this.#before.position);
+    this.camera.quaternion.copy(this.#before.quaternion);
+    this.camera.updateMatrixWorld();
+  }
+
+  set dark(dark: boolean) {
+    this.#ground.material.opacity = dark ? 0.5 : 0.26;
+    this.draw();
+  }
+
+  #resize(): void {
+    const { clientWidth, clientHeight } = this.renderer.domElement.parentElement!;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}
+
+function boxOf(shape: Float32Array): Box3 {
+  return new Box3().setFromArray(shape);
+}
+
+/** A sky, a key light with a soft shadow, a cool fill, and a rim from behind. */
+function studio(): (HemisphereLight | DirectionalLight)[] {
+  const sky = new HemisphereLight(0xf4f7ff, 0xb9a893, 1.5);
+  const key = new DirectionalLight(0xfff1e0, 2.6);
+  key.position.set(1.4, 2.6, 1.2);
+  key.castShadow = true;
+  key.shadow.mapSize.set(1024, 1024);
+  key.shadow.radius = 2.5;
+  key.shadow.bias = -0.0004;
+  key.shadow.normalBias = 0.02;
+  const box = key.shadow.camera;
+  [box.left, box.right, box.bottom, box.top, box.near, box.far] = [-1.3, 1.3, -1.3, 1.3, 0.5, 6];
+  const fill = new DirectionalLight(0xbfd4ff, 0.55);
+  fill.position.set(-2, 0.8, 1);
+  const rim = new DirectionalLight(0xffffff, 1.3);
+  rim.position.set(-0.8, 1.4, -2);
+  return [sky, key, fill, rim];
+}

@@ -1,0 +1,20 @@
+import { toggle } from "./dom.ts";
+
+/** Dark or light: as the system says, until the button is used. Tells now and after every change. */
+export function followTheme(act: (dark: boolean) => void): void {
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  let chosen: boolean | null = null;
+  const apply = () => {
+    const dark = chosen ?? system.matches;
+    document.documentElement.dataset["theme"] = dark ? "dark" : "light";
+    button.setAttribute("aria-pressed", String(dark));
+    act(dark);
+  };
+  const button = toggle("Dark", "Dark or light", system.matches, (dark) => {
+    chosen = dark;
+    apply();
+  });
+  system.addEventListener("change", apply);
+  document.querySelector("#panel footer")!.append(button);
+  apply();
+}

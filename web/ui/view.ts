@@ -1,0 +1,16 @@
+import type { Hud } from "./hud.ts";
+import type { Axis } from "./stage.ts";
+
+/** What is on the stage and in the panel for one model. */
+export interface View {
+  readonly hud: Hud;
+  readonly panel: HTMLElement[];
+  /** For scripts and tests, as `window.snapspace`. */
+  readonly script: Record<string, unknown>;
+  dispose(): void;
+}
+
+export interface ViewOptions {
+  readonly up: Axis;
+  readonly forceCpu: boolean;
+}
