@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model_file.container import Arrays, container_bytes
-from ..reduction import InterpolationModel, PosingModel, ReducedModel
+from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
 from .shape_space import quantised
 
 FORMAT, VERSION = "snapspace-page", 1
@@ -34,6 +34,8 @@ def packed(model: ReducedModel, *, name: str) -> bytes:
 
     Raises
     ------
+    ValueError
+        For a model with a cubature: the page solves exact quartics only.
     TypeError
         For another model.
     """
@@ -76,6 +78,11 @@ def _posing_about(model: PosingModel) -> dict[str, Any]:
 
 def _posing_arrays(model: PosingModel) -> Arrays:
     problem, mesh = model.problem, model.problem.mesh
+    if isinstance(model.elastic, Cubature):
+        raise ValueError(
+            "the page solves exact quartics, and this model has a cubature; build it with "
+            "--method quartic"
+        )
     surface = mesh.surface_vertices
     handle_of = np.full(len(mesh.vertices), -1, np.int32)
     for index, handle in enumerate(problem.handles):

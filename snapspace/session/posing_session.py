@@ -160,8 +160,8 @@ class PosingSession(Session[PosingModel]):
         if isinstance(elastic, Cubature):
             if single:
                 raise ValueError(
-                    "Session: precision 'single' is for exact quartics; a cubature always keeps its "
-                    "rows so"
+                    "Session: precision 'single' is for exact quartics; a cubature always keeps "
+                    "its rows so"
                 )
             rows, weights, material = elastic.rows, elastic.weights, elastic.material
             return core.CubatureLoop(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +23,10 @@ TESTS = sorted(path.name for path in (ROOT / "web" / "engine" / "tests").glob("*
 
 def posing_frames(model: PosingModel) -> dict[str, Any]:
     """A drag with two handles, one step of it outside of the box, then with the first handle."""
-    session, names = model.session(), model.problem.handles.names
+    # the page always starts from its last frame, Session after a jump between the samples
+    first = {"training_parameters": model.training_parameters[:1]}
+    first["training_coordinates"] = model.training_coordinates[:1]
+    session, names = replace(model, **first).session(), model.problem.handles.names
     surface = model.problem.mesh.surface_vertices
     turn, shift = model.problem.domain.half_widths[3:6], model.problem.domain.half_widths[:3]
     frames = []
