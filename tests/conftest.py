@@ -18,7 +18,10 @@ from snapspace import (
 )
 from snapspace.generators import cylinder, helix
 
+from .browser import chromium
 from .shapes import bar_problem, interpolation_problem
+
+__all__ = ["chromium"]  # a fixture
 
 
 @pytest.fixture(scope="session")

@@ -132,6 +132,7 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
     outputs = ["-o", str(folder / "mine.obj"), "--png", str(folder / "mine.png")]
     finer = ["--samples", "600", "--dimension", "60", "-o", str(folder / "finer.snapspace")]
     return [
+        ("drag it in the browser", ["view", model]),
         ("a pose of your own", ["pose", model, *head, *tail, *outputs]),
         ("more about its error", ["validate", model, "--samples", "30"]),
         ("what is in it and how it was made", ["info", model]),

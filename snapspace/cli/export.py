@@ -9,7 +9,7 @@ import click
 from ..page.export import export_html
 from .console import notice, print_json
 from .loading import load_leading
-from .options import FILE, json_option, leading_option
+from .options import FILE, json_option, leading_option, up_option
 from .units import in_bytes
 
 
@@ -24,9 +24,10 @@ from .units import in_bytes
 )
 @click.option("--title", help="Heading of the page [default: the model's name].")
 @leading_option
+@up_option
 @json_option
 def export(
-    model: Path, html: Path, title: str | None, dimension: int | None, as_json: bool
+    model: Path, html: Path, title: str | None, dimension: int | None, up: str, as_json: bool
 ) -> None:
     """Write a model as one HTML page, to be posed or blended in any browser.
 
@@ -38,7 +39,7 @@ def export(
       snapspace export dragon.snapspace --html dragon.html
     """
     loaded = load_leading(model, dimension)
-    export_html(loaded, html, title=model.stem if title is None else title)
+    export_html(loaded, html, title=model.stem if title is None else title, up=up)
     size = html.stat().st_size
     notice(f"wrote {html}, {in_bytes(size)}; open it in a browser")
     if as_json:

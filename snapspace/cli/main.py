@@ -23,6 +23,7 @@ from .info import info
 from .interpolate import interpolate
 from .pose import pose
 from .validate import validate
+from .view import view
 
 OK, USER_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 2, 130, 141
 
@@ -43,6 +44,7 @@ def snapspace(ctx: click.Context) -> None:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace validate dragon.snapspace
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 -o posed.obj
+      snapspace view dragon.snapspace                  # in the browser
       snapspace export dragon.snapspace --html dragon.html
     With poses of your own:
       snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
@@ -55,7 +57,7 @@ def snapspace(ctx: click.Context) -> None:
         click.echo(ctx.get_help())
 
 
-for command in (demo, build, interpolate, validate, pose, blend, export, info):
+for command in (demo, build, interpolate, validate, pose, blend, view, export, info):
     snapspace.add_command(command)
 
 

@@ -96,5 +96,5 @@ def up_option(command: Command) -> Command:
         type=click.Choice(["x", "y", "z"]),
         default="z",
         show_default=True,
-        help="Axis that points up in the picture.",
+        help="Axis that points up.",
     )(command)

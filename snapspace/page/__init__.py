@@ -2,5 +2,6 @@
 
 from .export import export_html, page_with_model
 from .pack import packed
+from .show import NotebookPage
 
-__all__ = ["export_html", "packed", "page_with_model"]
+__all__ = ["NotebookPage", "export_html", "packed", "page_with_model"]

@@ -9,14 +9,13 @@ from pathlib import Path
 from ..mesh.atomic_file import atomic_file
 from ..reduction import ReducedModel
 from .pack import packed
-from .page_file import page_html
+from .page_file import PLACE, page_html
 
 SUFFIXES = (".html", ".htm")
-_PLACE = "<!-- model -->"
 _TITLE = "<title>Snapspace</title>"
 
 
-def page_with_model(model: ReducedModel, *, title: str) -> str:
+def page_with_model(model: ReducedModel, *, title: str, up: str = "z") -> str:
     """The page as text, with a model inside.
 
     Parameters
@@ -24,24 +23,28 @@ def page_with_model(model: ReducedModel, *, title: str) -> str:
     model : PosingModel or InterpolationModel
     title : str
         Shown as the heading and as the window's title.
+    up : "x", "y" or "z", default "z"
+        Axis that points up at first.
 
     Raises
     ------
     ValueError
-        If the package was made without its page.
+        For another axis, or if the package was made without its page.
     """
-    content = base64.b64encode(packed(model, name=title)).decode("ascii")
+    content = base64.b64encode(packed(model, name=title, up=up)).decode("ascii")
     element = f'<script id="model" type="application/octet-stream">{content}</script>'
     page = page_html()
-    for place in (_PLACE, _TITLE):
+    for place in (PLACE, _TITLE):
         if page.count(place) != 1:
             raise ValueError(f"the page of this package has no {place}; install the package again")
-    return page.replace(_PLACE, element).replace(
+    return page.replace(PLACE, element).replace(
         _TITLE, f"<title>{html.escape(title, quote=False)}</title>"
     )
 
 
-def export_html(model: ReducedModel, path: str | Path, *, title: str | None = None) -> Path:
+def export_html(
+    model: ReducedModel, path: str | Path, *, title: str | None = None, up: str = "z"
+) -> Path:
     """Writes one self-contained file that poses or blends a model in any browser.
 
     Parameters
@@ -51,6 +54,8 @@ def export_html(model: ReducedModel, path: str | Path, *, title: str | None = No
         Ends in .html or .htm.
     title : str, optional
         Default: the file's name without its extension.
+    up : "x", "y" or "z", default "z"
+        Axis that points up at first.
 
     Returns
     -------
@@ -65,7 +70,7 @@ def export_html(model: ReducedModel, path: str | Path, *, title: str | None = No
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: a page ends in {' or '.join(SUFFIXES)}")
-    content = page_with_model(model, title=path.stem if title is None else title)
+    content = page_with_model(model, title=path.stem if title is None else title, up=up)
     with atomic_file(path) as temporary:
         temporary.write_text(content, encoding="utf-8")
     return path

@@ -13,11 +13,12 @@ from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
 from .shape_space import quantised
 
 FORMAT, VERSION = "snapspace-page", 1
+AXES = ("x", "y", "z")
 
 FloatArray = NDArray[np.float64]
 
 
-def packed(model: ReducedModel, *, name: str) -> bytes:
+def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
     """The model as the page reads it: surface only, modes in 16 bits, coefficients in single.
 
     Parameters
@@ -25,6 +26,8 @@ def packed(model: ReducedModel, *, name: str) -> bytes:
     model : PosingModel or InterpolationModel
     name : str
         Shown as the title.
+    up : "x", "y" or "z", default "z"
+        Axis that points up at first.
 
     Returns
     -------
@@ -38,7 +41,11 @@ def packed(model: ReducedModel, *, name: str) -> bytes:
         For a model with a cubature: the page solves exact quartics only.
     TypeError
         For another model.
+    ValueError
+        For another axis.
     """
+    if up not in AXES:
+        raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
         kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
     elif isinstance(model, InterpolationModel):
@@ -51,6 +58,7 @@ def packed(model: ReducedModel, *, name: str) -> bytes:
         raise TypeError(f"packed: the page does not know {type(model).__name__}")
     about |= {
         "name": name,
+        "up": up,
         "diagonal": model.problem.mesh.diagonal,
         "value_scale": model.value_scale,
         "coordinate_scale": model.coordinate_scale,

@@ -5,6 +5,9 @@ from __future__ import annotations
 from functools import cache
 from importlib import resources
 
+#: Where a model, or the address of one, is put into the page.
+PLACE = "<!-- model -->"
+
 
 @cache
 def page_html() -> str:

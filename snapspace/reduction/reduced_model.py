@@ -15,6 +15,7 @@ from ..problem import Problem
 from ..subspace import AffineSubspace
 
 if TYPE_CHECKING:
+    from ..page import NotebookPage
     from ..session import Session
 
 FloatArray = NDArray[np.float64]
@@ -68,6 +69,22 @@ class ReducedModel(ABC):
         from ..model_file import save_model
 
         return save_model(self, path)
+
+    def show(self, *, title: str = "", up: str = "z", height: int = 600) -> NotebookPage:
+        """The page in which the model is posed or blended, for the end of a notebook's cell.
+
+        Parameters
+        ----------
+        title : str, optional
+            Heading of the page.
+        up : "x", "y" or "z", default "z"
+            Axis that points up at first.
+        height : int, default 600
+            In pixels; 100 or more, else ValueError.
+        """
+        from ..page import NotebookPage
+
+        return NotebookPage(self, title=title, up=up, height=height)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}(dimension {self.dimension}, {self.problem!r})"

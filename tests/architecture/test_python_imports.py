@@ -79,11 +79,12 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "page": {"mesh", "model_file", "reduction"},
+    "server": {"page", "reduction"},
     "validation": {"mesh", "problem", "snapshots", "subspace", "reduction", "session", "sampling"},
 }
 
-#: `model.session()` and `model.save()` reach up, inside of the method, for the user's comfort.
-REACHING_UP = {("reduction", "session"), ("reduction", "model_file")}
+#: `model.session()`, `save()` and `show()` reach up, inside of the method, for the user's comfort.
+REACHING_UP = {("reduction", "session"), ("reduction", "model_file"), ("reduction", "page")}
 
 #: The top: may import everything, and nothing may import it.
 TOP = {"cli", "__main__", "__init__"}

@@ -43,9 +43,15 @@ def test_demo(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     with Image.open(folder / "creature.png") as image:
         assert image.width == 4 * 60
     commands = [line for line in result.err.splitlines() if line.startswith("  snapspace ")]
-    assert [line.split()[1] for line in commands] == ["pose", "validate", "info", "build"]
+    assert [line.split()[1] for line in commands] == [
+        "view",
+        "pose",
+        "validate",
+        "info",
+        "build",
+    ]
     monkeypatch.chdir(tmp_path)
-    assert run(*commands[2].split()[1:]).code == 0
+    assert run(*commands[3].split()[1:]).code == 0
 
 
 def test_the_poses_are_inside_of_the_sampled_domain() -> None:

@@ -15,13 +15,13 @@ from .conftest import Run
 def test_the_page_holds_the_model(run: Run, model: Path, tmp_path: Path) -> None:
     out = tmp_path / "out.html"
     figures = run(
-        "export", model, "--html", out, "--title", "A bar", "--dimension", 6, "--json"
+        "export", model, "--html", out, "--title", "A bar", "--dimension", 6, "--up", "y", "--json"
     ).json
     text = out.read_text(encoding="utf-8")
     assert figures == {"file": str(out), "bytes": out.stat().st_size, "dimension": 6}
     found = re.search(r'octet-stream">([^<]*)</script>', text)
     assert found is not None
-    assert base64.b64decode(found[1]) == packed(load(model).leading(6), name="A bar")
+    assert base64.b64decode(found[1]) == packed(load(model).leading(6), name="A bar", up="y")
     assert "<title>A bar</title>" in text
 
 

@@ -1,9 +1,7 @@
-"""Headless Chromium, and exported pages."""
+"""Exported pages."""
 
 from __future__ import annotations
 
-import os
-import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,42 +12,6 @@ from snapspace import InterpolationModel, PosingModel
 from snapspace.page import export_html
 
 from .pages import OpenPage, open_page
-
-NEEDED = "SNAPSPACE_NEEDS_BROWSER"  # CI sets it
-OPTIONS = (
-    "--no-sandbox",
-    # WebGL in software
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--no-first-run",
-)
-
-
-def missing(reason: str) -> None:
-    """Skips, or fails where a browser must be there."""
-    if os.environ.get(NEEDED):
-        pytest.fail(f"{reason} ({NEEDED} is set)")
-    pytest.skip(reason)
-
-
-@pytest.fixture(scope="session")
-def chromium() -> Iterator[Any]:
-    """The browser; the tests are skipped where none is installed."""
-    names = ("chromium", "chromium-browser", "google-chrome")
-    program = next(filter(None, map(shutil.which, names)), None)
-    if program is None:
-        missing(f"needs a browser ({', '.join(names)}), such as Debian's chromium")
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        missing("needs playwright")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=program, args=list(OPTIONS))
-        yield browser
-        browser.close()
 
 
 @pytest.fixture

@@ -94,3 +94,8 @@ def test_a_cubature_is_refused_with_the_cure(posing_model: PosingModel) -> None:
 def test_other_models_are_refused() -> None:
     with pytest.raises(TypeError, match="does not know str"):
         packed("model", name="")  # type: ignore[arg-type]
+
+
+def test_other_axes_are_refused(posing_model: PosingModel) -> None:
+    with pytest.raises(ValueError, match="up is 'w', but it must be one of x, y, z"):
+        packed(posing_model, name="", up="w")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import PosingModel
+from snapspace import PosingModel, export_html
 
 from .pages import OpenPage, Page
 
@@ -86,6 +86,15 @@ def test_dragging_beside_the_shape_looks_around(posing_page: Path, opened: OpenP
     page.drag((40, 440), 120, -30)
     assert page.run("snapspace.stage.camera.position.toArray()") != before
     assert not np.any([np.abs(motion).max() for motion in page.motions().values()])
+
+
+def test_an_axis_points_up(posing_model: PosingModel, tmp_path: Path, opened: OpenPage) -> None:
+    page = opened(export_html(posing_model, tmp_path / "up.html", up="y").as_uri())
+    heights = "[0, 4, 8].map((i) => snapspace.stage.root.matrixWorld.elements[i + 1])"
+    assert np.argmax(page.run(heights)) == 1
+    for axis in "xz":
+        page.page.get_by_role("radio", name=f"{axis} up").click()
+        assert np.argmax(page.run(heights)) == "xyz".index(axis)
 
 
 def test_fewer_dimensions(posing_model: PosingModel, posing_page: Path, opened: OpenPage) -> None:

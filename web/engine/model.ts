@@ -5,6 +5,8 @@ export type Model = PosingModel | BlendingModel;
 
 interface Common {
   readonly name: string;
+  /** Axis that points up at first, where the model tells. */
+  readonly up?: "x" | "y" | "z";
   /** d, the number of coordinates. */
   readonly dimension: number;
   /** Triangles of the surface, outward. */

@@ -11,6 +11,7 @@ export function readPacked(container: Container): Model {
   const space = readSpace(container, "space");
   const common = {
     name: String(about.name),
+    up: about.up as "x" | "y" | "z",
     dimension,
     space,
     faces: Uint32Array.from(container.indices("faces", space.vertices, [faceCount, 3])),

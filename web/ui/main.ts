@@ -41,7 +41,10 @@ async function open(source: () => Promise<Source | null>): Promise<void> {
     view?.dispose();
     view = null;
     clear();
-    const options = { up: (query.get("up") ?? "z") as Axis, forceCpu: query.get("deform") === "cpu" };
+    const options = {
+      up: (query.get("up") ?? model.up ?? "z") as Axis,
+      forceCpu: query.get("deform") === "cpu",
+    };
     const make =
       model.kind === "posing"
         ? posingView(stage, module, model, options)
