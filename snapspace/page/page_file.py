@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
-from importlib import resources
+from pathlib import Path
 
 #: Where a model, or the address of one, is put into the page.
 PLACE = "<!-- model -->"
+
+# beside this file, also in editable installs: tools/build_page.py writes it there
+_FILE = Path(__file__).with_name("page.html")
 
 
 @cache
@@ -19,7 +22,7 @@ def page_html() -> str:
         If the package was made without it: then tools/build_page.py has not run.
     """
     try:
-        return resources.files(__package__).joinpath("page.html").read_text(encoding="utf-8")
+        return _FILE.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise ValueError(
             "this copy of snapspace has no page; run `python tools/build_page.py` in its sources, "

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from snapspace import PosingModel, export_html
-from snapspace.page import page_with_model
+from snapspace.page import page_file, page_with_model
 from snapspace.page.page_file import page_html
 
 from .tools import tool
@@ -19,6 +19,14 @@ build_page = tool("build_page")
 def test_the_page_is_of_the_present_sources() -> None:
     assert build_page.is_current(), "web/ changed; run: python tools/build_page.py"
     assert len(page_html().encode()) < 1_000_000, "page and core"
+
+
+def test_a_package_without_its_page_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(page_file, "_FILE", tmp_path / "page.html")
+    with pytest.raises(ValueError, match=r"has no page; run `python tools/build_page.py`"):
+        page_file.page_html.__wrapped__()
 
 
 def test_the_page_asks_for_nothing() -> None:

@@ -135,6 +135,12 @@ def test_a_finger_drags_on_a_phone(posing_page: Path, opened: OpenPage) -> None:
         send("touchMove", (x - 6 * step, y - 6 * step))
     send("touchEnd")
     assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    page.page.locator("#fold").click()
+    page.settle()
+    assert page.run("document.getElementById('stage').clientHeight") == 800
+    for handle in range(3):
+        x, y = page.run(f"snapspace.handle({handle})")
+        assert 0 < x < 390 and 0 < y < 800, "the shape still fits"
     left_right = "(({ left, right }) => [left, right])(panel.getBoundingClientRect())"
     assert page.run(left_right) == [0, 390], "the controls fit the width"
     assert page.run("document.documentElement.dataset.theme") == "dark"

@@ -137,7 +137,13 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
+    const aspect = clientWidth / clientHeight;
+    // what was seen from side to side stays so when the window becomes narrow
+    const narrowness = (a: number) => Math.max(1, 1 / a);
+    const away = this.camera.position.clone().sub(this.controls.target);
+    away.multiplyScalar(narrowness(aspect) / narrowness(this.camera.aspect));
+    this.camera.position.copy(this.controls.target).add(away);
+    this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
     this.draw();
   }
