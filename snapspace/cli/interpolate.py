@@ -216,6 +216,7 @@ def _print_next(output: Path, poses: int) -> None:
     equal = ",".join(["0.5", "0.5", *["0"] * (poses - 2)])
     print_next(
         [
+            ("blend it in the browser", ["view", output]),
             ("how far it is from the full solution", ["validate", output]),
             ("one blend", ["blend", output, "--weights", equal, "-o", "blend.obj"]),
             (
