@@ -57,8 +57,10 @@ class Running:
 
     def stop(self) -> tuple[int, str]:
         self.process.send_signal(signal.SIGINT)
-        _, rest = self.process.communicate(timeout=30)
-        return self.process.returncode, rest
+        assert self.process.stderr is not None
+        with self.process.stderr as stream:  # communicate() would miss what it has read ahead
+            rest = stream.read()
+        return self.process.wait(timeout=30), rest
 
 
 @pytest.fixture(scope="module")
