@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -35,15 +37,20 @@ class SampleStarts:
         self._metric = vectors * roots[:, None, :]
         offsets = [model.problem.offsets(w) for w in model.training_parameters]
         self._samples = np.array([self._features(o) for o in offsets])
-        distances = _distances(self._samples, self._samples)
-        k = len(distances)
+        self._distances = _distances(self._samples, self._samples)
+        self._coordinates = model.training_coordinates
+        #: How far samples are from their nearest neighbour, in the median.
+        self.spacing = float(np.median(np.sort(self._distances, axis=1)[:, 1]))
+
+    @cached_property
+    def _weights(self) -> FloatArray:
+        """Of the functions and the constant, (samples + 1, d). A drag without jumps needs none."""
+        distances, k = self._distances, len(self._distances)
         matrix = np.ones((k + 1, k + 1))
         matrix[:k, :k] = _NUGGET * distances.max() * np.eye(k) - distances
         matrix[k, k] = 0.0
-        right = np.vstack([model.training_coordinates, np.zeros((1, model.dimension))])
-        self._weights = np.linalg.solve(matrix, right)
-        #: How far samples are from their nearest neighbour, in the median.
-        self.spacing = float(np.median(np.sort(distances, axis=1)[:, 1]))
+        right = np.vstack([self._coordinates, np.zeros((1, self._coordinates.shape[1]))])
+        return np.asarray(np.linalg.solve(matrix, right), np.float64)
 
     def __call__(self, offsets: FloatArray) -> FloatArray:
         """Coordinates (d,) for offsets (h, 3, 4)."""
