@@ -195,13 +195,13 @@ class PosingSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
@@ -234,13 +234,13 @@ class InterpolationSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:

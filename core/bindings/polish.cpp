@@ -37,7 +37,8 @@ void bind_polish_of(nb::module_& m, nb::class_<CoarseSpace>& coarse_space) {
         const Sample sample{0,
                             {input.data(), input.data() + input.size()},
                             {start.data(), start.data() + start.size()}};
-        const SolveOptions options{tolerance, max_iterations, 1, false, threads};
+        const SolveOptions options{
+            .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
         const nb::gil_scoped_release release;
         return polish(system, coarse, B, sample, options, control);
       },

@@ -99,22 +99,24 @@ void bind_solves(nb::class_<System>& system) {
       .def(
           "serve_fast",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
-             int max_iterations, int threads, SolveControl& control, int lanes, bool single) {
+             int max_iterations, int threads, SolveControl& control, int lanes, bool single,
+             double settling) {
+            const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
             nb::gil_scoped_release release;
-            solve_fast(self, queue, expected, {tolerance, max_iterations, lanes, single, threads},
-                       control);
+            solve_fast(self, queue, expected, options, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
-          nb::arg("single") = false,
+          nb::arg("single") = false, nb::arg("settling") = 0.0,
           "L-BFGS on the samples of a queue until it is closed and empty.")
       .def(
           "serve_newton",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
              int max_iterations, int threads, double clamp, SolveControl& control) {
             nb::gil_scoped_release release;
-            solve_newton(self, queue, expected, {tolerance, max_iterations, 1, false, threads},
-                         clamp, control);
+            const SolveOptions options{
+                .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
+            solve_newton(self, queue, expected, options, clamp, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
@@ -122,8 +124,9 @@ void bind_solves(nb::class_<System>& system) {
       .def(
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, SolveControl& control, int lanes, bool single) {
-            const SolveOptions options{tolerance, max_iterations, lanes, single, threads};
+             int max_iterations, int threads, SolveControl& control, int lanes, bool single,
+             double settling) {
+            const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
             return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
               solve_fast(self, queue, count, options, control);
               return 0L;
@@ -131,12 +134,14 @@ void bind_solves(nb::class_<System>& system) {
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
-          nb::arg("single") = false, "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
+          nb::arg("single") = false, nb::arg("settling") = 0.0,
+          "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
              int max_iterations, int threads, double clamp, SolveControl& control) {
-            const SolveOptions options{tolerance, max_iterations, 1, false, threads};
+            const SolveOptions options{
+                .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
             return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
               return solve_newton(self, queue, count, options, clamp, control);
             });

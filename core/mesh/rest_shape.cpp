@@ -32,6 +32,15 @@ double RestShape::volume() const {
   return sum;
 }
 
+std::vector<float> RestShape::lumped_shares() const {
+  std::vector<float> shares(vertex_count, 0.0f);
+  const double whole = volume();
+  for (const RestTet& tet : tets)
+    for (const std::int32_t vertex : tet.vertices)
+      shares[vertex] += static_cast<float>(0.25 * tet.volume / whole);
+  return shares;
+}
+
 Eigen::SparseMatrix<double> RestShape::laplacian() const {
   std::vector<Eigen::Matrix4d> locals;
   locals.reserve(tets.size());

@@ -39,6 +39,9 @@ struct RestShape {
   /// Volume of all tets.
   [[nodiscard]] double volume() const;
 
+  /// A fourth of the volume of its tets for every vertex, as a share of the whole.
+  [[nodiscard]] std::vector<float> lumped_shares() const;
+
   /// Scalar stiffness matrix of the linear elements (the cotangent Laplacian of tets), n x n,
   /// positive semi-definite.
   [[nodiscard]] Eigen::SparseMatrix<double> laplacian() const;

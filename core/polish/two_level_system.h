@@ -31,6 +31,8 @@ struct TwoLevelSystem {
   const CoarseSpace& coarse;
   const Eigen::MatrixXf& inverse;  ///< B
   LowestShape& lowest;
+
+  [[nodiscard]] std::vector<float> masses() const { return system.masses(); }
 };
 
 template <class System, class Real>

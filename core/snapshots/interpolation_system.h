@@ -57,6 +57,8 @@ struct InterpolationSystem {
   [[nodiscard]] int size() const { return energy->size(); }
   [[nodiscard]] int input_size() const { return energy->poses(); }
   [[nodiscard]] double negligible() const { return energy->energy(0).negligible(); }
+  /// Weights of the vertices where lengths of displacements are compared.
+  [[nodiscard]] std::vector<float> masses() const { return energy->energy(0).rest.lumped_shares(); }
 
   /// Tets whose orientation differs from the one in pose 0.
   [[nodiscard]] int inverted_tets(const double* u) const {

@@ -26,13 +26,29 @@ struct Lane {
   double norm = 0.0;   // of the gradient
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
-  double decreases[kWindow] = {};  // of the last accepted steps
+  double decreases[kWindow] = {};   // of the last accepted steps
+  double directions[kWindow] = {};  // their directions' lengths, as if all steps were full ones
+  double displacement = 0.0;        // length of the sample's
   SolveStatus status = SolveStatus::cancelled;
   std::chrono::steady_clock::time_point begin;
 
   [[nodiscard]] bool busy() const { return sample.has_value(); }
   [[nodiscard]] bool running() const { return busy() && !done; }
   [[nodiscard]] int id() const { return sample->id; }
+
+  void record(double decrease, double direction, double length) {
+    decreases[iterations % kWindow] = decrease;
+    directions[iterations % kWindow] = direction;
+    displacement = length;
+    ++iterations;
+  }
+
+  /// A step says how far the solution may still be. Short steps along long directions are no sign
+  /// of a near solution, which is why directions count.
+  [[nodiscard]] bool settled(double share) const {
+    if (iterations < kWindow) return false;
+    return std::accumulate(directions, directions + kWindow, 0.0) < share * displacement;
+  }
 
   /// A single small predicted decrease may be luck: the mean of the last actual ones must be
   /// small as well.

@@ -41,7 +41,7 @@ class LaneLbfgs {
         threads_(threads),
         objective_(system, threads),
         size_(objective_.size()),
-        vectors_(size_),
+        vectors_(system.masses()),
         trial_(size_, Real(0)),
         gradient_(size_, Real(0)),
         work_(size_, 0.0f) {}
@@ -95,7 +95,9 @@ class LaneLbfgs {
     for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
       const int there = lanes[lane];
       lanes_[lane] = std::exchange(from.lanes_[there], {});
-      lengths_.set(lane, from.lengths_[there]);
+      steps_.set(lane, from.steps_[there]);
+      lengths_.direction.set(lane, from.lengths_.direction[there]);
+      lengths_.trial.set(lane, from.lengths_.trial[there]);
       objective_.load(lane, lanes_[lane].sample->input.data());
       pairs_[lane] = from.pairs_[there];
       for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][there]);
@@ -131,7 +133,7 @@ class LaneLbfgs {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
-    lengths_.set(index, 0.0);
+    steps_.set(index, 0.0);
     pairs_[index].forget();
     objective_.load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
@@ -151,7 +153,7 @@ class LaneLbfgs {
     Total scale(1.0), inverse(1.0);
     for (int lane = 0; lane < kWidth; ++lane) {
       const double norm = std::sqrt(products.itself[lane]);
-      verdicts_[lane] = judge(lanes_[lane], value[lane], products.direction[lane]);
+      verdicts_[lane] = judge(lane, value[lane], products.direction[lane]);
       if (verdicts_[lane] == Verdict::refused) continue;
       lanes_[lane].norm = norm;
       if (!(norm > 0.0)) continue;
@@ -180,7 +182,7 @@ class LaneLbfgs {
         trial.images[k] = products.images[k][lane];
       }
       if (verdicts_[lane] == Verdict::moved)
-        pairs_[lane].move(trial, lengths_[lane], vectors_.slot());
+        pairs_[lane].move(trial, steps_[lane], vectors_.slot());
       else
         pairs_[lane].start(trial);
       const double slope = pairs_[lane].turn();
@@ -204,12 +206,13 @@ class LaneLbfgs {
       if (lanes_[lane].running() && !lanes_[lane].fresh)
         outcome.next_length.set(lane, lanes_[lane].step);
     }
-    vectors_.combine(outcome, work_.data(), pairs_, trial_.data());
-    lengths_ = outcome.next_length;
+    lengths_ = vectors_.combine(outcome, work_.data(), pairs_, trial_.data());
+    steps_ = outcome.next_length;
   }
 
   /// Accepts or refuses the lane's trial, and chooses a shorter step where it is refused.
-  Verdict judge(Lane& lane, double value, double slope) {
+  Verdict judge(int index, double value, double slope) {
+    Lane& lane = lanes_[index];
     if (!lane.running()) return Verdict::refused;
     ++lane.evaluations;
     if (lane.fresh) {
@@ -221,8 +224,8 @@ class LaneLbfgs {
       return Verdict::refused;
     }
     if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope, kRounding)) {
-      lane.decreases[lane.iterations % Lane::kWindow] = lane.value - value;
-      ++lane.iterations;
+      lane.record(lane.value - value, std::sqrt(lengths_.direction[index]),
+                  std::sqrt(lengths_.trial[index]));
       lane.restarted = false;
       lane.value = value;
       lane.shortenings = 0;
@@ -246,7 +249,8 @@ class LaneLbfgs {
     Lane& lane = lanes_[index];
     lane.slope = slope;
     if (slope > 0.0) return restart(index);
-    if (lane.converged(options_.tolerance, objective_.negligible()))
+    if (lane.converged(options_.tolerance, objective_.negligible()) ||
+        lane.settled(options_.settling))
       return finish(lane, SolveStatus::converged);
     if (lane.iterations >= options_.max_iterations) finish(lane, SolveStatus::max_iterations);
   }
@@ -283,8 +287,9 @@ class LaneLbfgs {
   PairProducts pairs_[kWidth];
   Lane lanes_[kWidth];
   Verdict verdicts_[kWidth];
-  Total lengths_ = 0.0;                    // of the steps that lead to the trials
-  StreamedVector<Real> trial_, gradient_;  // and the gradient there
+  Total steps_ = 0.0;  // that lead to the trials, as shares of the directions
+  typename LbfgsVectors<Real>::Lengths lengths_;  // of these directions, and of the trials
+  StreamedVector<Real> trial_, gradient_;         // and the gradient there
   StreamedVector<SingleLanes<kWidth>> work_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "memory/streamed_vector.h"
@@ -38,7 +39,14 @@ class LbfgsVectors {
     Total scale{1.0};  ///< A^-1 gradient = scale * image
   };
 
-  explicit LbfgsVectors(int size) : entries_(size, Entry{}) {}
+  /// Squares of lengths in the norm of the masses: of the directions, and of the trials.
+  struct Lengths {
+    Total direction{0.0}, trial{0.0};
+  };
+
+  /// @param masses  one per vertex, which has three entries
+  explicit LbfgsVectors(std::vector<float> masses)
+      : masses_(std::move(masses)), entries_(3 * masses_.size(), Entry{}) {}
 
   /// Takes over everything from the lanes of wider vectors.
   template <class Wide>
@@ -75,7 +83,9 @@ class LbfgsVectors {
   ///   trial = u + next_length * direction.
   /// @param image  A^-1 gradient / scale of the trial
   /// @param pairs  have the coefficients of the new directions, one per lane
-  void combine(const Outcome& outcome, const Single* image, const PairProducts* pairs, Real* trial);
+  /// @return       of what is new now
+  Lengths combine(const Outcome& outcome, const Single* image, const PairProducts* pairs,
+                  Real* trial);
 
  private:
   template <class>
@@ -95,6 +105,7 @@ class LbfgsVectors {
   }
 
   int slot_ = 0;
+  std::vector<float> masses_;
   StreamedVector<Entry> entries_;
 };
 
@@ -116,8 +127,8 @@ auto LbfgsVectors<Real>::products(const Real* gradient) const -> Products {
 }
 
 template <class Real>
-void LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
-                                 const PairProducts* pairs, Real* trial) {
+auto LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
+                                 const PairProducts* pairs, Real* trial) -> Lengths {
   // by age of the slot, so that sums do not depend on where the ring stands
   int slots[kPairs];
   Real step_weights[kPairs], image_weights[kPairs];
@@ -132,7 +143,7 @@ void LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
   const Real next_length = narrowed(outcome.next_length);
   const Real accepted = outcome.accepted, moved = outcome.moved;
   const int slot = slot_;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
+  const auto turn = [&](std::size_t i) {
     Entry& entry = entries_[i];
     const Real z = scale * narrowed(image[i]);
     const Real s = select(moved, trial[i] - entry.u, narrowed(entry.steps[slot]));
@@ -147,8 +158,19 @@ void LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
     entry.u = select(accepted, trial[i], entry.u);
     entry.direction = select(accepted, direction, entry.direction);
     trial[i] = entry.u + next_length * entry.direction;
+  };
+  Lengths lengths;
+  for (std::size_t vertex = 0; vertex < masses_.size(); ++vertex) {
+    const Total mass(masses_[vertex]);
+    for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
+      turn(i);
+      const Total direction = widened(entries_[i].direction), displacement = widened(trial[i]);
+      lengths.direction += mass * direction * direction;
+      lengths.trial += mass * displacement * displacement;
+    }
   }
   slot_ = (slot_ + 1) % kPairs;
+  return lengths;
 }
 
 }  // namespace snapspace

@@ -40,6 +40,8 @@ struct PosingSystem {
   /// Of the displacements that one sample asks of the pinned vertices.
   [[nodiscard]] int input_size() const { return 3 * static_cast<int>(pinned.size()); }
   [[nodiscard]] double negligible() const { return energy.negligible(); }
+  /// Weights of the vertices where lengths of displacements are compared.
+  [[nodiscard]] std::vector<float> masses() const { return energy.rest.lumped_shares(); }
   [[nodiscard]] int inverted_tets(const double* u) const { return energy.inverted_tets(u); }
 
  private:

@@ -25,6 +25,9 @@ struct SolveReport {
 
 struct SolveOptions {
   double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value; L-BFGS asks more
+  /// L-BFGS: converged as well when the last directions together are no longer than this share of
+  /// the displacement, in the norm of the lumped masses; 0 never.
+  double settling = 0.0;
   int max_iterations = 500;
   int lanes = 16;       ///< samples in a pack at most
   bool single = false;  ///< packs in single precision

@@ -34,6 +34,7 @@ class Choices:
     seed: int
     solver: Solver
     tolerance: float | None
+    settling: float | None
     max_iterations: int
     clamp: float
     lumped: bool
@@ -44,6 +45,7 @@ class Choices:
         return SolverOptions(
             solver=self.solver,
             tolerance=self.tolerance,
+            settling=self.settling,
             max_iterations=self.max_iterations,
             clamp=self.clamp,
         )
@@ -177,7 +179,13 @@ def _options(
             "--tolerance",
             type=float,
             help="Converged: the decrease still expected is below this share of the energy "
-            "[default: 1e-5 for posing, 1e-9 for interpolation].",
+            "[default: 1e-9 for interpolation, and for posing --settling decides].",
+        ),
+        click.option(
+            "--settling",
+            type=float,
+            help="Converged: the last 8 directions together are below this share of the "
+            "displacement [default: 0.002 for posing without --tolerance, else 0: never].",
         ),
         click.option(
             "--max-iterations",

@@ -78,6 +78,11 @@ class InterpolationProblem:
         return 1e-9
 
     @property
+    def snapshot_settling(self) -> float:
+        """Never: without handles, soft modes go on moving in steps too short to tell."""
+        return 0.0
+
+    @property
     def solutions_far_apart(self) -> bool:
         """Yes: halfway between distant poses a linear blend shrinks and turns inside out."""
         return True

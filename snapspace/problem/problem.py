@@ -55,6 +55,11 @@ class Problem(Protocol):
         ...
 
     @property
+    def snapshot_settling(self) -> float:
+        """Share of the displacement at which the fast solver's steps may end; 0 for never."""
+        ...
+
+    @property
     def base(self) -> FloatArray:
         """Shape (3n,) from which the solvers' displacements count."""
         ...

@@ -46,6 +46,7 @@ def solve_fast(
         threads=threads,
         control=control,
         single=options.single,
+        settling=options.settling,
     )
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
     for k, report in enumerate(reports):
@@ -92,6 +93,7 @@ def solve_on(
             threads=threads,
             control=control,
             single=options.single,
+            settling=options.settling,
         )
         shape, report = again.shapes[0], _continued(report, as_sample_report(again.reports[0]))
     return shape, report

@@ -116,6 +116,7 @@ class LocalBackend:
             threads=self._threads,
             control=self._control,
             single=options.single,
+            settling=options.settling,
         )
 
     def _solve_on(self, slow: Solved) -> Solved:

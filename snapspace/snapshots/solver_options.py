@@ -16,6 +16,9 @@ PRECISIONS: tuple[Precision, ...] = ("single", "double")
 
 #: Single precision resolves decreases down to about a hundredth of this share of F.
 SINGLE_TOLERANCE = 3e-6
+#: Where `settling` decides, samples whose energy is done before, for instance those at rest, stop
+#: at this tolerance.
+SETTLED_TOLERANCE = 1e-6
 #: Energies of single tets must be far from the ends of its range, 1e-38 and 1e38.
 SINGLE_ENERGIES = 1e-22, 1e22
 
@@ -30,17 +33,24 @@ class SolverOptions:
         L-BFGS on a scalar factor that all samples share, or the paper's Newton method (sec. 4.2).
     tolerance : float, optional
         Converged when twice the decrease that the solver's model predicts is below tolerance * F,
-        and for "fast" the mean decrease of the last 8 iterations is as well. Default: the
-        problem's `snapshot_tolerance`.
+        and for "fast" the mean decrease of the last 8 iterations is as well. Default: `settling`
+        decides where the problem has one, otherwise the problem's `snapshot_tolerance`.
+    settling : float, optional
+        "fast" only: converged as well when the last 8 directions, steps of the solver's model to
+        the minimum, together are shorter than this share of the sample's displacement, in the norm
+        of the lumped masses. A subspace needs shapes, not energies: on a fine mesh the energy goes
+        on falling while the surface wrinkles, and nothing else moves. Default: the problem's
+        `snapshot_settling` if no tolerance is given, otherwise 0, which is never.
     max_iterations : int, default 1000
         Per sample; one that needs more ends as max_iterations.
     clamp : float, default 0.65
         Newton only: singular values are raised to this in the Hessian; the paper uses 0.5 to 0.8.
     precision : "single" or "double", optional
         "fast" only: of shapes and gradients while solving; objectives and inner products are summed
-        in double precision anyway. Default: single for tolerances of 3e-6 and more, which takes
-        half the time and changes the shapes by less than the tolerance does; double where the
-        mesh's units are so small or large that energies would leave the range of single numbers.
+        in double precision anyway. Default: single where settling decides and for tolerances of
+        3e-6 and more, which takes half the time and changes the shapes by less than these tests
+        leave; double where the mesh's units are so small or large that energies would leave the
+        range of single numbers.
     block : int, optional
         Samples handed out together. They start from the samples of earlier blocks, see `Schedule`:
         larger ones keep more cores busy, smaller ones give better starts. Default 16 for "fast", 2
@@ -54,6 +64,7 @@ class SolverOptions:
 
     solver: Solver = "fast"
     tolerance: float | None = None
+    settling: float | None = None
     max_iterations: int = 1000
     clamp: float = 0.65
     precision: Precision | None = None
@@ -64,6 +75,8 @@ class SolverOptions:
             raise ValueError(f"unknown solver '{self.solver}'; known are {', '.join(SOLVERS)}")
         if self.tolerance is not None and not (np.isfinite(self.tolerance) and self.tolerance > 0):
             raise ValueError(f"tolerance is {self.tolerance}, but it must be positive")
+        if self.settling is not None and not (np.isfinite(self.settling) and self.settling >= 0):
+            raise ValueError(f"settling is {self.settling}, but it must be zero or positive")
         if self.max_iterations < 1:
             raise ValueError(f"max_iterations is {self.max_iterations}, but must be at least 1")
         if not 0 < self.clamp <= 1:
@@ -77,11 +90,13 @@ class SolverOptions:
 
     def resolved(self, problem: Problem) -> ResolvedOptions:
         """The options with everything decided, for a problem."""
-        tolerance = problem.snapshot_tolerance if self.tolerance is None else self.tolerance
-        tolerance = float(tolerance)
+        settling = self._settling(problem)
+        usual = SETTLED_TOLERANCE if settling > 0 else problem.snapshot_tolerance
+        tolerance = usual if self.tolerance is None else float(self.tolerance)
         single = self.precision == "single"
         if self.precision is None:
-            single = tolerance >= SINGLE_TOLERANCE and _in_range(problem)
+            resolves = settling > 0 or tolerance >= SINGLE_TOLERANCE
+            single = resolves and _in_range(problem)
         if single and tolerance < 0.03 * SINGLE_TOLERANCE:
             raise ValueError(
                 f"precision single resolves tolerances down to {0.03 * SINGLE_TOLERANCE:.0e}, not "
@@ -90,11 +105,19 @@ class SolverOptions:
         return ResolvedOptions(
             solver=self.solver,
             tolerance=tolerance,
+            settling=settling,
             max_iterations=self.max_iterations,
             clamp=self.clamp,
             single=single and self.solver == "fast",
             block=self.block or (16 if self.solver == "fast" else 2),
         )
+
+    def _settling(self, problem: Problem) -> float:
+        if self.solver == "newton":
+            return 0.0
+        if self.settling is not None:
+            return float(self.settling)
+        return problem.snapshot_settling if self.tolerance is None else 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,6 +129,7 @@ class ResolvedOptions:
 
     solver: Solver
     tolerance: float
+    settling: float
     max_iterations: int
     clamp: float
     single: bool

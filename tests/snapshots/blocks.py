@@ -24,6 +24,7 @@ FloatArray = NDArray[np.float64]
 Outcome = tuple[FloatArray, SampleReport]
 
 OPTIONS = ResolvedOptions(
+    settling=0.0,
     solver="fast",
     tolerance=1e-10,
     max_iterations=1000,

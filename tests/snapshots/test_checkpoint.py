@@ -214,7 +214,9 @@ def key(**changes: Any) -> str:
 def test_the_key_is_the_same_for_the_same_run() -> None:
     assert key() == key()
     assert len(key()) == 16 and int(key(), 16) >= 0
-    spelt_out = SolverOptions(solver="fast", tolerance=1e-5, precision="single", block=16)
+    spelt_out = SolverOptions(
+        solver="fast", tolerance=1e-6, settling=2e-3, precision="single", block=16
+    )
     assert key(options=spelt_out) == key()
 
 

@@ -30,7 +30,7 @@ def solved(
     problem: PosingProblem, samples: FloatArray, precision: Precision, **options: Any
 ) -> Snapshots:
     """From the rest shape: starts would mix the precision of other samples in."""
-    options = {"block": len(samples), "precision": precision, **options}
+    options = {"block": len(samples), "precision": precision, "tolerance": 1e-5, **options}
     return solve_snapshots(problem, samples, options=SolverOptions(**options), threads=1)
 
 

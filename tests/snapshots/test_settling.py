@@ -1,0 +1,109 @@
+"""The stopping test that looks at shapes: what it leaves, and that it does not see the mesh."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import (
+    HandleBox,
+    Handles,
+    PosingProblem,
+    Snapshots,
+    SolverOptions,
+    generators,
+    sample,
+    solve_snapshots,
+)
+from snapspace.mesh import mass_norms
+from snapspace.snapshots.solver_options import SETTLED_TOLERANCE
+
+SAMPLES = 24
+
+
+def creature(tets: int) -> PosingProblem:
+    mesh = generators.creature(tets)
+    parts = generators.creature_handles(mesh)
+    handles = Handles([parts["feet"], parts["head"]])
+    return PosingProblem(mesh, handles, domain=HandleBox(translation=0.3, angle=np.pi / 4))
+
+
+def solved(problem: PosingProblem, **options: Any) -> Snapshots:
+    """From rest, so that samples do not help each other."""
+    samples = sample(problem.domain, SAMPLES, method="sobol", seed=3)
+    how = SolverOptions(block=SAMPLES, **options)
+    return solve_snapshots(problem, samples, options=how, threads=1)
+
+
+def evaluations(snapshots: Snapshots) -> float:
+    return float(np.mean([report.evaluations for report in snapshots.reports]))
+
+
+def errors(snapshots: Snapshots, limit: Snapshots) -> NDArray[np.float64]:
+    """In the M-norm, relative to the displacement."""
+    mass, rest = limit.problem.mass(), limit.problem.base[:, None]
+    misses: NDArray[np.float64] = mass_norms(mass, snapshots.shapes - limit.shapes)
+    return misses / mass_norms(mass, limit.shapes - rest)
+
+
+@pytest.fixture(scope="module")
+def small() -> PosingProblem:
+    return creature(5_000)
+
+
+def test_it_bounds_what_is_left(small: PosingProblem) -> None:
+    """Each direction is an estimate of the distance. Soft shapes are further than that, by a factor
+    that does not depend on the test, and a tighter test leaves less."""
+    limit = solved(small, tolerance=1e-12)
+    settlings = np.array([0.01, 0.003, 0.001])
+    left = np.array([np.median(errors(solved(small, settling=s), limit)) for s in settlings])
+    assert (np.diff(left) < 0).all()
+    assert (left < 6.0 * settlings).all()
+
+
+def test_its_cost_sees_less_of_the_mesh(small: PosingProblem) -> None:
+    """The energy of a finer mesh goes on falling when its shape has settled."""
+    large = creature(30_000)
+    settled, by_energy = (
+        evaluations(solved(large, **how)) / evaluations(solved(small, **how))
+        for how in ({"settling": 2e-3}, {"tolerance": 1e-6})
+    )
+    assert settled < 0.95 * by_energy
+
+
+def test_a_tolerance_alone_decides_by_the_energy(small: PosingProblem) -> None:
+    """The tight test on request: not a bit differs from a run that knows of no other test."""
+    assert SolverOptions(tolerance=1e-7).resolved(small).settling == 0.0
+    given, never = solved(small, tolerance=1e-7), solved(small, tolerance=1e-7, settling=0.0)
+    assert np.array_equal(given.shapes, never.shapes)
+
+
+def test_samples_at_rest_are_done_at_once(small: PosingProblem) -> None:
+    """No displacement has no share."""
+    at_rest = solve_snapshots(small, np.zeros((3, 6)), threads=1)
+    assert at_rest.converged.all()
+    assert evaluations(at_rest) <= 2
+
+
+def test_both_tests_may_be_given(small: PosingProblem) -> None:
+    resolved = SolverOptions(tolerance=1e-4, settling=0.01).resolved(small)
+    assert (resolved.tolerance, resolved.settling) == (1e-4, 0.01)
+    either = evaluations(solved(small, tolerance=1e-4, settling=0.01))
+    assert either <= min(
+        evaluations(solved(small, tolerance=1e-4)), evaluations(solved(small, settling=0.01))
+    )
+
+
+def test_newton_knows_only_the_tolerance(small: PosingProblem) -> None:
+    resolved = SolverOptions(solver="newton").resolved(small)
+    assert resolved.settling == 0.0
+    assert resolved.tolerance == small.snapshot_tolerance > SETTLED_TOLERANCE
+
+
+@pytest.mark.parametrize("bad", [-0.1, np.nan, np.inf])
+def test_bad_settling(bad: float) -> None:
+    with pytest.raises(ValueError, match="settling is .*, but it must be zero or positive"):
+        SolverOptions(settling=bad)
