@@ -105,5 +105,5 @@ def test_newton_knows_only_the_tolerance(small: PosingProblem) -> None:
 
 @pytest.mark.parametrize("bad", [-0.1, np.nan, np.inf])
 def test_bad_settling(bad: float) -> None:
-    with pytest.raises(ValueError, match="settling is .*, but it must be zero or positive"):
+    with pytest.raises(ValueError, match=r"settling is .*, but it must be zero or positive"):
         SolverOptions(settling=bad)
