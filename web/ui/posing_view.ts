@@ -14,21 +14,27 @@ import type { View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
 
+/** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
+export interface PosingView extends View {
+  replace(model: PosingModel): Promise<void>;
+}
+
 /** Posing: handles on the stage, controls in the panel. */
 export async function posingView(
   stage: Stage,
   module: WebAssembly.Module,
   model: PosingModel,
   options: ViewOptions,
-): Promise<View> {
-  const session = await PosingSession.create(module, model);
-  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, options.forceCpu);
-  stage.root.add(surface.object);
-  stage.place(model.space.base, options.up);
-  const posing = new Posing(stage, session, surface);
+): Promise<PosingView> {
+  const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
+    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu);
+  const surfaces = [surfaceOf(model)];
+  stage.root.add(surfaces[0].object);
+  if (!options.keepView) stage.place(model.space.base, options.up);
+  const posing = new Posing(stage, await PosingSession.create(module, model), surfaces[0]);
   const stop = new AbortController();
   const gizmo = new Gizmo(posing);
-  const marks = new Marks(posing);
+  let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
   listenToKeys(posing, stop.signal);
 
@@ -60,8 +66,8 @@ export async function posingView(
     modes.set(posing.mode);
     undo.disabled = !posing.canUndo;
     redo.disabled = !posing.canRedo;
-    figures.textContent = posing.selected < 0 ? HELP : described(session, posing.selected);
-    const { outside } = session;
+    figures.textContent = posing.selected < 0 ? HELP : described(posing.session, posing.selected);
+    const { outside } = posing.session;
     hud.warn(
       outside.length === 0
         ? ""
@@ -76,6 +82,30 @@ export async function posingView(
     hud.frame(seconds);
   };
 
+  const qualityOf = (whole: number) =>
+    qualitySection(whole, (d) => {
+      posing.dimension = d;
+      hud.dimension(d, whole);
+    });
+  let quality = qualityOf(model.dimension);
+  const replace = async (better: PosingModel) => {
+    const session = await PosingSession.create(module, better);
+    const [before] = surfaces;
+    surfaces[0] = surfaceOf(better);
+    surfaces[0].lookAs(before);
+    stage.root.add(surfaces[0].object);
+    marks.dispose();
+    posing.replace(session, surfaces[0]);
+    marks = new Marks(posing);
+    before.object.removeFromParent();
+    before.dispose();
+    hud.dimension(better.dimension, better.dimension);
+    const next = qualityOf(better.dimension);
+    quality.replaceWith(next);
+    quality = next;
+    stage.draw();
+  };
+
   const panel = [
     section(
       "Handles",
@@ -84,29 +114,29 @@ export async function posingView(
       figures,
       h("div", { className: "row" }, undo, redo, reset),
     ),
-    qualitySection(model.dimension, (d) => {
-      posing.dimension = d;
-      hud.dimension(d, model.dimension);
-    }),
-    lookSection(stage, [surface], model, options.up),
+    quality,
+    lookSection(stage, surfaces, model, options.up),
   ];
   return {
     hud,
     panel,
+    replace,
     script: {
       kind: "posing",
-      session,
-      shown: () => carried(surface.shown(), session),
+      get session() {
+        return posing.session;
+      },
+      shown: () => carried(posing.surface.shown(), posing.session),
       handle: (handle: number) => drag.screen(handle),
-      onGpu: surface.onGpu,
+      onGpu: surfaces[0].onGpu,
     },
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
       gizmo.dispose();
       marks.dispose();
-      surface.object.removeFromParent();
-      surface.dispose();
+      surfaces[0].object.removeFromParent();
+      surfaces[0].dispose();
     },
   };
 }

@@ -124,6 +124,13 @@ export class Surface {
     this.#uniforms.displacementColors.value = on ? 1 : 0;
   }
 
+  /** Looks as another one does. */
+  lookAs(other: Surface): void {
+    this.#wires.visible = other.#wires.visible;
+    this.#solid.receiveShadow = other.#solid.receiveShadow;
+    this.#uniforms.displacementColors.value = other.#uniforms.displacementColors.value;
+  }
+
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
     const colors = this.#geometry.getAttribute("color") as BufferAttribute;

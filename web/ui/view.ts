@@ -3,7 +3,7 @@ import type { Axis } from "./stage.ts";
 
 /** What is on the stage and in the panel for one model. */
 export interface View {
-  readonly hud: Hud;
+  readonly hud: Pick<Hud, "element" | "notice">;
   readonly panel: HTMLElement[];
   /** For scripts and tests, as `window.snapspace`. */
   readonly script: Record<string, unknown>;
@@ -13,4 +13,6 @@ export interface View {
 export interface ViewOptions {
   readonly up: Axis;
   readonly forceCpu: boolean;
+  /** Leaves the camera as it is, and what stands before it. */
+  readonly keepView?: boolean;
 }
