@@ -3,9 +3,12 @@ import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
 import { posingView } from "./posing_view.ts";
 import { readable, Room } from "./room.ts";
+import { Server } from "./server.ts";
 import { fromFile, ownModel, type Source } from "./source.ts";
+import { Workspace } from "./workspace.ts";
 import "./panel.css";
 import "./style.css";
+import "./choosing.css";
 
 /** For scripts and tests: what the view shows, and a promise that is kept when a model is. */
 declare global {
@@ -17,13 +20,15 @@ declare global {
 const started = performance.now();
 window.snapspace = {};
 const room = new Room();
+const server = Server.ofPage();
+const workspace = server && new Workspace(room, server);
 
 /** Shows a model in place of the one before; a message if it cannot be read, and the one before stays. */
 async function open(source: () => Promise<Source | null>): Promise<void> {
   try {
     const given = await source();
     if (!given) {
-      room.tell("Drop a .snapspace file here, or open one.", false, opener());
+      if (!workspace) room.tell("Drop a .snapspace file here, or open one.", false, opener());
       return;
     }
     const arrived = performance.now();
@@ -43,13 +48,17 @@ async function open(source: () => Promise<Source | null>): Promise<void> {
   }
 }
 
+/** A model is opened here; a mesh is the server's. */
 function take(file: File): void {
-  void open(() => fromFile(file));
+  if (workspace && !file.name.endsWith(".snapspace")) void workspace.upload(file);
+  else void open(() => fromFile(file));
 }
 
 /** A button that asks for a file. */
 function opener(): HTMLElement {
-  return filePicker("Open a model…", ".snapspace", take);
+  return workspace
+    ? filePicker("Open a mesh or model…", "", take)
+    : filePicker("Open a model…", ".snapspace", take);
 }
 
 document.addEventListener("dragover", (event) => event.preventDefault());
@@ -64,3 +73,4 @@ document.getElementById("fold")!.addEventListener("click", (event) => {
 });
 document.getElementById("panel")!.append(h("footer", {}, opener()));
 void open(ownModel);
+server?.connect();

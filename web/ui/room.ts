@@ -47,7 +47,7 @@ export class Room {
     this.#view = view;
     document.getElementById("fold")!.after(...view.panel);
     this.#place.append(view.hud.element, view.hud.notice);
-    this.#message.hidden = true;
+    this.quiet();
     this.#panel.hidden = false;
     document.title = title || "Snapspace";
     this.stage.renderer.render(this.stage.scene, this.stage.camera);
@@ -60,9 +60,18 @@ export class Room {
     });
   }
 
+  /** Takes the message away. */
+  quiet(): void {
+    this.#message.hidden = true;
+  }
+
   /** A message before everything, with something to do about it. */
   tell(text: string, isError: boolean, ...below: HTMLElement[]): void {
-    this.#message.replaceChildren(h("p", { role: isError ? "alert" : "status" }, text), ...below);
+    const words = h("p", { role: isError ? "alert" : "status" }, text);
+    const row = h("div", { className: "row" }, ...below);
+    if (isError && this.#view)
+      row.append(h("button", { type: "button", onclick: () => this.quiet() }, "Close"));
+    this.#message.replaceChildren(words, row);
     this.#message.classList.toggle("error", isError);
     this.#message.hidden = false;
     window.snapspace["message"] = text;
