@@ -74,13 +74,13 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
 
 def _posing_about(model: PosingModel) -> dict[str, Any]:
     problem = model.problem
-    bounds = problem.domain.half_widths[:6].tolist()
+    bounds = np.vstack([np.zeros(6), problem.domain.bounds]).tolist()
     return {
         "handles": [
             {"name": name, "center": center}
             for name, center in zip(problem.handles.names, problem.centroids.tolist(), strict=True)
         ],
-        "box": {"translation": bounds[:3], "angle": bounds[3:]},
+        "boxes": [{"translation": row[:3], "angle": row[3:]} for row in bounds],
     }
 
 

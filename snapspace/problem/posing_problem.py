@@ -36,13 +36,14 @@ class PosingProblem:
     ----------
     mesh : TetMesh
     handles : Handles
-        The first one stays at rest while sampling.
+        The first one stays at rest while sampling, as do those whose bounds are zero.
     material : StVK, default StVK(lam=1, mu=1)
     stiffness : float, default 1000
         Weight of the handles, > 0, in energy per volume and squared length (mu of eq. 2 in the
         paper).
     domain : HandleBox
-        Bounds of the motions; `moving` is set to the number of handles less one.
+        Bounds of the motions, common or for each handle but the first; common ones get `moving`
+        from the number of handles.
 
     Raises
     ------
@@ -93,7 +94,8 @@ class PosingProblem:
             For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
             `fixing`.
         domain : HandleBox, optional
-            Default: the bounds of this problem, for each moving handle.
+            Default: the bounds of this problem; where each handle has its own, those of its name,
+            and for new ones `HandleBox.common`.
 
         Returns
         -------
@@ -109,7 +111,7 @@ class PosingProblem:
         other = PosingProblem(
             self.mesh,
             handles,
-            domain=domain or self.domain,
+            domain=domain or self.domain.renamed(self.handles.names[1:], handles.names[1:]),
             material=self.material,
             stiffness=self.stiffness,
         )

@@ -243,12 +243,12 @@ class Saved:
 class Polished:
     """Server: the shape of the binary frame before this message.
 
-    moved : root mean square over the body, relative to the displacement from rest
+    moved : root mean square over the body, relative to the displacement from rest; null without one
     status : converged, max_iterations, line_search_failed or not_finite
     """
 
     request: int
-    moved: float
+    moved: float | None
     iterations: int
     status: str
     seconds: float

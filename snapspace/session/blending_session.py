@@ -77,6 +77,24 @@ class BlendingSession(Session[InterpolationModel]):
             self._loop.q = shape
         return report
 
+    def put(self, weights: ArrayLike, q: ArrayLike) -> None:
+        """Takes a frame that was solved elsewhere, as in the page; nothing is solved.
+
+        Parameters
+        ----------
+        weights : array_like, (poses,), of sum one
+        q : array_like, (dimension,) or fewer
+            Coordinates of the shape, or the leading ones, which set `dimension`.
+
+        Raises
+        ------
+        ValueError
+            For another number of weights or coordinates, one that is not finite, or another sum.
+        """
+        w = self.model.problem.weights(weights, extrapolate=True)
+        self._take_shape(q)
+        self._set_weights(w)
+
     def reset(self) -> None:
         """Back to the mean shape: equal weights."""
         self._set_weights(self.model.problem.domain.center)

@@ -215,13 +215,13 @@ export interface Saved {
 
 /** Server: the shape of the binary frame before this message.
  *
- * moved : root mean square over the body, relative to the displacement from rest
+ * moved : root mean square over the body, relative to the displacement from rest; null without one
  * status : converged, max_iterations, line_search_failed or not_finite
  */
 export interface Polished {
   readonly type: "polished";
   readonly request: number;
-  readonly moved: number;
+  readonly moved: number | null;
   readonly iterations: number;
   readonly status: string;
   readonly seconds: number;

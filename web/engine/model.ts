@@ -1,3 +1,4 @@
+import type { Box } from "./sampled_box.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** What the page needs of a model, whether it came as a model file or in an exported page. */
@@ -25,8 +26,8 @@ export interface PosingModel extends Common {
   readonly handles: readonly Handle[];
   /** Index of the handle that a surface vertex belongs to, or -1. */
   readonly handleOfVertex: Int32Array<ArrayBuffer>;
-  /** Half widths of the box of motions that was sampled: lengths, and radians. */
-  readonly box: { readonly translation: readonly number[]; readonly angle: readonly number[] };
+  /** The box of motions that was sampled, handle by handle; of those at rest, the first one too, zeros. */
+  readonly boxes: readonly Box[];
   readonly quartic: Float64Array<ArrayBuffer>;
   readonly K: Float64Array<ArrayBuffer>;
   readonly L: Float64Array<ArrayBuffer>;

@@ -108,7 +108,7 @@ export class PosingSession {
     return this.model.handles.flatMap((_, handle) => {
       if (handle === 0) return [];
       const { rotation, translation } = this.#relative(handle);
-      const how = beyondBox(this.model.box, rotation, translation);
+      const how = beyondBox(this.model.boxes[handle], rotation, translation);
       return how ? [{ handle, how }] : [];
     });
   }

@@ -2,6 +2,7 @@ import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { coefficientCount, type Handle, type Model } from "./model.ts";
 import { registered } from "./registration.ts";
+import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
 import { boundaryFaces, diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
 
@@ -50,7 +51,7 @@ function readPosing(container: Container, name: string): Model {
     ...scales(about.material.mu, volumes, diagonal),
     handles,
     handleOfVertex: Int32Array.from(surface, (vertex) => handleOf[vertex]),
-    box: about.domain,
+    boxes: boxesOf(about.domain, count),
     quartic: container.doubles("quartic", coefficientCount(dimension)),
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),

@@ -26,7 +26,7 @@ export function readPacked(container: Container): Model {
       kind: "posing",
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
-      box: about.box,
+      boxes: about.boxes,
       quartic: container.doubles("quartic", coefficientCount(dimension)),
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),

@@ -84,7 +84,7 @@ test("the packed model is the file's, on the surface", () => {
   assert.ok(distance(packed.space.modes, file.space.modes) <= 1);
   assert.ok(distance(packed.handles[1].center, file.handles[1].center) < 1e-12 * diagonal);
   assert.ok(Math.abs(packed.valueScale / file.valueScale - 1) < 1e-12);
-  assert.deepEqual(packed.box, file.box);
+  assert.deepEqual(packed.boxes, file.boxes);
 });
 
 test("a gimbal-locked rotation keeps its matrix", () => {
