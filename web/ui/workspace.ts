@@ -26,6 +26,8 @@ export class Workspace {
   /** Number of the request that computes, or 0. */
   #job = 0;
   #isRunning = false;
+  /** Whether a lost connection came back, until its mesh is there. */
+  #isBack = false;
   /** Models are taken one after the other. */
   #queue: Promise<void> = Promise.resolve();
 
@@ -56,19 +58,34 @@ export class Workspace {
     const before = this.#given;
     this.#given = given;
     if (given.kind === "model") return; // the page has shown it
-    const isSame = before?.name === given.name && before.diagonal === given.diagonal;
-    if (this.#mesh && (isSame || (before?.id !== given.id && given.kind === "empty"))) {
-      if (!isSame) this.#panel.fault("The server has forgotten the mesh. Drop it on the page again.");
-      return; // the connection came back: what was chosen here stays
+    if (this.#mesh && before?.id !== given.id) {
+      this.#isBack = true; // the connection was lost; what was chosen here stays
+      if (given.kind === "empty") this.#panel.fault("The server has forgotten the mesh: drop it here again.");
     }
-    if (given.kind === "empty") this.#reading.ask(given);
-    if (given.kind !== "mesh" || given.mesh === null) return;
+    if (given.kind !== "mesh" || given.mesh === null) {
+      if (!this.#isBack) this.#await(given);
+      return;
+    }
+    const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
+    if (this.#isBack && isSame) {
+      this.#isBack = false;
+      return;
+    }
+    this.#isBack = false;
     this.#mesh = readMesh(await this.#server.fetched(given.mesh));
     this.#choice = choiceOf(given.handles);
     this.#sampling = samplingOf(given);
     [this.#model, this.#job, this.#isRunning] = [null, 0, false];
     this.#panel.clear();
     this.#choosing(true);
+  }
+
+  /** Without a mesh: asks for one, or waits for it. */
+  #await(given: Given): void {
+    this.#mesh = null;
+    this.#leave();
+    if (given.kind === "empty") this.#reading.ask(given);
+    else this.#reading.wait(given);
   }
 
   /** The view in which handles are chosen. */

@@ -24,6 +24,7 @@ export class ReadingBox {
   /** Asks for a mesh. */
   ask(given: Given): void {
     this.#given = given;
+    this.#isShown = false;
     this.#room.tell("Drop a mesh here: a surface or a tet mesh.", false, this.#picker());
   }
 
@@ -55,9 +56,14 @@ export class ReadingBox {
     }
   }
 
+  /** The server reads a mesh. */
+  wait(given: Given): void {
+    this.#given = given;
+    this.#show("The mesh is being read");
+  }
+
   progress(progress: Progress): void {
-    if (!this.#isShown) this.#show("The mesh is being read");
-    this.#bar.show(progress);
+    if (this.#isShown) this.#bar.show(progress);
   }
 
   failed(message: string): void {
