@@ -23,6 +23,8 @@ export class HandleList {
   readonly #common: CommonRanges;
   readonly #list = h("ul", { className: "handles" });
   readonly #make = h("button", { type: "button", className: "primary wide", title: "Enter" });
+  /** The same button on the stage, for narrow windows. */
+  readonly floating = h("button", { type: "button", className: "primary floating" });
   readonly #told = h("p", { className: "hint", role: "status" });
   readonly #lacking = h("p", { className: "hint", id: "lacking" });
   /** Keys of the handles whose ranges are shown. */
@@ -33,7 +35,7 @@ export class HandleList {
   constructor(choosing: Choosing, common: CommonRanges) {
     this.#choosing = choosing;
     this.#common = common;
-    this.#make.addEventListener("click", () => this.make());
+    for (const button of [this.#make, this.floating]) button.addEventListener("click", () => this.make());
     this.element = section("Handles", this.#lacking, this.#make, this.#told, this.#list);
   }
 
@@ -52,7 +54,9 @@ export class HandleList {
     this.#lacking.textContent = lacking(choice);
     this.#make.disabled = count === 0;
     const text = count === 0 ? "New handle" : `New handle · ${vertices(count)}`;
-    if (this.#make.textContent !== text) this.#make.textContent = text;
+    for (const button of [this.#make, this.floating])
+      if (button.textContent !== text) button.textContent = text;
+    this.floating.hidden = count === 0;
     if (this.#shown === choice.handles && this.#hadSelection === count > 0) return;
     if (this.#shown !== choice.handles && !this.#told.dataset["kept"]) this.#told.textContent = "";
     delete this.#told.dataset["kept"];

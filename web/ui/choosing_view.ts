@@ -45,7 +45,7 @@ export function choosingView(
   const select = selectPanel(choosing, () => tools.refresh());
   const handles = new HandleList(choosing, () => sampling);
   listenToChoosingKeys({ choosing, tools, make: () => handles.make() }, stop.signal);
-  stage.renderer.domElement.parentElement!.append(overlay.element);
+  stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
   choosing.onChange = () => {
     select.update();
@@ -83,6 +83,7 @@ export function choosingView(
       stop.abort();
       stage.beforeFrame = () => {};
       overlay.element.remove();
+      handles.floating.remove();
       surface.object.removeFromParent();
       surface.dispose();
     },

@@ -34,7 +34,7 @@ export class ComputePanel {
   constructor(acts: ComputeActs) {
     const button = (label: string, act: () => void, className = "") =>
       h("button", { type: "button", className, onclick: act }, label);
-    this.#compute = button("Compute", acts.compute, "primary wide");
+    this.#compute = button("Compute", acts.compute, "primary");
     this.#compute.setAttribute("aria-describedby", "lacking");
     this.#cancel = button("Cancel", acts.cancel);
     this.#save = button("Save", acts.save);
@@ -42,12 +42,11 @@ export class ComputePanel {
     this.#pose = button("Pose", acts.pose);
     this.element = section(
       "Model",
-      this.#compute,
       this.#bar.element,
       this.#model,
       this.#fault,
       this.#told,
-      h("div", { className: "row acts" }, this.#cancel, this.#choose, this.#pose, this.#save),
+      h("div", { className: "row acts" }, this.#compute, this.#cancel, this.#choose, this.#pose, this.#save),
     );
   }
 

@@ -19,6 +19,7 @@ declare global {
 
 const started = performance.now();
 window.snapspace = {};
+document.getElementById("panel")!.append(h("footer", {}, opener()));
 const room = new Room();
 const server = Server.ofPage();
 const workspace = server && new Workspace(room, server);
@@ -56,14 +57,19 @@ function take(file: File): void {
 
 /** A button that asks for a file. */
 function opener(): HTMLElement {
-  return workspace
+  return document.querySelector('meta[name="snapspace-server"]')
     ? filePicker("Open a mesh or model…", "", take)
     : filePicker("Open a model…", ".snapspace", take);
 }
 
-document.addEventListener("dragover", (event) => event.preventDefault());
+document.addEventListener("dragover", (event) => {
+  event.preventDefault();
+  document.body.classList.add("dragged-over");
+});
+document.addEventListener("dragleave", () => document.body.classList.remove("dragged-over"));
 document.addEventListener("drop", (event) => {
   event.preventDefault();
+  document.body.classList.remove("dragged-over");
   const file = event.dataTransfer?.files[0];
   if (file) take(file);
 });
@@ -71,6 +77,5 @@ document.getElementById("fold")!.addEventListener("click", (event) => {
   const folded = document.body.classList.toggle("folded");
   (event.currentTarget as HTMLElement).setAttribute("aria-expanded", String(!folded));
 });
-document.getElementById("panel")!.append(h("footer", {}, opener()));
 void open(ownModel);
 server?.connect();

@@ -11,13 +11,24 @@ export class Room {
   readonly #panel = document.getElementById("panel")!;
   readonly #message = document.getElementById("message")!;
   readonly #query = new URLSearchParams(location.search);
+  #isDark = false;
   #stage: Stage | null = null;
   #module: Promise<WebAssembly.Module> | null = null;
   #view: View | null = null;
 
+  constructor() {
+    followTheme((dark) => {
+      this.#isDark = dark;
+      if (this.#stage) this.#stage.dark = dark;
+    });
+  }
+
   /** UnreadableModel where the browser cannot draw. */
   get stage(): Stage {
-    this.#stage ??= newStage();
+    if (!this.#stage) {
+      this.#stage = newStage();
+      this.#stage.dark = this.#isDark;
+    }
     return this.#stage;
   }
 
@@ -43,12 +54,19 @@ export class Room {
     this.#place.querySelectorAll(".hud, .notice").forEach((part) => part.remove());
   }
 
+  /** Takes away what is shown, and nothing comes in its place. */
+  empty(): void {
+    this.clear();
+    this.#panel.hidden = true;
+  }
+
   show(view: View, title: string, script: Record<string, unknown> = {}): void {
     this.#view = view;
     document.getElementById("fold")!.after(...view.panel);
     this.#place.append(view.hud.element, view.hud.notice);
     this.quiet();
     this.#panel.hidden = false;
+    this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
     this.stage.renderer.render(this.stage.scene, this.stage.camera);
     this.stage.draw();
@@ -80,9 +98,7 @@ export class Room {
 
 function newStage(): Stage {
   try {
-    const made = new Stage(document.querySelector("canvas")!);
-    followTheme((dark) => (made.dark = dark));
-    return made;
+    return new Stage(document.querySelector("canvas")!);
   } catch {
     throw new UnreadableModel("This browser has no WebGL 2, which the page needs to draw.");
   }

@@ -82,8 +82,8 @@ export class Workspace {
 
   /** Without a mesh: asks for one, or waits for it. */
   #await(given: Given): void {
-    this.#mesh = null;
-    this.#leave();
+    [this.#mesh, this.#posing] = [null, null];
+    this.#room.empty();
     if (given.kind === "empty") this.#reading.ask(given);
     else this.#reading.wait(given);
   }

@@ -25,7 +25,13 @@ export class ReadingBox {
   ask(given: Given): void {
     this.#given = given;
     this.#isShown = false;
-    this.#room.tell("Drop a mesh here: a surface or a tet mesh.", false, this.#picker());
+    const formats = h(
+      "p",
+      { className: "formats" },
+      "A closed surface (.obj .off .ply .stl), which is filled with tets, ",
+      "or tets (.mesh .msh .vtk .vtu .veg).",
+    );
+    this.#room.tell("Drop a mesh here", false, formats, this.#picker());
   }
 
   async upload(file: File, given: Given): Promise<void> {
@@ -68,7 +74,7 @@ export class ReadingBox {
 
   failed(message: string): void {
     this.#isShown = false;
-    this.#room.tell(message, true, this.#picker());
+    this.#room.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
   }
 
   #show(text: string): void {
