@@ -146,6 +146,15 @@ export class Choosing {
     return this.#open(inLasso(this.#places(), line));
   }
 
+  /** Where a vertex is in the window. */
+  screen(vertex: number): [number, number] {
+    const { camera, root, renderer } = this.stage;
+    const place = new Vector3().fromArray(this.mesh.shape, 3 * vertex);
+    place.applyMatrix4(root.matrixWorld).project(camera);
+    const box = renderer.domElement.getBoundingClientRect();
+    return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
+  }
+
   /** Of the canvas, in pixels of the page. */
   get size(): [number, number] {
     const { clientWidth, clientHeight } = this.stage.renderer.domElement;

@@ -135,6 +135,7 @@ export class ChoosingTools {
       if (found.length > 0) choosing.take(found, remove);
     }
     choosing.commit();
+    if (event.pointerType !== "touch") this.#hover(this.#placeOf(event), this.#removes(event));
   }
 
   #lift(event: PointerEvent): void {

@@ -72,6 +72,7 @@ export function choosingView(
     script: {
       kind: "choosing",
       choosing,
+      screen: (vertex: number) => choosing.screen(vertex),
       get handles() {
         return choosing.choice.handles.map(({ name, vertices }) => ({ name, vertices: [...vertices] }));
       },
