@@ -42,8 +42,7 @@ class PosingProblem:
         Weight of the handles, > 0, in energy per volume and squared length (mu of eq. 2 in the
         paper).
     domain : HandleBox
-        Bounds of the motions, common or for each handle but the first; common ones get `moving`
-        from the number of handles.
+        Bounds of the motions; `moving` is set to the number of handles less one.
 
     Raises
     ------
@@ -94,8 +93,7 @@ class PosingProblem:
             For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
             `fixing`.
         domain : HandleBox, optional
-            Default: the bounds of this problem; where each handle has its own, those of its name,
-            and for new ones `HandleBox.common`.
+            Default: the bounds of this problem, see `HandleBox.renamed`.
 
         Returns
         -------

@@ -86,15 +86,12 @@ class Bench:
         material = self._material
         if order.poisson is not None:
             material = _with_poisson(material, order.poisson)
-        self._problem = self._of(self._selection, order.stiffness, material)
-        return Computation(
-            self._problem,
-            order,
-            turns=turns,
-            solved=self._solved,
-            report=report,
-            publish=publish,
+        problem = self._of(self._selection, order.stiffness, material)
+        computation = Computation(
+            problem, order, turns=turns, solved=self._solved, report=report, publish=publish
         )
+        self._problem = problem
+        return computation
 
     def save(self, order: messages.Save) -> messages.Saved:
         """Writes the problem of the handles chosen last, and the newest model.

@@ -37,6 +37,13 @@ class Models:
         """The last model; None before the first."""
         return self._kept[-1] if self._kept else None
 
+    def has_better(self, model: ReducedModel) -> bool:
+        """Whether the newest model is of the same problem, and of more samples or dimensions."""
+        newest = self.newest
+        if newest is None or newest.model.problem is not model.problem:
+            return False
+        return _size(newest.model) > _size(model)
+
     def find(self, number: int) -> Kept | None:
         """A model by number; None if it is not there any more."""
         return next((kept for kept in self._kept if kept.number == number), None)
@@ -44,3 +51,7 @@ class Models:
     def clear(self) -> None:
         """Lets go of all."""
         self._kept = ()
+
+
+def _size(model: ReducedModel) -> tuple[int, int]:
+    return model.dimension, len(model.training_parameters)

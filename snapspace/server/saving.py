@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import json
 import os
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -67,55 +68,61 @@ class Savings:
         suffixes = [PROBLEM_SUFFIX]
         suffixes += [] if model is None else [SUFFIX]
         suffixes += [] if body.file is not None else [MESH_SUFFIX]
-        stem = self._free(folder, body.name if name is None else checked_name(name), suffixes)
-        mesh = body.file
-        if mesh is None:
-            mesh = folder / f"{stem}{MESH_SUFFIX}"
-            self._write(mesh, lambda path: write_tets(path, body.mesh))
-        content = problem_content(problem, os.path.relpath(mesh, folder))
-        text = json.dumps(content) + "\n"
-        file = folder / f"{stem}{PROBLEM_SUFFIX}"
-        self._write(file, lambda path: _write_text(path, text))
-        saved_model = None
-        if model is not None:
-            saved_model = folder / f"{stem}{SUFFIX}"
-            self._write(saved_model, model.save)
+        named = body.name if name is None else checked_name(name)
+        with self._held(folder, named, suffixes) as stem:
+            mesh = folder / f"{stem}{MESH_SUFFIX}" if body.file is None else body.file
+            if body.file is None:
+                self._write(mesh, lambda path: write_tets(path, body.mesh))
+            content = problem_content(problem, os.path.relpath(mesh, folder))
+            file = folder / f"{stem}{PROBLEM_SUFFIX}"
+            self._write(file, lambda path: _write_text(path, json.dumps(content) + "\n"))
+            model_file = folder / f"{stem}{SUFFIX}"
+            if model is not None:
+                self._write(model_file, model.save)
         return Saved(
             request=request,
             problem=str(file),
-            model=None if saved_model is None else str(saved_model),
+            model=None if model is None else str(model_file),
             mesh=str(mesh) if body.file is None else None,
         )
 
-    def _free(self, folder: Path, name: str, suffixes: list[str]) -> str:
-        """The name, or the first with a number, that no other file has; it is held for us."""
-        number = 1
-        while True:
+    @contextlib.contextmanager
+    def _held(self, folder: Path, name: str, suffixes: list[str]) -> Iterator[str]:
+        """The name, or the first with a number, that no other file has, while files get it."""
+        for number in itertools.count(1):
             stem = name if number == 1 else f"{name}-{number}"
-            if self._hold([folder / f"{stem}{suffix}" for suffix in suffixes]):
-                return stem
-            number += 1
+            paths = [folder / f"{stem}{suffix}" for suffix in suffixes]
+            if self._hold(paths):
+                break
+        try:
+            yield stem
+        finally:
+            self._drop_empty(paths)
 
     def _hold(self, paths: list[Path]) -> bool:
-        """Makes empty files of these names, unless one is another's."""
-        made: list[Path] = []
+        """Makes empty files of these names; False, and none of them, if one is another's."""
         try:
             for path in paths:
                 if not self._is_own(path):
-                    path.open("x").close()
-                    made.append(path)
+                    path.open("x").close()  # fails if it is there, even as a link to nowhere
                     self._own[path] = _stamp(path)
+        except FileExistsError:
+            self._drop_empty(paths)
+            return False
         except OSError as error:
-            for path in made:
-                path.unlink()
-                del self._own[path]
-            if isinstance(error, FileExistsError):
-                return False
+            self._drop_empty(paths)
             raise ValueError(
                 f"{paths[0].parent}: cannot be written to ({error.strerror}); start the server in "
                 "another folder"
             ) from None
         return True
+
+    def _drop_empty(self, paths: list[Path]) -> None:
+        """Removes one's own files that only hold a name."""
+        for path in paths:
+            if self._is_own(path) and not path.stat().st_size:
+                path.unlink()
+                del self._own[path]
 
     def _is_own(self, path: Path) -> bool:
         with contextlib.suppress(OSError):
@@ -123,14 +130,7 @@ class Savings:
         return False
 
     def _write(self, path: Path, write: Callable[[Path], object]) -> None:
-        try:
-            write(path)
-        except BaseException:
-            # what held the name is empty, unless an earlier save filled it
-            with contextlib.suppress(OSError):
-                if self._is_own(path) and not path.stat().st_size:
-                    path.unlink()
-            raise
+        write(path)
         self._own[path] = _stamp(path)
 
 

@@ -61,7 +61,9 @@ def selection_of(choice: Choose) -> Selection:
         Unless one handle at least is at rest and one moves, and as for `Handles` and `HandleBox`.
     """
     ordered = sorted(choice.handles, key=lambda handle: handle.moving)  # stable
-    if not ordered or ordered[0].moving:
+    if not ordered:
+        raise ValueError("no handles are chosen; choose at least two, one of them fixed")
+    if ordered[0].moving:
         raise ValueError("no handle is fixed, so the shape could float away; mark one as fixed")
     if not ordered[-1].moving:
         raise ValueError("no handle moves, so there is nothing to sample; mark one as moving")

@@ -21,6 +21,8 @@ from .site import UPLOAD_LIMIT, Site
 HOST = "127.0.0.1"
 #: How long the end of connections is waited for at Ctrl-C.
 GRACE_SECONDS = 1
+#: A page that is silent for longer is gone. Tunnels and sleepy machines take their time.
+SILENCE_SECONDS = 90
 
 
 def serve(
@@ -92,6 +94,7 @@ def serve(
                 server_header=False,
                 ws="websockets-sansio",
                 ws_max_size=LARGEST_MESSAGE,
+                ws_ping_timeout=SILENCE_SECONDS,
                 ws_per_message_deflate=False,
                 timeout_graceful_shutdown=GRACE_SECONDS,
             )

@@ -60,7 +60,7 @@ class Workspace:
             self._emit(self._empty())
         else:
             with self._lock:
-                self._open(shared.get)
+                self._open(shared.get, self._site.title)
 
     def upload(self, path: Path) -> None:
         """Opens a mesh file in place of what there was; its folder is removed once it is read."""
@@ -75,7 +75,7 @@ class Workspace:
             return replace(body, file=None, folder=self._site.folder)
 
         with self._lock:
-            self._open(make)
+            self._open(make, path.stem)
 
     def receive(self, message: messages.PageMessage) -> None:
         """Answers a message, at once or by a job."""
@@ -133,11 +133,11 @@ class Workspace:
         return kept.model
 
     def _compute(self, order: messages.Compute) -> None:
-        bench = self._bench_now()
-        self._end_work()
-        request = order.request
+        bench, request = self._bench_now(), order.request
 
         def publish(growth: Growth, error: float | None, seconds: float) -> None:
+            if self._models.has_better(growth.model) and not growth.final:
+                return  # computed again: what the page has is from the last time
             content = packed(growth.model, name=bench.body.name, up=self._site.up)
             check_stop()
             number = self._models.add(growth.model, content)
@@ -158,15 +158,16 @@ class Workspace:
         computation = bench.computation(
             order, turns=self._site.turns, report=report, publish=publish
         )
+        self._end_work()
         self._work = Job(computation.run, failed=lambda error: self._fail(request, error))
 
-    def _open(self, make: Callable[[Stage], Body]) -> None:
-        """Begins to make a body; the page gets it when it is there."""
+    def _open(self, make: Callable[[Stage], Body], name: str) -> None:
+        """Begins to make a body of a name; the page gets it when it is there."""
         self._end_work()
         self._bench = None
         self._models.clear()
         empty = self._empty()
-        self._emit(replace(empty, kind="reading"))
+        self._emit(replace(empty, kind="reading", name=name))
         report = Reporter(self._tell, 0)
 
         def work() -> None:

@@ -11,6 +11,7 @@ from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import InterpolationModel
 from .frame_report import FrameReport
+from .given_coordinates import given_coordinates
 from .session import Session
 
 FloatArray = NDArray[np.float64]
@@ -92,7 +93,8 @@ class BlendingSession(Session[InterpolationModel]):
             For another number of weights or coordinates, one that is not finite, or another sum.
         """
         w = self.model.problem.weights(weights, extrapolate=True)
-        self._take_shape(q)
+        shape = given_coordinates(q, self.model.dimension)
+        self.dimension, self._loop.q = len(shape), shape
         self._set_weights(w)
 
     def reset(self) -> None:

@@ -13,6 +13,7 @@ from ..certificate import PosingProbe, ResidualSample
 from ..problem import affine_offset, rigid_offset
 from ..reduction import Cubature, PosingModel
 from .frame_report import FrameReport
+from .given_coordinates import given_coordinates
 from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
@@ -157,7 +158,8 @@ class PosingSession(Session[PosingModel]):
                 raise ValueError(f"put: the matrix of '{handle.name}' is no rotation")
             offset = np.column_stack([turn - np.eye(3), shift])
             maps[handle.name] = _world_map(offset, self._center(handle.name))
-        self._take_shape(q)
+        shape = given_coordinates(q, self.model.dimension)
+        self.dimension, self._loop.q = len(shape), shape
         self._set(*self._moved(maps))
 
     def reset(self) -> None:

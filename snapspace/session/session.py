@@ -269,20 +269,6 @@ class Session(ABC, Generic[Model]):
     def reset(self) -> None:
         """Back to tau."""
 
-    def _take_shape(self, q: ArrayLike) -> None:
-        """Takes coordinates that were solved elsewhere, all or the leading ones."""
-        values = np.asarray(q, np.float64)
-        if values.ndim != 1 or not 1 <= len(values) <= self.model.dimension:
-            raise ValueError(
-                f"put: q has shape {values.shape}, but the model has {self.model.dimension} "
-                "coordinates, of which the leading ones may be given"
-            )
-        if not np.isfinite(values).all():
-            bad = np.flatnonzero(~np.isfinite(values))[0]
-            raise ValueError(f"put: q[{bad}] is {values[bad]}, but it must be finite")
-        self.dimension = len(values)
-        self._loop.q = values
-
     def _known_starts(self) -> dict[str, FloatArray]:
         """tau, and the training sample of the lowest energy, as coordinates."""
         starts = {"tau": np.zeros(self.dimension)}

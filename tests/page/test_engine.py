@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import InterpolationModel, PosingModel
+from snapspace import HandleBox, InterpolationModel, PosingModel
 from snapspace.page import packed
 
 from .tools import ROOT, tool
@@ -71,6 +71,27 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
     return {"frames": frames, "diagonal": model.problem.mesh.diagonal}
 
 
+def with_own_boxes(model: PosingModel) -> PosingModel:
+    """The model sampled, as it says, in a narrow box for one handle and none for another."""
+    problem = model.problem
+    bounds = problem.domain.bounds * [[0.5], [0.0]]
+    box = HandleBox(translation=bounds[:, :3], angle=bounds[:, 3:], moving=2)
+    return replace(model, problem=problem.with_handles(problem.handles, domain=box))
+
+
+def box_frames(model: PosingModel) -> dict[str, Any]:
+    session, names = model.session(), model.problem.handles.names
+    bounds = model.problem.domain.bounds
+    frames = []
+    for share in (0.9, 1.1):
+        session.move(names[1], translation=share * bounds[0, :3], euler=share * bounds[0, 3:])
+        frames.append({"share": share, "outside": [names.index(name) for name in session.outside]})
+    session.move(names[2], translation=(1e-3, 0, 0))
+    assert [frame["outside"] for frame in frames] == [[], [1]]
+    assert session.outside == names[1:]
+    return {"frames": frames, "boxes": [[0.0] * 6, *bounds.tolist()]}
+
+
 @pytest.fixture(scope="module")
 def expected(
     posing_model: PosingModel,
@@ -78,10 +99,16 @@ def expected(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
-    for name, model in (("posing", posing_model), ("blending", blending_model)):
+    own_boxes = with_own_boxes(posing_model)
+    models = {"posing": posing_model, "blending": blending_model, "own_boxes": own_boxes}
+    for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
-    frames = {"posing": posing_frames(posing_model), "blending": blending_frames(blending_model)}
+    frames = {
+        "posing": posing_frames(posing_model),
+        "blending": blending_frames(blending_model),
+        "own_boxes": box_frames(own_boxes),
+    }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))
     return folder

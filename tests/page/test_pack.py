@@ -59,6 +59,8 @@ def test_a_posing_model_keeps_its_surface(posing_model: PosingModel, tmp_path: P
             "name": handle.name,
             "center": problem.centroids[index].tolist(),
         }
+    bounds = [[*box["translation"], *box["angle"]] for box in about["boxes"]]
+    assert bounds == [[0.0] * 6, *problem.domain.bounds.tolist()]
 
 
 def test_an_interpolation_model_keeps_poses_and_blends(

@@ -2,13 +2,7 @@
 
 from __future__ import annotations
 
-import os
-import signal
 import socket
-import subprocess
-import sys
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -19,62 +13,25 @@ from snapspace import PosingModel, load
 from snapspace.page import packed
 from snapspace.server import serve
 
+from .running import Running
+
 
 @pytest.fixture(scope="module")
 def saved(posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return posing_model.save(tmp_path_factory.mktemp("server") / "bar.snapspace")
 
 
-class Running:
-    """`snapspace view` as a process of its own."""
-
-    def __init__(self, model: Path) -> None:
-        environment = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "snapspace", "view", str(model)],
-            stderr=subprocess.PIPE,
-            text=True,
-            env=environment,
-        )
-        assert self.process.stderr is not None
-        line = self.process.stderr.readline()
-        assert line.startswith("snapspace: open http://127.0.0.1:"), line
-        self.address = line.split()[2]
-
-    def get(
-        self, path: str = "/", *, token: str | None = None, **headers: str
-    ) -> tuple[int, bytes]:
-        parts = urlsplit(self.address)
-        query = parts.query if token is None else token
-        request = urllib.request.Request(f"http://{parts.netloc}{path}?{query}", headers=headers)
-        try:
-            with urllib.request.urlopen(request, timeout=30) as answer:
-                assert answer.headers["Cache-Control"] == "no-store"
-                return answer.status, answer.read()
-        except urllib.error.HTTPError as error:
-            with error:
-                return error.code, error.read()
-
-    def stop(self) -> tuple[int, str]:
-        self.process.send_signal(signal.SIGINT)
-        assert self.process.stderr is not None
-        with self.process.stderr as stream:  # communicate() would miss what it has read ahead
-            rest = stream.read()
-        return self.process.wait(timeout=30), rest
-
-
 @pytest.fixture(scope="module")
 def running(saved: Path) -> Iterator[Running]:
     server = Running(saved)
     yield server
-    if server.process.poll() is None:
-        server.process.kill()
-        server.process.communicate()
+    server.kill()
 
 
 def test_the_page_and_the_model_are_served(running: Running, saved: Path) -> None:
     status, page = running.get()
     assert status == 200 and b'name="snapspace-model" content="model?token=' in page
+    assert b'name="snapspace-server" content="live?token=' in page
     assert running.get("/model") == (200, packed(load(saved), name="bar"))
     assert running.get("/../pyproject.toml")[0] == 404
 

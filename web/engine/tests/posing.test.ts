@@ -87,6 +87,23 @@ test("the packed model is the file's, on the surface", () => {
   assert.deepEqual(packed.boxes, file.boxes);
 });
 
+for (const file of ["own_boxes.snapspace", "own_boxes.packed"])
+  test(`each handle has its own box: ${file}`, async () => {
+    const own = expected<{ frames: { share: number; outside: number[] }[]; boxes: number[][] }>("own_boxes.json");
+    const model = readModel(bytes(file), "bar") as PosingModel;
+    const boxes = model.boxes.map((box) => [...box.translation, ...box.angle]);
+    assert.deepEqual(boxes, own.boxes);
+    const session = await PosingSession.create(core, model);
+    const outside = () => session.outside.map(({ handle }) => handle);
+    const scaled = (values: readonly number[], share: number) => values.map((value) => share * value) as Vector;
+    for (const { share, outside: those } of own.frames) {
+      session.move(1, scaled(model.boxes[1].angle, share), scaled(model.boxes[1].translation, share));
+      assert.deepEqual(outside(), those);
+    }
+    session.move(2, [0, 0, 0], [1e-3, 0, 0]);
+    assert.deepEqual(outside(), [1, 2]);
+  });
+
 test("a gimbal-locked rotation keeps its matrix", () => {
   for (const beta of [Math.PI / 2, -Math.PI / 2]) {
     const rotation = rotationOfEuler([0.3, beta, -1.1]);
