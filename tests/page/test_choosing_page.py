@@ -128,9 +128,10 @@ def test_a_vertex_belongs_to_one_handle(page: Page) -> None:
     ends_as_handles(page)
     before = handles(page)
     assert set(before) == {"foot", "head"}
-    assert page.run("[...document.querySelectorAll('.handles button')].map((b) => b.ariaPressed)")[
-        1
-    ] == "true", "the first one is fixed"
+    assert (
+        page.run("[...document.querySelectorAll('.handles button')].map((b) => b.ariaPressed)")[1]
+        == "true"
+    ), "the first one is fixed"
     tool(page, "Box")
     stroke(page, (3, 3), (500, 470))
     make_handle(page, "all")

@@ -19,7 +19,7 @@ from .serving import served
 from .test_posing_page import assert_shown
 
 BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
-CREATURE = creature(4_000)
+CREATURE = creature(5_000)
 
 
 @pytest.fixture(scope="module")
@@ -121,9 +121,7 @@ def test_what_the_server_refuses_is_told(page: Page) -> None:
     assert page.run("snapspace.kind") == "choosing"
 
 
-def test_two_pages_do_not_disturb_each_other(
-    page: Page, address: str, opened: OpenPage
-) -> None:
+def test_two_pages_do_not_disturb_each_other(page: Page, address: str, opened: OpenPage) -> None:
     other = opened(address)
     other.wait("snapspace.kind === 'choosing'")
     assert handles(other) == {}
