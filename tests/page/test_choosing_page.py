@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -53,8 +52,8 @@ def surface_of(mesh: TetMesh) -> set[int]:
 
 
 def test_a_box_takes_what_lies_in_it_and_a_lasso_too(page: Page) -> None:
-    middle = places(page).mean(axis=0)
-    low, high = tuple(middle - (70, 60)), tuple(middle + (10, 60))
+    x, y = places(page).mean(axis=0)
+    low, high = (x - 70, y - 60), (x + 10, y + 60)
     expected = within(page, low, high)
     assert 0 < len(expected) < len(MESH.vertices) and not expected <= surface_of(MESH)
     tool(page, "Box")

@@ -99,7 +99,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
 
 
 def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
-    compute(page, samples=50_000)
+    compute(page, samples=20_000)
     page.wait("snapspace.kind === 'posing'")
     press(page, "Cancel")
     page.wait("[...document.querySelectorAll('button')].every((b) => b.innerText !== 'Cancel')")

@@ -123,10 +123,12 @@ export class HandleList {
           {
             type: "button",
             className: "link",
+            title: "The selection becomes part of it",
+            "aria-label": `Add the selection to ${handle.name}`,
             ...own("more"),
             onclick: () => this.#go(withMore(this.#choosing.choice, key)),
           },
-          "Add selection",
+          "Extend",
         ),
       );
     const item = h("li", {}, h("div", { className: "top" }, swatch, this.#name(handle), held, remove), below);

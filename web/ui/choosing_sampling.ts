@@ -35,7 +35,7 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
     key: "samples" | "dimension" | "stiffness",
   ) => {
     const input = h("input", { type: "number", required: true, ...limits });
-    input.value = String(sampling[key]);
+    input.value = String(Number(sampling[key].toPrecision(4)));
     input.addEventListener("input", () => {
       if (!input.validity.valid) return;
       sampling[key] = input.valueAsNumber;
@@ -60,8 +60,8 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
       ),
       rangeFields(shareOf(diagonal), sampling.translation, set("translation")),
       rangeFields(DEGREES, sampling.angle, set("angle")),
-      number("Samples", { min: 8, max: 100_000, step: 1 }, "samples"),
-      number("Dimensions", { min: 4, max: 256, step: 1 }, "dimension"),
+      number("Samples", { min: 8, max: 20_000, step: 1 }, "samples"),
+      number("Dimensions", { min: 1, max: 100, step: 1 }, "dimension"),
       number("Handles' stiffness", { min: 1e-6, max: 1e9, step: "any" }, "stiffness"),
     ),
   );

@@ -64,6 +64,14 @@ export class ComputePanel {
     if (!now.isRunning) this.#bar.element.hidden = true;
   }
 
+  /** Whether all numbers in the panel can be taken; shows the first one that cannot. */
+  isValid(): boolean {
+    const wrong = this.element.parentElement?.querySelector<HTMLInputElement>("input:invalid");
+    const folded = wrong?.closest("details");
+    if (folded) folded.open = true;
+    return wrong?.reportValidity() ?? true;
+  }
+
   /** Nothing is told any more. */
   clear(): void {
     for (const text of [this.#model, this.#told, this.#fault]) text.hidden = true;

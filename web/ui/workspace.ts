@@ -126,6 +126,7 @@ export class Workspace {
   }
 
   async #compute(): Promise<void> {
+    if (!this.#panel.isValid()) return;
     await this.#tellChoice();
     const { samples, dimension, seed, stiffness, poisson } = this.#sampling!;
     this.#panel.clear();
