@@ -136,7 +136,7 @@ class Workspace:
         bench, request = self._bench_now(), order.request
 
         def publish(growth: Growth, error: float | None, seconds: float) -> None:
-            if self._models.has_better(growth.model) and not growth.final:
+            if self._models.has_as_good(growth.model) and not growth.final:
                 return  # computed again: what the page has is from the last time
             content = packed(growth.model, name=bench.body.name, up=self._site.up)
             check_stop()

@@ -10,6 +10,8 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode, urlsplit
@@ -31,12 +33,6 @@ class Page:
         self.socket = socket
         self.frames: list[bytes] = []
         self.seen: list[Message] = []
-
-    def __enter__(self) -> Page:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.socket.close()
 
     def send(self, kind: str, *, request: int = 1, **fields: Any) -> None:
         self.socket.send(json.dumps({"type": kind, "request": request, **fields}))
@@ -102,17 +98,15 @@ class Running:
             with error:
                 return error.code, error.read()
 
-    def page(self, **headers: str) -> Page:
+    @contextmanager
+    def page(self, *, token: str | None = None, **headers: str) -> Iterator[Page]:
         """A websocket, as a page opens it."""
         parts = urlsplit(self.address)
-        return Page(
-            connect(
-                f"ws://{parts.netloc}/live?{parts.query}",
-                additional_headers=headers,
-                max_size=None,
-                open_timeout=PATIENCE,
-            )
-        )
+        address = f"ws://{parts.netloc}/live?{parts.query if token is None else token}"
+        with connect(
+            address, additional_headers=headers, max_size=None, open_timeout=PATIENCE
+        ) as socket:
+            yield Page(socket)
 
     def fetch(self, address: str) -> Arrays:
         """The packed model or mesh at an address of a message."""
