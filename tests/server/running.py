@@ -71,13 +71,13 @@ class Page:
 class Running:
     """`snapspace view` as a process of its own."""
 
-    def __init__(self, *arguments: str | Path) -> None:
-        environment = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
+    def __init__(self, *arguments: str | Path, environment: dict[str, str] | None = None) -> None:
+        inherited = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
         self.process = subprocess.Popen(
             [sys.executable, "-m", "snapspace", "view", *map(str, arguments)],
             stderr=subprocess.PIPE,
             text=True,
-            env=environment,
+            env={**inherited, **(environment or {})},
         )
         assert self.process.stderr is not None
         line = self.process.stderr.readline()
@@ -134,8 +134,8 @@ class Running:
             self.process.kill()
             self.process.communicate()
 
-    def stop(self) -> tuple[int, str]:
-        self.process.send_signal(signal.SIGINT)
+    def stop(self, how: signal.Signals = signal.SIGINT) -> tuple[int, str]:
+        self.process.send_signal(how)
         assert self.process.stderr is not None
         with self.process.stderr as stream:  # communicate() would miss what it has read ahead
             rest = stream.read()
