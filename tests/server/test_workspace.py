@@ -6,6 +6,7 @@ import gc
 import threading
 import weakref
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -73,6 +74,23 @@ def test_a_closed_page_holds_no_memory(site: Site, no_collector: None) -> None:
     held = [weakref.ref(workspace._bench), weakref.ref(workspace._models.newest.model)]  # type: ignore[union-attr]
     workspace.close()
     assert [one() for one in held] == [None, None]
+
+
+def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: Site) -> None:
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    materials = []
+    for request, ratio in enumerate((None, 0.4, None), start=1):
+        workspace.receive(replace(ORDER, request=request, poisson=ratio))
+        mailbox.wait_for(Model, request=request, final=True)
+        assert workspace._models.newest is not None
+        materials.append(workspace._models.newest.model.problem.material)
+    workspace.close()
+    assert materials[0] == materials[2] == bar_problem().material
+    lam, mu = materials[1].lam, materials[1].mu
+    assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
 
 
 def test_a_fault_is_an_answer_and_leaves_a_trace(
