@@ -83,7 +83,7 @@ class Bench:
         """What `Compute` asks for, of the handles chosen last; ValueError if it cannot be done."""
         if self._selection is None:
             raise ValueError("no handles are chosen; choose at least two, one of them fixed")
-        material = self._material
+        material = StVK() if self.body.problem is None else self.body.problem.material
         if order.poisson is not None:
             material = _with_poisson(material, order.poisson)
         problem = self._of(self._selection, order.stiffness, material)

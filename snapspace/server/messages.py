@@ -46,7 +46,7 @@ class HandleMotion:
 class Choose:
     """Page: these are the handles. Answered by `Chosen`, or `Failed`.
 
-    request : any number, repeated in the answers
+    request : any number of 32 bits, repeated in the answers
     translation, angle : common bounds of the sampled motions, half widths per axis
     """
 
@@ -64,7 +64,8 @@ class Compute:
 
     samples, dimension, seed : of the last model
     stiffness : of the handles, as in a problem file
-    poisson : Poisson's ratio of the material, 0 to below 0.5; null: as it is
+    poisson : Poisson's ratio of the material, 0 to below 0.5; null: that of the problem file, or of
+        lam = mu
     """
 
     request: int

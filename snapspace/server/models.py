@@ -37,12 +37,12 @@ class Models:
         """The last model; None before the first."""
         return self._kept[-1] if self._kept else None
 
-    def has_better(self, model: ReducedModel) -> bool:
-        """Whether the newest model is of the same problem, and of more samples or dimensions."""
+    def has_as_good(self, model: ReducedModel) -> bool:
+        """Whether the newest model is of the same problem and no smaller."""
         newest = self.newest
         if newest is None or newest.model.problem is not model.problem:
             return False
-        return _size(newest.model) > _size(model)
+        return _size(newest.model) >= _size(model)
 
     def find(self, number: int) -> Kept | None:
         """A model by number; None if it is not there any more."""

@@ -111,7 +111,7 @@ def as_vector(values: np.ndarray) -> Vector:
 
 
 def default_stiffness(mesh: TetMesh) -> float:
-    """What holds handles to about a thousandth of the diagonal, to two digits."""
+    """What holds handles to about a ten-thousandth of the diagonal, rounded to two digits."""
     return float(f"{RELATIVE_STIFFNESS / mesh.diagonal**2:.1e}")
 
 

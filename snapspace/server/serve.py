@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import secrets
+import signal
 import socket
 import tempfile
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import uvicorn
@@ -72,15 +75,13 @@ def serve(
     listener = listening(host, port)
     token = secrets.token_urlsafe(18)
     try:
-        with tempfile.TemporaryDirectory(
-            prefix="snapspace-", ignore_cleanup_errors=True
-        ) as scratch:
+        with _terminated_alike(), _scratch_folder() as scratch:
             site = Site(
                 title=title,
                 up=up,
                 token=token,
                 folder=folder.resolve(),
-                scratch=Path(scratch),
+                scratch=scratch,
                 body=body,
                 model=model,
                 upload_limit=upload_limit,
@@ -103,6 +104,30 @@ def serve(
         pass
     finally:
         listener.close()
+
+
+@contextmanager
+def _scratch_folder() -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="snapspace-", ignore_cleanup_errors=True) as name:
+        yield Path(name)
+
+
+@contextmanager
+def _terminated_alike() -> Iterator[None]:
+    """SIGTERM ends the block as Ctrl-C does, so that temporary files are removed."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # only the main thread gets signals
+        return
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    # uvicorn has its own handler while it runs, and then raises the signal again for this one
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class _Server(uvicorn.Server):

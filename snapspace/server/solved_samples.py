@@ -7,6 +7,10 @@ import numpy as np
 from ..problem import PosingProblem
 from ..snapshots import Snapshots, carried
 
+#: Samples that are carried over to other handles: a second on the Dragon, and starts are
+#: interpolated from no more than these. Sobol samples come in an order that any number is spread.
+CARRIED = 64
+
 
 class SolvedSamples:
     """The samples of the last computation; and those before, if it was interrupted."""
@@ -29,7 +33,8 @@ class SolvedSamples:
         assert isinstance(old, PosingProblem)
         if not _regions(old) <= _regions(problem):
             return None
-        return carried(known, problem)
+        usable = np.flatnonzero(known.usable)[:CARRIED]
+        return carried(known.select(np.isin(np.arange(len(known)), usable)), problem)
 
     def replace(self, snapshots: Snapshots) -> None:
         """These are all that is kept."""

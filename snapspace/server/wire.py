@@ -80,6 +80,8 @@ def _value(value: Any, hint: Any, where: str) -> Any:
         return _list(value, arguments, where)
     if hint is float:
         return _number(value, where)
+    if hint is int and type(value) is int and not _fits(value):
+        raise ValueError(f"{where} is {_shown(value)}, but must fit 32 bits")
     if type(value) is not hint:
         what = {int: "an integer", str: "a string", bool: "true or false"}[hint]
         raise ValueError(f"{where} must be {what}, got {_shown(value)}")
@@ -91,7 +93,7 @@ def _list(value: Any, arguments: tuple[Any, ...], where: str) -> tuple[Any, ...]
         raise ValueError(f"{where} must be a list, got {_shown(value)}")
     if arguments[-1] is Ellipsis:
         kind = arguments[0]
-        if kind is int and all(type(item) is int for item in value):  # many, so at once
+        if kind is int and all(type(item) is int and _fits(item) for item in value):
             return tuple(value)
         return tuple(_value(item, kind, f"{where}[{i}]") for i, item in enumerate(value))
     if len(value) != len(arguments):
@@ -110,6 +112,11 @@ def _number(value: Any, where: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{where} is {_shown(value)}, but it must be finite")
     return number
+
+
+def _fits(value: int) -> bool:
+    """In 32 bits, as in binary frames and in meshes."""
+    return -(2**31) <= value < 2**31
 
 
 def _is_not_finite(value: Any) -> bool:

@@ -98,13 +98,17 @@ class Workspace:
         return None if kept is None else kept.content
 
     def close(self) -> None:
-        """Ends all work."""
+        """Ends all work, and lets go of what it made."""
         with self._lock:
             jobs = [job for job in (self._work, self._polishes.stop()) if job is not None]
             for job in jobs:
                 job.stop()
             for job in jobs:
                 job.wait(STOP_SECONDS)
+            # by hand: jobs refer to this, and a collector of cycles does not see their size
+            self._work = self._bench = None
+            self._polishes = PolishJobs(self._emit, self._fail)
+            self._models.clear()
 
     def _answer(self, message: messages.PageMessage) -> None:
         if isinstance(message, messages.Choose):
@@ -136,7 +140,7 @@ class Workspace:
         bench, request = self._bench_now(), order.request
 
         def publish(growth: Growth, error: float | None, seconds: float) -> None:
-            if self._models.has_better(growth.model) and not growth.final:
+            if self._models.has_as_good(growth.model) and not growth.final:
                 return  # computed again: what the page has is from the last time
             content = packed(growth.model, name=bench.body.name, up=self._site.up)
             check_stop()

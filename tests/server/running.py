@@ -10,6 +10,8 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlencode, urlsplit
@@ -31,12 +33,6 @@ class Page:
         self.socket = socket
         self.frames: list[bytes] = []
         self.seen: list[Message] = []
-
-    def __enter__(self) -> Page:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.socket.close()
 
     def send(self, kind: str, *, request: int = 1, **fields: Any) -> None:
         self.socket.send(json.dumps({"type": kind, "request": request, **fields}))
@@ -75,13 +71,13 @@ class Page:
 class Running:
     """`snapspace view` as a process of its own."""
 
-    def __init__(self, *arguments: str | Path) -> None:
-        environment = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
+    def __init__(self, *arguments: str | Path, environment: dict[str, str] | None = None) -> None:
+        inherited = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
         self.process = subprocess.Popen(
             [sys.executable, "-m", "snapspace", "view", *map(str, arguments)],
             stderr=subprocess.PIPE,
             text=True,
-            env=environment,
+            env={**inherited, **(environment or {})},
         )
         assert self.process.stderr is not None
         line = self.process.stderr.readline()
@@ -102,17 +98,15 @@ class Running:
             with error:
                 return error.code, error.read()
 
-    def page(self, **headers: str) -> Page:
+    @contextmanager
+    def page(self, *, token: str | None = None, **headers: str) -> Iterator[Page]:
         """A websocket, as a page opens it."""
         parts = urlsplit(self.address)
-        return Page(
-            connect(
-                f"ws://{parts.netloc}/live?{parts.query}",
-                additional_headers=headers,
-                max_size=None,
-                open_timeout=PATIENCE,
-            )
-        )
+        address = f"ws://{parts.netloc}/live?{parts.query if token is None else token}"
+        with connect(
+            address, additional_headers=headers, max_size=None, open_timeout=PATIENCE
+        ) as socket:
+            yield Page(socket)
 
     def fetch(self, address: str) -> Arrays:
         """The packed model or mesh at an address of a message."""
@@ -140,8 +134,8 @@ class Running:
             self.process.kill()
             self.process.communicate()
 
-    def stop(self) -> tuple[int, str]:
-        self.process.send_signal(signal.SIGINT)
+    def stop(self, how: signal.Signals = signal.SIGINT) -> tuple[int, str]:
+        self.process.send_signal(how)
         assert self.process.stderr is not None
         with self.process.stderr as stream:  # communicate() would miss what it has read ahead
             rest = stream.read()

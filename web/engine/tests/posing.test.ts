@@ -98,7 +98,7 @@ for (const file of ["own_boxes.snapspace", "own_boxes.packed"])
     const session = await PosingSession.create(core, model);
     const outside = () => session.outside.map(({ handle }) => handle);
     const scaled = (values: readonly number[], share: number) =>
-      values.map((value) => share * value) as unknown as Vector;
+      [0, 1, 2].map((i) => share * values[i]) as unknown as Vector;
     for (const { share, outside: those } of own.frames) {
       session.move(1, scaled(model.boxes[1].angle, share), scaled(model.boxes[1].translation, share));
       assert.deepEqual(outside(), those);
