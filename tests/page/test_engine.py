@@ -95,17 +95,20 @@ def box_frames(model: PosingModel) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def expected(
     posing_model: PosingModel,
+    cubature_model: PosingModel,
     blending_model: InterpolationModel,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
     own_boxes = with_own_boxes(posing_model)
-    models = {"posing": posing_model, "blending": blending_model, "own_boxes": own_boxes}
+    models = {"posing": posing_model, "cubature": cubature_model, "blending": blending_model}
+    models["own_boxes"] = own_boxes
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
     frames = {
         "posing": posing_frames(posing_model),
+        "cubature": posing_frames(cubature_model),
         "blending": blending_frames(blending_model),
         "own_boxes": box_frames(own_boxes),
     }

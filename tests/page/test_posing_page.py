@@ -49,6 +49,15 @@ def test_a_handle_is_dragged(
     assert "ms" in page.text(".hud")
 
 
+def test_a_cubature_is_dragged(
+    cubature_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    page = opened(export_html(cubature_model, tmp_path / "cubature.html").as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    page.drag(page.run("snapspace.handle(2)"), -40, 70)
+    assert_shown(cubature_model, page)
+
+
 def test_a_handle_is_turned_and_undone(
     posing_model: PosingModel, posing_page: Path, opened: OpenPage
 ) -> None:

@@ -1,6 +1,6 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
-import { coefficientCount, type Model } from "./model.ts";
+import { coefficientCount, type Cubature, type Model, type Quartic } from "./model.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** Reads the model of an exported page (snapspace/page/pack.py). */
@@ -18,6 +18,7 @@ export function readPacked(container: Container): Model {
     valueScale: Number(about.value_scale),
     coordinateScale: Number(about.coordinate_scale),
     diagonal: Number(about.diagonal),
+    material: { lam: Number(about.material.lam), mu: Number(about.material.mu) },
   };
   if (container.header["kind"] === "posing") {
     const count = about.handles.length as number;
@@ -27,7 +28,7 @@ export function readPacked(container: Container): Model {
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
       boxes: about.boxes,
-      quartic: container.doubles("quartic", coefficientCount(dimension)),
+      elastic: readElastic(container, dimension),
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),
       S: container.doubles("handle_S", count, 4, 4),
@@ -46,6 +47,20 @@ export function readPacked(container: Container): Model {
     quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
     sampleWeights: container.doubles("sample_weights", samples, poses.length),
     sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
+  };
+}
+
+function readElastic(container: Container, dimension: number): Quartic | Cubature {
+  if (!container.has("cubature_rows"))
+    return {
+      kind: "quartic",
+      coefficients: container.doubles("quartic", coefficientCount(dimension)),
+    };
+  const [tets] = container.shape("cubature_weights", 1);
+  return {
+    kind: "cubature",
+    rows: container.floats("cubature_rows", tets, 9, dimension),
+    weights: container.doubles("cubature_weights", tets),
   };
 }
 

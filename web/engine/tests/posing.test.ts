@@ -16,11 +16,13 @@ interface Frame {
   outside: number[];
 }
 
-const { frames, diagonal, leading } = expected<{
+interface Drag {
   frames: Frame[];
   diagonal: number;
   leading: { dimension: number; value: number };
-}>("posing.json");
+}
+
+const { diagonal } = expected<Drag>("posing.json");
 
 /** The shown surface: tau + U q, carried along by the first handle. */
 function surface(session: PosingSession): Float32Array {
@@ -33,8 +35,9 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-for (const file of ["posing.snapspace", "posing.packed"])
+for (const file of ["posing.snapspace", "posing.packed", "cubature.snapspace", "cubature.packed"])
   test(`a drag is that of Session: ${file}`, async () => {
+    const { frames, leading } = expected<Drag>(`${file.split(".")[0]}.json`);
     const model = readModel(bytes(file), "bar") as PosingModel;
     const session = await PosingSession.create(core, model);
     // coefficients of the packed model are in single precision
