@@ -1,4 +1,4 @@
-import { PosingSession, type PosingModel } from "../engine/index.ts";
+import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
 import { choice, h, section } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
@@ -26,8 +26,11 @@ export async function posingView(
   model: PosingModel,
   options: ViewOptions,
 ): Promise<PosingView> {
-  const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
-    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu);
+  const surfaceOf = ({ space, faces, diagonal, material }: PosingModel) =>
+    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, {
+      rests: [space.base],
+      ratio: planeStressRatio(material),
+    });
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
@@ -79,6 +82,7 @@ export async function posingView(
   posing.onChange();
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
+    look.legend.look();
     hud.frame(seconds);
   };
 
@@ -106,6 +110,7 @@ export async function posingView(
     stage.draw();
   };
 
+  const look = lookSection(stage, surfaces, model, options.up);
   const panel = [
     section(
       "Handles",
@@ -115,7 +120,7 @@ export async function posingView(
       h("div", { className: "row" }, undo, redo, reset),
     ),
     quality,
-    lookSection(stage, surfaces, model, options.up),
+    look.element,
   ];
   return {
     hud,
@@ -127,12 +132,14 @@ export async function posingView(
         return posing.session;
       },
       shown: () => carried(posing.surface.shown(), posing.session),
+      energies: () => posing.surface.energies(),
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
     },
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
+      look.legend.dispose();
       gizmo.dispose();
       marks.dispose();
       surfaces[0].object.removeFromParent();
