@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..model_file.container import Arrays, container_bytes
 from ..reduction import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
+from .estimator import estimator_arrays
 from .shape_space import quantised
 
 FORMAT, VERSION = "snapspace-page", 1
@@ -68,7 +69,7 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         "kind": kind,
         "about": json.dumps(about, sort_keys=True),
     }
-    return container_bytes(arrays, header)
+    return container_bytes(arrays | estimator_arrays(model), header)
 
 
 def _posing_about(model: PosingModel) -> dict[str, Any]:

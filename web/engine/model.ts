@@ -1,4 +1,5 @@
 import type { Box } from "./sampled_box.ts";
+import type { Estimator } from "./estimator.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** What the page needs of a model, whether it came as a model file or in an exported page. */
@@ -20,6 +21,8 @@ interface Common {
   /** Of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
   readonly material: Material;
+  /** Of models that were calibrated. */
+  readonly estimator: Estimator | null;
 }
 
 /** Lame parameters of St.Venant-Kirchhoff material. */

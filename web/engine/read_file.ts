@@ -1,5 +1,7 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
+import { NO_PINS } from "./estimator.ts";
+import { estimatorOf, pinsOf } from "./read_estimator.ts";
 import { displacementGradients } from "./displacement_gradients.ts";
 import {
   coefficientCount,
@@ -57,6 +59,9 @@ function readPosing(container: Container, name: string): Model {
     faces: compact,
     space: quantised(picked(rest, surface, vertices), picked(basis, surface, vertices)),
     ...scales(about.material, volumes, diagonal),
+    estimator: estimatorOf(container, { tets, basis, tau: rest, rests: [rest] }, (corners, isSampled) =>
+      pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
+    ),
     handles,
     handleOfVertex: Int32Array.from(surface, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
@@ -95,14 +100,17 @@ function readInterpolation(container: Container, name: string): Model {
   }
 
   const first = shapes.subarray(0, 3 * vertices);
+  const basis = container.doubles("basis", dimension, 3 * vertices);
+  const registeredPoses = poses.map((_, pose) => mean.map((x, i) => x + offsets[3 * vertices * pose + i]));
   const base = embedded(mean);
   return {
     kind: "interpolation",
     name,
     dimension,
     faces: Uint32Array.from(container.indices("surface_faces", surfaceCount, [faceCount, 3])),
-    space: quantised(base, embedded(container.doubles("basis", dimension, 3 * vertices))),
+    space: quantised(base, embedded(basis)),
     ...scales(about.material, tetVolumes(first, tets), diagonalOf(first)),
+    estimator: estimatorOf(container, { tets, basis, tau: mean, rests: registeredPoses }, () => NO_PINS),
     poses,
     poseSpace: quantised(base, embedded(offsets)),
     lowestWeight: -about.extrapolation / poses.length,

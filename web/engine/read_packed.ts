@@ -1,6 +1,7 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
-import { coefficientCount, type Cubature, type Model, type Quartic } from "./model.ts";
+import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
+import { coefficientCount, type Cubature, type Handle, type Model, type Quartic } from "./model.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** Reads the model of an exported page (snapspace/page/pack.py). */
@@ -25,6 +26,7 @@ export function readPacked(container: Container): Model {
     return {
       ...common,
       kind: "posing",
+      estimator: readEstimator(container, dimension, about.handles),
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
       boxes: about.boxes,
@@ -41,6 +43,7 @@ export function readPacked(container: Container): Model {
   return {
     ...common,
     kind: "interpolation",
+    estimator: readEstimator(container, dimension, []),
     poses,
     poseSpace: readSpace(container, "poses"),
     lowestWeight: Number(about.lowest_weight),
@@ -61,6 +64,43 @@ function readElastic(container: Container, dimension: number): Quartic | Cubatur
     kind: "cubature",
     rows: container.floats("cubature_rows", tets, 9, dimension),
     weights: container.doubles("cubature_weights", tets),
+  };
+}
+
+function readEstimator(
+  container: Container,
+  dimension: number,
+  handles: readonly Handle[],
+): Estimator | null {
+  if (!container.has("estimator_ratios")) return null;
+  const [count, corners] = container.shape("estimator_rests", 3);
+  const [tets] = container.shape("estimator_tets", 2);
+  const [places] = container.shape("estimator_places", 1);
+  const [frames] = container.shape("estimator_ratios", 1);
+  const rests = container.doubles("estimator_rests", count, corners, 3);
+  return {
+    mass: container.doubles("estimator_mass", 1)[0],
+    modes: container.floats("estimator_modes", dimension, 3 * corners),
+    base: container.doubles("estimator_base", corners, 3),
+    rests: Array.from({ length: count }, (_, k) => rests.subarray(3 * corners * k, 3 * corners * (k + 1))),
+    tets: container.indices("estimator_tets", corners, [tets, 4]),
+    places: container.indices("estimator_places", corners, [places]),
+    weights: container.doubles("estimator_weights", places),
+    pins: handles.length > 0 ? readPins(container, handles, rests) : NO_PINS,
+    coordinates: container.doubles("estimator_coordinates", frames, dimension),
+    ratios: container.doubles("estimator_ratios", frames),
+  };
+}
+
+function readPins(container: Container, handles: readonly Handle[], rest: Float64Array): Pins {
+  const [count] = container.shape("estimator_pin_corners", 1);
+  const corners = container.indices("estimator_pin_corners", rest.length / 3, [count]);
+  const owners = container.indices("estimator_pin_handles", handles.length, [count]);
+  return {
+    corners,
+    handles: owners,
+    pulls: container.doubles("estimator_pin_pulls", count),
+    arms: armsOf(corners, owners, handles, rest),
   };
 }
 

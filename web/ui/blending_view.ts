@@ -35,6 +35,7 @@ export async function blendingView(
   const hud = new Hud(
     model.name,
     `${model.poses.length} poses, ${model.space.vertices.toLocaleString("en")} surface vertices`,
+    model.estimator && (() => session.certificate()),
   );
   hud.dimension(model.dimension, model.dimension);
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
@@ -160,6 +161,7 @@ export async function blendingView(
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
       look.legend.dispose();
+      hud.dispose();
       names.forEach((name) => name.remove());
       for (const surface of [elastic, straight]) {
         surface.object.removeFromParent();

@@ -41,7 +41,11 @@ export async function posingView(
   const drag = new HandleDrag(posing, gizmo, stop.signal);
   listenToKeys(posing, stop.signal);
 
-  const hud = new Hud(model.name, `${model.space.vertices.toLocaleString("en")} surface vertices`);
+  const hud = new Hud(
+    model.name,
+    `${model.space.vertices.toLocaleString("en")} surface vertices`,
+    model.estimator && (() => posing.session.certificate()),
+  );
   hud.dimension(model.dimension, model.dimension);
   const list = model.handles.map(({ name }, handle) => {
     const swatch = h("i", { className: "swatch", "aria-hidden": true });
@@ -140,6 +144,7 @@ export async function posingView(
       stop.abort();
       stage.beforeFrame = () => {};
       look.legend.dispose();
+      hud.dispose();
       gizmo.dispose();
       marks.dispose();
       surfaces[0].object.removeFromParent();
