@@ -1,4 +1,4 @@
-import { PosingSession, type PosingModel } from "../engine/index.ts";
+import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
 import { choice, h, section } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
@@ -26,8 +26,11 @@ export async function posingView(
   model: PosingModel,
   options: ViewOptions,
 ): Promise<PosingView> {
-  const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
-    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu);
+  const surfaceOf = ({ space, faces, diagonal, material }: PosingModel) =>
+    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, {
+      rests: [space.base],
+      ratio: planeStressRatio(material),
+    });
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
@@ -38,7 +41,11 @@ export async function posingView(
   const drag = new HandleDrag(posing, gizmo, stop.signal);
   listenToKeys(posing, stop.signal);
 
-  const hud = new Hud(model.name, `${model.space.vertices.toLocaleString("en")} surface vertices`);
+  const hud = new Hud(
+    model.name,
+    `${model.space.vertices.toLocaleString("en")} surface vertices`,
+    model.estimator && (() => posing.session.certificate()),
+  );
   hud.dimension(model.dimension, model.dimension);
   const list = model.handles.map(({ name }, handle) => {
     const swatch = h("i", { className: "swatch", "aria-hidden": true });
@@ -79,6 +86,7 @@ export async function posingView(
   posing.onChange();
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
+    look.legend.look();
     hud.frame(seconds);
   };
 
@@ -106,6 +114,7 @@ export async function posingView(
     stage.draw();
   };
 
+  const look = lookSection(stage, surfaces, model, options.up);
   const panel = [
     section(
       "Handles",
@@ -115,7 +124,7 @@ export async function posingView(
       h("div", { className: "row" }, undo, redo, reset),
     ),
     quality,
-    lookSection(stage, surfaces, model, options.up),
+    look.element,
   ];
   return {
     hud,
@@ -127,12 +136,15 @@ export async function posingView(
         return posing.session;
       },
       shown: () => carried(posing.surface.shown(), posing.session),
+      energies: () => posing.surface.energies(),
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
     },
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
+      look.legend.dispose();
+      hud.dispose();
       gizmo.dispose();
       marks.dispose();
       surfaces[0].object.removeFromParent();

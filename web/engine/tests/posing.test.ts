@@ -6,21 +6,24 @@ import { applied, eulerOfRotation, plus, rotationOfEuler, type Vector } from "..
 import { PosingSession } from "../posing_session.ts";
 import { readModel } from "../read_model.ts";
 import { reconstruct } from "../shape_space.ts";
-import { bytes, core, distance, expected } from "./expected.ts";
+import { bytes, core, distance, expected, isCertificate } from "./expected.ts";
 
 interface Frame {
   motions: [number, Vector, Vector][];
   value: number;
   q: number[];
+  certificate: [number, number] | null;
   surface: number[];
   outside: number[];
 }
 
-const { frames, diagonal, leading } = expected<{
+interface Drag {
   frames: Frame[];
   diagonal: number;
   leading: { dimension: number; value: number };
-}>("posing.json");
+}
+
+const { diagonal } = expected<Drag>("posing.json");
 
 /** The shown surface: tau + U q, carried along by the first handle. */
 function surface(session: PosingSession): Float32Array {
@@ -33,8 +36,9 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-for (const file of ["posing.snapspace", "posing.packed"])
+for (const file of ["posing.snapspace", "posing.packed", "cubature.snapspace", "cubature.packed"])
   test(`a drag is that of Session: ${file}`, async () => {
+    const { frames, leading } = expected<Drag>(`${file.split(".")[0]}.json`);
     const model = readModel(bytes(file), "bar") as PosingModel;
     const session = await PosingSession.create(core, model);
     // coefficients of the packed model are in single precision
@@ -52,12 +56,14 @@ for (const file of ["posing.snapspace", "posing.packed"])
       );
       assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
       assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
+      isCertificate(session.certificate(), frame.certificate, 1e3 * exact);
       assert.deepEqual(
         session.outside.map(({ handle }) => handle),
         frame.outside,
       );
     }
     session.dimension = leading.dimension;
+    assert.equal(session.certificate(), null, "calibrated for all dimensions");
     assert.equal(session.q.length, leading.dimension);
     assert.ok(Math.abs(session.solve().value - leading.value) < 1e-4 * Math.abs(leading.value));
     session.reset();
