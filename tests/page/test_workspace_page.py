@@ -14,7 +14,7 @@ from snapspace.generators import bar, creature
 from snapspace.mesh import write_tets
 
 from .choosing_page import ends_as_handles, handles, press, set_number, wait_for_text
-from .pages import OpenPage, Page
+from .pages import SECONDS, OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
 
@@ -102,7 +102,8 @@ def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
     compute(page, samples=20_000)
     page.wait("snapspace.kind === 'posing'")
     press(page, "Cancel")
-    page.wait("[...document.querySelectorAll('button')].every((b) => b.innerText !== 'Cancel')")
+    cancel = page.page.get_by_role("button", name="Cancel")
+    cancel.wait_for(state="hidden", timeout=1000 * SECONDS)
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02, "what there is can be posed"
     press(page, "Choose handles")
