@@ -1,4 +1,4 @@
-"""Makes the pictures of the page: screenshots of exported models in headless Chromium.
+"""Makes the pictures of the page: screenshots in headless Chromium.
 
 Needs a chromium on the path, and playwright.
 
@@ -9,9 +9,11 @@ from __future__ import annotations
 
 import shutil
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from pictures_choosing import choosing, creature_served
 from pictures_creature import creature_problem
 from pictures_poses import creature_poses
 from playwright.sync_api import sync_playwright
@@ -62,6 +64,18 @@ def blending(page: Any) -> None:
     page.wait_for_timeout(2500)  # the small pictures of the poses
 
 
+def take(browser: Any, address: str, theme: str, act: Callable[[Any], None], name: str) -> None:
+    """A picture of a page after something was done in it."""
+    page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme=theme)
+    page.goto(address)
+    while not page.evaluate("Boolean(snapspace.ready)"):
+        page.wait_for_timeout(50)
+    act(page)
+    page.wait_for_timeout(500)
+    page.screenshot(path=FOLDER / f"{name}.png")
+    page.close()
+
+
 def main() -> None:
     poses = ss.InterpolationProblem(creature_poses(creature(TETS)))
     plans = [
@@ -73,13 +87,9 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=program, args=SOFTWARE_WEBGL)
         for name, model, theme, act in plans:
             path = ss.export_html(model, Path(folder) / f"{name}.html", title="Creature")
-            page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme=theme)
-            page.goto(path.as_uri())
-            while not page.evaluate("Boolean(snapspace.ready)"):
-                page.wait_for_timeout(50)
-            act(page)
-            page.wait_for_timeout(500)
-            page.screenshot(path=FOLDER / f"{name}.png")
+            take(browser, path.as_uri(), theme, act, name)
+        with creature_served(Path(folder), TETS) as address:
+            take(browser, address, "light", choosing, "page-choosing")
         browser.close()
 
 

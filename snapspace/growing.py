@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
@@ -36,12 +36,14 @@ class Growth:
     snapshots : what it is made of; samples of earlier stages come first
     seconds : since `growing_models` began
     final : whether all samples are in it, to the wanted tolerance and dimension
+    loose : whether its samples are solved again afterwards, to the wanted tolerance
     """
 
     model: PosingModel | InterpolationModel
     snapshots: Snapshots
     seconds: float
     final: bool
+    loose: bool
 
 
 def growing_models(
@@ -54,6 +56,7 @@ def growing_models(
     progress: Progress | None = None,
     executor: Executor | None = None,
     known: Snapshots | None = None,
+    begins: Callable[[str], None] | None = None,
 ) -> Iterator[Growth]:
     """Models of more and more samples: the first after 32 loosely solved ones, the last after all.
 
@@ -69,6 +72,8 @@ def growing_models(
     dimension : int, default 40
         d of the last model.
     options, threads, progress, executor, known : as for `solve_snapshots`
+    begins : callable, optional
+        Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 
     Yields
     ------
@@ -87,7 +92,9 @@ def growing_models(
     loose = _loosened(wanted, problem)
     done: Snapshots | None = None
     starts = known
+    tell = begins or (lambda part: None)
     for stage in _stages(len(samples), dimension):
+        tell("snapshots")
         first = 0 if done is None else len(done)
         snapshots = solve_snapshots(
             problem,
@@ -103,9 +110,11 @@ def growing_models(
         if not stage.loose:
             done = snapshots
         starts = snapshots if known is None else known.joined(snapshots)
+        tell("subspace")
         subspace = snapshot_pca(snapshots, dimension=stage.dimension)
+        tell("energy")
         model = reduce(problem, subspace, snapshots=snapshots, threads=threads)
-        yield Growth(model, snapshots, time.perf_counter() - begin, stage.final)
+        yield Growth(model, snapshots, time.perf_counter() - begin, stage.final, stage.loose)
 
 
 def _loosened(

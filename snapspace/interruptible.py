@@ -1,10 +1,12 @@
-"""Running compiled work so that Ctrl-C ends it and progress shows."""
+"""Running compiled work so that Ctrl-C, or another thread, ends it and progress shows."""
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor, wait
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, TypeVar
 
 from . import _core as core
@@ -12,6 +14,33 @@ from . import _core as core
 POLL_SECONDS = 0.1
 
 Result = TypeVar("Result")
+
+#: Of the block that this thread is in; see `stoppable`.
+_asked: ContextVar[Callable[[], bool]] = ContextVar("asked", default=lambda: False)
+
+
+class Stopped(KeyboardInterrupt):
+    """Work was told to stop, as by Ctrl-C, see `stoppable`."""
+
+
+@contextmanager
+def stoppable(asked: Callable[[], bool]) -> Iterator[None]:
+    """Long work in this block ends as it does at Ctrl-C, soon after `asked` says so.
+
+    For threads other than the main one, where Ctrl-C does not arrive. What waits for compiled work
+    or another process asks ten times a second, and raises `Stopped`.
+    """
+    token = _asked.set(asked)
+    try:
+        yield
+    finally:
+        _asked.reset(token)
+
+
+def check_stop() -> None:
+    """Raises `Stopped` if the work of this thread was told to stop."""
+    if _asked.get()():
+        raise Stopped("told to stop")
 
 
 def run_abandonable(work: Callable[[], Result]) -> Result:
@@ -30,7 +59,7 @@ def run_abandonable(work: Callable[[], Result]) -> Result:
 
     threading.Thread(target=run, daemon=True).start()
     while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
-        pass
+        check_stop()
     return outcome.result()
 
 
@@ -54,6 +83,7 @@ def run_interruptible(
             try:
                 done = future in wait([future], timeout=POLL_SECONDS).done
                 if not interrupted:
+                    check_stop()
                     on_progress(control.finished)
             except KeyboardInterrupt:  # also one that arrives while progress is drawn
                 interrupted = True

@@ -10,7 +10,10 @@ import pytest
 from snapspace import (
     InterpolationModel,
     InterpolationProblem,
+    PosingModel,
     ReducedModel,
+    Snapshots,
+    hyper_reduce,
     reduce,
     sample,
     snapshot_pca,
@@ -25,12 +28,25 @@ __all__ = ["chromium"]  # a fixture
 
 
 @pytest.fixture(scope="session")
-def posing_model() -> ReducedModel:
-    """A bar with three handles in the best 20 dimensions for 60 random poses."""
+def posing_snapshots() -> Snapshots:
+    """60 random poses of a bar with three handles."""
     problem = bar_problem()
-    snapshots = solve_snapshots(problem, sample(problem.domain, 60, seed=1), threads=1)
-    subspace = snapshot_pca(snapshots, dimension=20)
-    return reduce(problem, subspace, snapshots=snapshots, threads=1)
+    return solve_snapshots(problem, sample(problem.domain, 60, seed=1), threads=1)
+
+
+@pytest.fixture(scope="session")
+def posing_model(posing_snapshots: Snapshots) -> ReducedModel:
+    """The bar in the best 20 dimensions."""
+    subspace = snapshot_pca(posing_snapshots, dimension=20)
+    problem = posing_snapshots.problem
+    return reduce(problem, subspace, snapshots=posing_snapshots, threads=1)
+
+
+@pytest.fixture(scope="session")
+def cubature_model(posing_snapshots: Snapshots) -> PosingModel:
+    """The bar in the best 19 dimensions, its energy summed over few tets."""
+    subspace = snapshot_pca(posing_snapshots, dimension=19)
+    return hyper_reduce(posing_snapshots.problem, subspace, posing_snapshots)
 
 
 def interpolation_model(

@@ -3,7 +3,7 @@
 The compiler is clang in the `ziglang` package of PyPI, in the exact version below, so that the same
 sources give the same bytes everywhere. The module is checked in, and core.json beside it records
 what it was made of: a test compares that with the present sources. Run after a change of
-core/online or core/simd:
+core/material, core/online or core/simd:
 
     pip install ziglang==0.17.1
     python tools/build_wasm.py
@@ -29,6 +29,7 @@ EXPORTS = (
     "malloc",
     "free",
     "snapspace_create_posing",
+    "snapspace_create_posing_cubature",
     "snapspace_create_blending",
     "snapspace_destroy",
     "snapspace_set_offsets",
@@ -60,7 +61,7 @@ FLAGS = (
 
 def sources() -> list[Path]:
     """All files that the module is made of."""
-    rooms = [ROOT / "core" / room for room in ("online", "simd")]
+    rooms = [ROOT / "core" / room for room in ("material", "online", "simd")]
     return sorted([*(path for room in rooms for path in room.iterdir() if path.is_file()), UNIT])
 
 

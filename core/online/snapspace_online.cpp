@@ -4,29 +4,45 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "online/blending_solver.h"
+#include "online/cubature.h"
 #include "online/posing_solver.h"
 #include "online/quartic.h"
 #include "online/reconstruct.h"
 
 using snapspace::online::BlendingSolver;
+using snapspace::online::Cubature;
 using snapspace::online::Method;
 using snapspace::online::Quartic;
 using snapspace::online::Report;
 using PosingSolver = snapspace::online::PosingSolver<Quartic>;
+using CubatureSolver = snapspace::online::PosingSolver<Cubature>;
 
-/// One of the two solvers, with its coordinates.
+/// One of the three solvers, with its coordinates.
 struct snapspace_session {
   std::unique_ptr<PosingSolver> posing;
+  std::unique_ptr<CubatureSolver> cubature;
   std::unique_ptr<BlendingSolver> blending;
   snapspace_basis basis;
   std::vector<double> q;         // as many as the model has
   std::vector<double> gradient;  // as many; of a value that is asked for
 
+  void take(std::unique_ptr<PosingSolver> solver) { posing = std::move(solver); }
+  void take(std::unique_ptr<CubatureSolver> solver) { cubature = std::move(solver); }
+  void take(std::unique_ptr<BlendingSolver> solver) { blending = std::move(solver); }
+
+  /// What `act` returns for the solver that is there.
+  template <class Act>
+  auto with_solver(Act act) const {
+    if (posing) return act(*posing);
+    if (cubature) return act(*cubature);
+    return act(*blending);
+  }
   [[nodiscard]] int dimension() const {
-    return posing ? posing->dimension() : blending->dimension();
+    return with_solver([](const auto& solver) { return solver.dimension(); });
   }
 };
 
@@ -45,9 +61,30 @@ snapspace_session* fail(int* error, int code) {
   return nullptr;
 }
 
-snapspace_session* succeed(int* error, std::unique_ptr<snapspace_session> session) {
+/// A session at q = 0, if its energy has a minimum there.
+template <class Solver>
+snapspace_session* begin(std::unique_ptr<Solver> solver, const snapspace_basis& basis, int* error) {
+  if (!solver->valid()) return fail(error, SNAPSPACE_NOT_DEFINITE);
+  auto session = std::make_unique<snapspace_session>();
+  session->q.assign(solver->dimension(), 0.0);
+  session->gradient.assign(solver->dimension(), 0.0);
+  session->basis = basis;
+  session->take(std::move(solver));
   if (error) *error = SNAPSPACE_OK;
   return session.release();
+}
+
+bool is_cubature(const snapspace_cubature* cubature) {
+  return cubature && cubature->tets >= 1 && cubature->rows && cubature->weights &&
+         std::isfinite(cubature->lam) && std::isfinite(cubature->mu);
+}
+
+template <class Solver>
+int set_offsets(Solver& solver, const double* offsets) {
+  if (!all_finite(offsets, 12 * static_cast<std::size_t>(solver.handles())))
+    return SNAPSPACE_NOT_FINITE;
+  solver.set_offsets(offsets);
+  return SNAPSPACE_OK;
 }
 
 }  // namespace
@@ -57,39 +94,37 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
                                            const snapspace_basis* basis, int* error) {
   if (dimension < 1 || handles < 1 || !quartic || !K || !L || !S || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
-  auto solver = std::make_unique<PosingSolver>(Quartic(dimension, quartic), handles, K, L, S);
-  if (!solver->valid()) return fail(error, SNAPSPACE_NOT_DEFINITE);
-  auto session = std::make_unique<snapspace_session>();
-  session->posing = std::move(solver);
-  session->basis = *basis;
-  session->q.assign(dimension, 0.0);
-  session->gradient.assign(dimension, 0.0);
-  return succeed(error, std::move(session));
+  Quartic elastic(dimension, quartic);
+  return begin(std::make_unique<PosingSolver>(std::move(elastic), handles, K, L, S), *basis, error);
+}
+
+snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
+                                                    const snapspace_cubature* cubature,
+                                                    const double* K, const double* L,
+                                                    const double* S, const snapspace_basis* basis,
+                                                    int* error) {
+  if (dimension < 1 || handles < 1 || !is_cubature(cubature) || !K || !L || !S || !is_basis(basis))
+    return fail(error, SNAPSPACE_BAD_ARGUMENT);
+  Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights,
+                   {cubature->lam, cubature->mu});
+  return begin(std::make_unique<CubatureSolver>(std::move(elastic), handles, K, L, S), *basis,
+               error);
 }
 
 snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,
                                              const snapspace_basis* basis, int* error) {
   if (dimension < 1 || poses < 1 || !quartics || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
-  auto solver = std::make_unique<BlendingSolver>(dimension, poses, quartics);
-  if (!solver->valid()) return fail(error, SNAPSPACE_NOT_DEFINITE);
-  auto session = std::make_unique<snapspace_session>();
-  session->blending = std::move(solver);
-  session->basis = *basis;
-  session->q.assign(dimension, 0.0);
-  session->gradient.assign(dimension, 0.0);
-  return succeed(error, std::move(session));
+  return begin(std::make_unique<BlendingSolver>(dimension, poses, quartics), *basis, error);
 }
 
 void snapspace_destroy(snapspace_session* session) { delete session; }
 
 int snapspace_set_offsets(snapspace_session* session, const double* offsets) {
   if (!session || !offsets) return SNAPSPACE_BAD_ARGUMENT;
-  if (!session->posing) return SNAPSPACE_WRONG_KIND;
-  if (!all_finite(offsets, 12 * static_cast<std::size_t>(session->posing->handles())))
-    return SNAPSPACE_NOT_FINITE;
-  session->posing->set_offsets(offsets);
-  return SNAPSPACE_OK;
+  if (session->posing) return set_offsets(*session->posing, offsets);
+  if (session->cubature) return set_offsets(*session->cubature, offsets);
+  return SNAPSPACE_WRONG_KIND;
 }
 
 int snapspace_set_weights(snapspace_session* session, const double* weights) {
@@ -104,10 +139,7 @@ int snapspace_set_dimension(snapspace_session* session, int dimension) {
   if (!session || dimension < 1 || dimension > static_cast<int>(session->q.size()))
     return SNAPSPACE_BAD_ARGUMENT;
   std::fill(session->q.begin() + std::min(dimension, session->dimension()), session->q.end(), 0.0);
-  if (session->posing)
-    session->posing->set_dimension(dimension);
-  else
-    session->blending->set_dimension(dimension);
+  session->with_solver([&](auto& solver) { solver.set_dimension(dimension); });
   return SNAPSPACE_OK;
 }
 
@@ -126,8 +158,8 @@ int snapspace_solve(snapspace_session* session, const snapspace_options* options
                                             options->coordinate_scale, options->max_iterations,
                                             options->max_evaluations};
   double* q = session->q.data();
-  const Report result = session->posing ? session->posing->solve(q, method, stop)
-                                        : session->blending->solve(q, method, stop);
+  const Report result =
+      session->with_solver([&](auto& solver) { return solver.solve(q, method, stop); });
   *report = {static_cast<snapspace_status>(result.status), result.iterations, result.evaluations,
              result.value, result.gradient_norm};
   return SNAPSPACE_OK;
@@ -137,8 +169,8 @@ int snapspace_value(snapspace_session* session, const double* q, double* value) 
   if (!session || !q || !value) return SNAPSPACE_BAD_ARGUMENT;
   if (!all_finite(q, session->dimension())) return SNAPSPACE_NOT_FINITE;
   double* gradient = session->gradient.data();
-  *value = session->posing ? session->posing->value_and_gradient(q, gradient)
-                           : session->blending->value_and_gradient(q, gradient);
+  *value =
+      session->with_solver([&](auto& solver) { return solver.value_and_gradient(q, gradient); });
   return SNAPSPACE_OK;
 }
 

@@ -66,6 +66,24 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
                                            const double* K, const double* L, const double* S,
                                            const snapspace_basis* basis, int* error);
 
+/* The elastic energy as a sum over few tets (cubature), of St.Venant-Kirchhoff material. rows (tets
+ * x 9 x dimension) make displacement gradients of coordinates, entry 3 a + b of the second is d u_a
+ * / d x_b; weights (tets) are the volumes that the tets stand for. */
+typedef struct snapspace_cubature {
+  int tets;
+  const float* rows;
+  const double* weights;
+  double lam, mu;
+} snapspace_cubature;
+
+/* A posing session with a cubature instead of a quartic: copies its arrays, too. Its solves are
+ * fastest with SNAPSPACE_BFGS, which goes on with the inverse Hessian of the last frame. */
+snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
+                                                    const snapspace_cubature* cubature,
+                                                    const double* K, const double* L,
+                                                    const double* S, const snapspace_basis* basis,
+                                                    int* error);
+
 /* A blending session, at the mean shape. Reads quartics (poses x C(dimension + 4, 4)) in place: it
  * must outlive the session. */
 snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,

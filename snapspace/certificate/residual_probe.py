@@ -26,6 +26,13 @@ class ResidualProbe(ABC):
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace
     sample : ResidualSample
+
+    Attributes
+    ----------
+    corners : (c,), the vertices of these tets, ascending
+    tets : (t, 4) int32, among the corners
+    places : (s,), of the sampled vertices among the corners
+    weights : (s,), of the sample
     """
 
     def __init__(
@@ -43,12 +50,12 @@ class ResidualProbe(ABC):
         chosen = np.zeros(n, np.bool_)
         chosen[sample.vertices] = True
         around = tets[chosen[tets].any(axis=1)]
-        self._corners, local = np.unique(around, return_inverse=True)
-        self._tets = local.reshape(-1, 4).astype(np.int32)
-        self._places = np.searchsorted(self._corners, sample.vertices)
-        self._weights = sample.weights
-        self._tau = subspace.tau.reshape(-1, 3)[self._corners].reshape(-1)
-        modes = subspace.basis.reshape(n, 3, -1)[self._corners].reshape(len(self._tau), -1)
+        self.corners, local = np.unique(around, return_inverse=True)
+        self.tets = local.reshape(-1, 4).astype(np.int32)
+        self.places = np.searchsorted(self.corners, sample.vertices)
+        self.weights = sample.weights
+        self._tau = subspace.tau.reshape(-1, 3)[self.corners].reshape(-1)
+        modes = subspace.basis.reshape(n, 3, -1)[self.corners].reshape(len(self._tau), -1)
         self._modes = np.ascontiguousarray(modes.T)
 
     def norm(self, q: FloatArray, state: FloatArray) -> float:
@@ -60,8 +67,8 @@ class ResidualProbe(ABC):
         state : offsets (h, 3, 4) of the handles, or weights of the poses
         """
         shape = core.reconstruct(self._tau, self._modes[: len(q)], q)
-        squares = (self._gradient(shape, state)[self._places] ** 2).sum(axis=1)
-        return float(np.sqrt(self._weights @ squares))
+        squares = (self._gradient(shape, state)[self.places] ** 2).sum(axis=1)
+        return float(np.sqrt(self.weights @ squares))
 
     @abstractmethod
     def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
@@ -69,14 +76,20 @@ class ResidualProbe(ABC):
 
     def _energy(self, rest: FloatArray, problem: PosingProblem | InterpolationProblem) -> _Part:
         """The elastic energy of the tets around, with rest (n, 3)."""
-        corners = np.ascontiguousarray(rest[self._corners])
+        corners = np.ascontiguousarray(rest[self.corners])
         material = problem.material
-        energy = core.ElasticEnergy(corners, self._tets, material.lam, material.mu)
+        energy = core.ElasticEnergy(corners, self.tets, material.lam, material.mu)
         return _Part(energy, corners.reshape(-1))
 
 
 class PosingProbe(ResidualProbe):
-    """Of a posing problem; the state are the handles' offsets (h, 3, 4)."""
+    """Of a posing problem; the state are the handles' offsets (h, 3, 4).
+
+    Attributes
+    ----------
+    pinned, handles, pulls : (p,), the sampled vertices that handles hold: places among the corners,
+    indices of the handles, twice the weights (p, 1) of their springs
+    """
 
     def __init__(
         self, problem: PosingProblem, subspace: AffineSubspace, sample: ResidualSample
@@ -86,16 +99,16 @@ class PosingProbe(ResidualProbe):
         sizes = [len(handle.vertices) for handle in problem.handles]
         handles = np.repeat(np.arange(len(sizes)), sizes)
         seen = np.isin(problem.pinned, sample.vertices)
-        self._handles = handles[seen]
-        self._pinned = np.searchsorted(self._corners, problem.pinned[seen])
-        self._pulls = 2.0 * problem.pin_weights[seen, None]
-        arms = problem.mesh.vertices[problem.pinned[seen]] - problem.centroids[self._handles]
+        self.handles = handles[seen]
+        self.pinned = np.searchsorted(self.corners, problem.pinned[seen])
+        self.pulls = 2.0 * problem.pin_weights[seen, None]
+        arms = problem.mesh.vertices[problem.pinned[seen]] - problem.centroids[self.handles]
         self._arms = np.column_stack([arms, np.ones(len(arms))])
 
     def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
         moved, gradient = self._part.displacement_and_gradient(shape)
-        wanted = np.einsum("prk,pk->pr", state[self._handles], self._arms)
-        np.add.at(gradient, self._pinned, self._pulls * (moved[self._pinned] - wanted))
+        wanted = np.einsum("prk,pk->pr", state[self.handles], self._arms)
+        np.add.at(gradient, self.pinned, self.pulls * (moved[self.pinned] - wanted))
         return gradient
 
 
@@ -109,7 +122,7 @@ class BlendingProbe(ResidualProbe):
         self._parts = [self._energy(pose.reshape(-1, 3), problem) for pose in problem.pose_shapes]
 
     def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
-        gradient = np.zeros((len(self._corners), 3))
+        gradient = np.zeros((len(self.corners), 3))
         for weight, part in zip(state, self._parts, strict=True):
             gradient += weight * part.displacement_and_gradient(shape)[1]
         return gradient

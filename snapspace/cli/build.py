@@ -84,11 +84,10 @@ def build(
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [
+        ("drag it in the browser", ["view", output]),
         ("how far it is from the full solution", ["validate", output]),
         ("one pose", ["pose", output, *turn]),
     ]
-    if method == "quartic":  # the page solves no cubatures
-        suggestions.insert(0, ("drag it in the browser", ["view", output]))
     print_next(suggestions)
     if as_json:
         print_json(built.as_json())

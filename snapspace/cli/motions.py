@@ -106,6 +106,6 @@ def as_parameters(
 
 def beyond_domain(problem: PosingProblem, parameters: FloatArray) -> list[str]:
     """Moving handles whose motion is outside of the domain that was sampled."""
-    outside = np.abs(parameters) > problem.domain.half_widths * (1 + 1e-9)
+    outside = np.abs(parameters) > problem.domain.half_widths * (1 + 1e-9) + 1e-9
     rows = np.flatnonzero(outside.reshape(-1, 6).any(axis=1))
     return [problem.handles.names[1 + row] for row in rows]

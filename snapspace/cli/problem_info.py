@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..problem import PosingProblem, read_problem
+from ..problem.domain_entries import domain_content
 from .mesh_info import Info, mesh_facts, mesh_figures
 
 
@@ -24,19 +23,21 @@ def problem_file_info(file: Path) -> Info:
 
 def problem_figures(problem: PosingProblem) -> dict[str, Any]:
     """Handles, material and domain, for JSON."""
-    bounds = problem.domain.half_widths[:6]
+    common, bounds = problem.domain.common, problem.domain.bounds
+    moves = [False, *(bool(row.any()) for row in bounds)]
+    handles: list[dict[str, Any]] = [
+        {"name": handle.name, "vertices": len(handle.vertices), "moves": moving}
+        for handle, moving in zip(problem.handles, moves, strict=True)
+    ]
+    for handle, row in zip(handles[1:], bounds, strict=True):
+        if handle["moves"] and (row != common.bounds[0]).any():
+            handle["domain"] = domain_content(row)
     return {
-        "handles": [
-            {"name": handle.name, "vertices": len(handle.vertices), "moves": number > 0}
-            for number, handle in enumerate(problem.handles)
-        ],
+        "handles": handles,
         "parameters": problem.parameter_count,
         "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
         "stiffness": problem.stiffness,
-        "domain": {
-            "translation": bounds[:3].tolist(),
-            "angle_degrees": np.rad2deg(bounds[3:]).tolist(),
-        },
+        "domain": domain_content(common.bounds[0]),
     }
 
 
@@ -47,24 +48,28 @@ def problem_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
         (
             "" if number else "handles",
             f"{handle['name']}: {handle['vertices']} vertices, "
-            + ("moves" if handle["moves"] else "fixed"),
+            + ("moves" if handle["moves"] else "fixed")
+            + (f", {_domain(handle['domain'])}" if "domain" in handle else ""),
         )
         for number, handle in enumerate(figures["handles"])
     ]
     return [
         *handles,
         ("parameters", str(figures["parameters"])),
-        (
-            "domain",
-            f"translation up to {_bounds(domain['translation'])}, "
-            f"angles up to {_bounds(domain['angle_degrees'])} degrees",
-        ),
+        ("domain", _domain(domain)),
         (
             "material",
             f"St.Venant-Kirchhoff, lam {material['lam']:g}, mu {material['mu']:g}; "
             f"handle stiffness {figures['stiffness']:g}",
         ),
     ]
+
+
+def _domain(domain: dict[str, list[float]]) -> str:
+    return (
+        f"translation up to {_bounds(domain['translation'])}, "
+        f"angles up to {_bounds(domain['angle_degrees'])} degrees"
+    )
 
 
 def _bounds(values: list[float]) -> str:

@@ -1,4 +1,4 @@
-"""`snapspace view`: a model in the browser."""
+"""`snapspace view`: a model, or a mesh to choose handles on, in the browser."""
 
 from __future__ import annotations
 
@@ -9,15 +9,19 @@ from pathlib import Path
 
 import click
 
-from ..server import serve
+from ..mesh import TET_SUFFIXES
+from ..mesh.input_path import existing_file
+from ..model_file import SUFFIX
+from ..server import MESH_SUFFIXES, PROBLEM_SUFFIX, SharedBody, mesh_body, problem_body, serve
 from ..server.serve import HOST
+from ..server.site import UPLOAD_LIMIT
 from .console import notice
 from .loading import load_leading
 from .options import FILE, leading_option, up_option
 
 
-@click.command(short_help="Pose or blend a model in the browser.")
-@click.argument("model", type=FILE)
+@click.command(short_help="Pose or blend in the browser, or choose handles there.")
+@click.argument("file", type=FILE, required=False)
 @click.option("--host", default=HOST, show_default=True, help="Address to listen at.")
 @click.option(
     "--port",
@@ -26,30 +30,79 @@ from .options import FILE, leading_option, up_option
     help="Port to listen at [default: any free one].",
 )
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
+@click.option(
+    "--upload-limit",
+    type=click.FloatRange(min=0, min_open=True),
+    default=UPLOAD_LIMIT / 2**20,
+    show_default=True,
+    metavar="MB",
+    help="Of meshes that are dropped on the page.",
+)
 @leading_option
 @up_option
 def view(
-    model: Path, host: str, port: int, no_browser: bool, dimension: int | None, up: str
+    file: Path | None,
+    host: str,
+    port: int,
+    no_browser: bool,
+    upload_limit: float,
+    dimension: int | None,
+    up: str,
 ) -> None:
-    """Pose or blend a model in the browser.
+    """Pose or blend a model in the browser, or make one there.
 
-    Opens the page, or prints its address where there is no browser; Ctrl-C ends it. Everything is
+    FILE is a model; or a problem, tets or a closed surface, on which handles are chosen and models
+    computed; or nothing: then a mesh is dropped on the page. A surface is filled with tets first.
+
+    Opens the page, or prints its address where there is no browser; Ctrl-C ends it. Shapes are
     solved in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` and
-    `snapspace view MODEL --port 8000` over there.
+    `snapspace view FILE --port 8000` over there. `--host 0.0.0.0` lets other machines in that know
+    the whole address.
 
     \b
-    Example:
+    Examples:
       snapspace view dragon.snapspace
+      snapspace view dragon.json
+      snapspace view bunny.obj
     """
-    loaded = load_leading(model, dimension)
+    model = body = None
+    if file is not None:
+        existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
+        if file.suffix.lower() == SUFFIX:
+            model = load_leading(file, dimension)
+        else:
+            body = _body(file)
+    if model is None and dimension is not None:
+        raise ValueError("--dimension is for models; the page asks for it before it computes one")
 
     def ready(address: str) -> None:
         opened = not no_browser and _has_display() and webbrowser.open(address)
         notice(f"{'opened' if opened else 'open'} {address}")
         notice("Ctrl-C ends it")
 
-    serve(loaded, title=model.stem, up=up, host=host, port=port, ready=ready)
+    serve(
+        model,
+        body=body,
+        title="Snapspace" if file is None else file.stem,
+        up=up,
+        upload_limit=int(upload_limit * 2**20),
+        host=host,
+        port=port,
+        ready=ready,
+    )
     notice("stopped")
+
+
+def _body(file: Path) -> SharedBody:
+    """What the page begins with; a problem or tets are read now, so that errors show here."""
+    suffix = file.suffix.lower()
+    if suffix == PROBLEM_SUFFIX:
+        body = problem_body(file)
+    elif suffix in TET_SUFFIXES:
+        body = mesh_body(file, stage=lambda stage: None)
+    else:
+        return SharedBody(lambda stage: mesh_body(file, stage=stage))
+    return SharedBody(lambda stage: body)
 
 
 def _has_display() -> bool:

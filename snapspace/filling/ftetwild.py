@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..interruptible import POLL_SECONDS, check_stop
+
 _PROGRAM = Path(__file__).with_name("ftetwild_process.py")
 
 
@@ -56,24 +58,38 @@ def ftetwild(
             edge_length=edge_length,
             tolerance=tolerance,
         )
-        done = subprocess.run(
-            [sys.executable, str(_PROGRAM), name],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            cwd=name,
-            # packages are found there as they are here
-            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
-            check=False,
-        )
+        status, output = _run(folder)
         result = folder / "tets.npz"
-        if done.returncode or not result.is_file():
-            lines = done.stdout.strip().splitlines() or ["it wrote nothing"]
+        if status or not result.is_file():
+            lines = output.strip().splitlines() or ["it wrote nothing"]
             raise ValueError(
-                f"fill_surface: fTetWild failed with exit status {done.returncode}: {lines[-1]}; "
+                f"fill_surface: fTetWild failed with exit status {status}: {lines[-1]}; "
                 "check the surface in a mesh editor, or try another tolerance"
             )
         with np.load(result) as arrays:
             return arrays["vertices"], arrays["tets"]
+
+
+def _run(folder: Path) -> tuple[int, str]:
+    """Exit status and output of the program; its process is ended if this one is told to stop."""
+    with subprocess.Popen(
+        [sys.executable, str(_PROGRAM), str(folder)],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        errors="replace",
+        cwd=folder,
+        # packages are found there as they are here
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
+    ) as process:
+        try:
+            while True:
+                try:
+                    output, _ = process.communicate(timeout=POLL_SECONDS)
+                    return process.returncode, output
+                except subprocess.TimeoutExpired:
+                    check_stop()
+        except BaseException:
+            process.kill()
+            raise

@@ -12,14 +12,16 @@ from .mass import (
     mass_of_tets,
 )
 from .quality import dihedral_angles, tet_volumes
-from .read import MeshNotice, read_tet_arrays, read_tets
-from .read_surface import read_surface
+from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
+from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
 from .surface import boundary_faces, compact_surface, vertex_normals
 from .tet_mesh import TetMesh
 from .write import write_surface, write_tets
 
 __all__ = [
+    "SURFACE_SUFFIXES",
+    "TET_SUFFIXES",
     "EmbeddedSurface",
     "MeshNotice",
     "TetMesh",

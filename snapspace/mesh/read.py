@@ -133,3 +133,6 @@ _READERS: dict[str, Callable[[Path], FileContent]] = {
     ".ele": read_tetgen,
     ".veg": read_veg,
 }
+
+#: Extensions that `read_tets` knows.
+TET_SUFFIXES = tuple(_READERS)

@@ -61,3 +61,6 @@ _READERS: dict[str, Callable[[Path], FileContent]] = {
     ".ply": read_ply,
     ".stl": partial(read_with_meshio, file_format="STL"),
 }
+
+#: Extensions that `read_surface` knows.
+SURFACE_SUFFIXES = tuple(_READERS)

@@ -55,11 +55,16 @@ def posing_arrays(model: PosingModel) -> Arrays:
 def posing_content(model: PosingModel) -> dict[str, Any]:
     """What of the problem is not an array, as JSON."""
     problem = model.problem
-    bounds = problem.domain.half_widths[:6].tolist()
+    domain = problem.domain
+    # one row where bounds are common, as before handles could have their own
+    bounds = domain.bounds if domain.common is not domain else domain.bounds[0]
     return {
         "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
         "stiffness": problem.stiffness,
-        "domain": {"translation": bounds[:3], "angle": bounds[3:]},
+        "domain": {
+            "translation": bounds[..., :3].tolist(),
+            "angle": bounds[..., 3:].tolist(),
+        },
         "handles": list(problem.handles.names),
         "lumped_mass": model.subspace.lumped,
     }
@@ -120,5 +125,9 @@ def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:
         handles,
         material=StVK(lam=content["material"]["lam"], mu=content["material"]["mu"]),
         stiffness=content["stiffness"],
-        domain=HandleBox(translation=tuple(domain["translation"]), angle=tuple(domain["angle"])),
+        domain=HandleBox(
+            translation=np.array(domain["translation"]),
+            angle=np.array(domain["angle"]),
+            moving=len(handles) - 1,
+        ),
     )

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model_file.container import Arrays, container_bytes
-from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
+from ..reduction import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
+from .estimator import estimator_arrays
 from .shape_space import quantised
 
 FORMAT, VERSION = "snapspace-page", 1
@@ -37,8 +38,6 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
 
     Raises
     ------
-    ValueError
-        For a model with a cubature: the page solves exact quartics only.
     TypeError
         For another model.
     ValueError
@@ -62,6 +61,7 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         "diagonal": model.problem.mesh.diagonal,
         "value_scale": model.value_scale,
         "coordinate_scale": model.coordinate_scale,
+        "material": {"lam": model.problem.material.lam, "mu": model.problem.material.mu},
     }
     header = {
         "format": FORMAT,
@@ -69,28 +69,23 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         "kind": kind,
         "about": json.dumps(about, sort_keys=True),
     }
-    return container_bytes(arrays, header)
+    return container_bytes(arrays | estimator_arrays(model), header)
 
 
 def _posing_about(model: PosingModel) -> dict[str, Any]:
     problem = model.problem
-    bounds = problem.domain.half_widths[:6].tolist()
+    bounds = np.vstack([np.zeros(6), problem.domain.bounds]).tolist()
     return {
         "handles": [
             {"name": name, "center": center}
             for name, center in zip(problem.handles.names, problem.centroids.tolist(), strict=True)
         ],
-        "box": {"translation": bounds[:3], "angle": bounds[3:]},
+        "boxes": [{"translation": row[:3], "angle": row[3:]} for row in bounds],
     }
 
 
 def _posing_arrays(model: PosingModel) -> Arrays:
     problem, mesh = model.problem, model.problem.mesh
-    if isinstance(model.elastic, Cubature):
-        raise ValueError(
-            "the page solves exact quartics, and this model has a cubature; build it with "
-            "--method quartic"
-        )
     surface = mesh.surface_vertices
     handle_of = np.full(len(mesh.vertices), -1, np.int32)
     for index, handle in enumerate(problem.handles):
@@ -104,11 +99,17 @@ def _posing_arrays(model: PosingModel) -> Arrays:
         "faces": np.searchsorted(surface, mesh.surface).astype(np.int32),
         "handle_of_vertex": handle_of[surface],
         **_modes("space", on_surface(model.subspace.basis.T)),
-        "quartic": model.elastic.coefficients.astype(np.float32),
+        **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
         "handle_S": model.handles.S,
     }
+
+
+def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
+    if isinstance(elastic, Cubature):
+        return {"cubature_rows": elastic.rows, "cubature_weights": elastic.weights}
+    return {"quartic": elastic.coefficients.astype(np.float32)}
 
 
 def _interpolation_arrays(model: InterpolationModel) -> Arrays:

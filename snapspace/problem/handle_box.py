@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
+Vector = tuple[float, float, float]
+Bounds = float | Vector | Sequence[Vector] | FloatArray
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -18,34 +22,35 @@ class HandleBox:
 
     Parameters
     ----------
-    translation : float or three floats
+    translation : float, three floats, or three for each moving handle
         Largest offset per axis, in the mesh's length unit.
-    angle : float or three floats
+    angle : float, three floats, or three for each moving handle
         Largest extrinsic Euler angle about x, y, z, in radians.
     moving : int, default 1
-        Number of moving handles. `PosingProblem` sets it.
+        Number of moving handles. `PosingProblem` sets it where bounds are common to all.
 
     Raises
     ------
     ValueError
-        For a bound that is negative or not finite, for bounds that are all zero, or an angle
-        beyond pi.
+        For a bound that is negative or not finite, for bounds that are all zero, an angle beyond
+        pi, or bounds for another number of handles.
 
     Notes
     -----
     A parameter vector has 6 entries per moving handle: translation x, y, z, then angles alpha,
-    beta, gamma. The domain is [-bound, bound] along each.
+    beta, gamma. The domain is [-bound, bound] along each. A handle whose bounds are all zero is
+    held at rest in all samples, as the first one of a problem is.
     """
 
-    translation: float | tuple[float, float, float]
-    angle: float | tuple[float, float, float]
+    translation: Bounds
+    angle: Bounds
     moving: int = 1
 
     def __post_init__(self) -> None:
         for name in ("translation", "angle"):
-            bounds = np.asarray(getattr(self, name), np.float64)
-            if bounds.shape not in ((), (3,)):
-                raise ValueError(f"HandleBox: {name} must be one number or three, got {bounds}")
+            bounds = _numbers(getattr(self, name), name)
+            if isinstance(getattr(self, name), np.ndarray) or bounds.ndim == 2:
+                object.__setattr__(self, name, _as_tuples(bounds))  # so that boxes compare
             if not np.isfinite(bounds).all() or (bounds < 0).any():
                 raise ValueError(
                     f"HandleBox: {name} is {getattr(self, name)}, but a bound must be zero or "
@@ -60,6 +65,13 @@ class HandleBox:
             raise ValueError(
                 f"HandleBox: moving is {self.moving}, but one handle at least must move"
             )
+        for name in ("translation", "angle"):
+            shape = np.shape(getattr(self, name))
+            if len(shape) == 2 and shape[0] != self.moving:
+                raise ValueError(
+                    f"HandleBox: {name} has {shape[0]} rows of bounds, but moving is "
+                    f"{self.moving}; give one row per moving handle, or three numbers for all"
+                )
         if not self.half_widths.any():
             raise ValueError("HandleBox: all bounds are zero, so there is nothing to sample")
 
@@ -71,8 +83,43 @@ class HandleBox:
     @property
     def half_widths(self) -> FloatArray:
         """Bounds of all parameters, (dimension,): the box is [-half_widths, half_widths]."""
-        one = np.concatenate([np.broadcast_to(self.translation, 3), np.broadcast_to(self.angle, 3)])
-        return np.tile(one.astype(np.float64), self.moving)
+        return self.bounds.reshape(-1)
+
+    @property
+    def bounds(self) -> FloatArray:
+        """Bounds handle by handle, (moving, 6): translation x, y, z, angles alpha, beta, gamma."""
+        parts = [np.broadcast_to(part, (self.moving, 3)) for part in (self.translation, self.angle)]
+        return np.concatenate(parts, axis=1, dtype=np.float64)
+
+    @property
+    def common(self) -> HandleBox:
+        """The smallest box with the same bounds for all handles that holds this one."""
+        if np.ndim(self.translation) < 2 and np.ndim(self.angle) < 2:
+            return self
+        largest = self.bounds.max(axis=0)
+        return replace(self, translation=largest[:3], angle=largest[3:])
+
+    def renamed(self, old: Sequence[str], new: Sequence[str]) -> HandleBox:
+        """The box for other moving handles: each keeps the bounds of its name.
+
+        Parameters
+        ----------
+        old, new : sequence of str
+            Names of the moving handles of this box, and of the other one. Those that are new get
+            the bounds of `common`.
+
+        Raises
+        ------
+        ValueError
+            If only handles are left whose bounds are zero.
+        """
+        common = self.common
+        if common is self:
+            return replace(self, moving=len(new))
+        known = dict(zip(old, self.bounds, strict=True))
+        other = common.bounds[0]
+        rows = np.array([known.get(name, other) for name in new])
+        return replace(self, moving=len(new), translation=rows[:, :3], angle=rows[:, 3:])
 
     @property
     def free_axes(self) -> NDArray[np.bool_]:
@@ -111,3 +158,24 @@ class HandleBox:
     def scaled(self, parameters: FloatArray) -> FloatArray:
         """Coordinates in which distances between parameters compare: those of the unit cube."""
         return self.to_unit(parameters)
+
+
+def _numbers(value: Any, name: str) -> FloatArray:
+    """A number, three, or rows of three; ValueError for anything else."""
+    try:
+        bounds = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        bounds = np.empty(0)
+    if bounds.ndim > 2 or bounds.shape[bounds.ndim - 1 :] not in ((), (3,)) or not bounds.size:
+        raise ValueError(
+            f"HandleBox: {name} must be one number, three, or three for each moving handle, got "
+            f"{value!r}".replace("\n", "")
+        )
+    return bounds
+
+
+def _as_tuples(bounds: FloatArray) -> Any:
+    """The same numbers, as a number or tuples."""
+    if bounds.ndim < 2:
+        return tuple(bounds.tolist()) if bounds.ndim else float(bounds)
+    return tuple(map(tuple, bounds.tolist()))

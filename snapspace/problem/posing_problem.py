@@ -36,7 +36,7 @@ class PosingProblem:
     ----------
     mesh : TetMesh
     handles : Handles
-        The first one stays at rest while sampling.
+        The first one stays at rest while sampling, as do those whose bounds are zero.
     material : StVK, default StVK(lam=1, mu=1)
     stiffness : float, default 1000
         Weight of the handles, > 0, in energy per volume and squared length (mu of eq. 2 in the
@@ -93,7 +93,7 @@ class PosingProblem:
             For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
             `fixing`.
         domain : HandleBox, optional
-            Default: the bounds of this problem, for each moving handle.
+            Default: the bounds of this problem, see `HandleBox.renamed`.
 
         Returns
         -------
@@ -109,7 +109,7 @@ class PosingProblem:
         other = PosingProblem(
             self.mesh,
             handles,
-            domain=domain or self.domain,
+            domain=domain or self.domain.renamed(self.handles.names[1:], handles.names[1:]),
             material=self.material,
             stiffness=self.stiffness,
         )

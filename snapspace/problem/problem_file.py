@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..energy import StVK
 from ..mesh import TetMesh, read_tets
-from .handle_box import HandleBox
+from .domain_entries import domain_content, handle_box
 from .handles import Handles
 from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three
 from .posing_problem import PosingProblem
@@ -31,8 +31,10 @@ def read_problem(
     path : path of a JSON file
         {"mesh": path relative to the file, "material": {"model": "stvk", "lam", "mu"}, "stiffness",
         "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
-        "vertices"}, ...]}. A handle is the union of its boxes [[min corner], [max corner]] (null:
-        unbounded), spheres [[x, y, z], radius] and vertices; the first handle is the fixed one.
+        "vertices", "domain"}, ...]}. A handle is the union of its boxes [[min corner], [max
+        corner]] (null: unbounded), spheres [[x, y, z], radius] and vertices. The first handle is
+        the fixed one; any other may have a domain of its own, whose entries replace those of the
+        common one. Where all of them are zero it is held at rest too.
     mesh : TetMesh, optional
         Used instead of the file's mesh.
     repair : bool, default False
@@ -57,19 +59,19 @@ def read_problem(
 
 def problem_content(problem: PosingProblem, mesh_path: str | None = None) -> dict[str, Any]:
     """The problem as the JSON content that `read_problem` takes, handles by vertices."""
-    bounds = problem.domain.half_widths[:6]
+    common = problem.domain.common.bounds[0]
     content: dict[str, Any] = {
         "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
         "stiffness": problem.stiffness,
-        "domain": {
-            "translation": bounds[:3].tolist(),
-            "angle_degrees": np.rad2deg(bounds[3:]).tolist(),
-        },
+        "domain": domain_content(common),
         "handles": [
             {"name": handle.name, "vertices": handle.vertices.tolist()}
             for handle in problem.handles
         ],
     }
+    for handle, bounds in zip(content["handles"][1:], problem.domain.bounds, strict=True):
+        if (bounds != common).any():
+            handle["domain"] = domain_content(bounds)
     return content if mesh_path is None else {"mesh": mesh_path, **content}
 
 
@@ -91,34 +93,17 @@ def _entry(content: dict[str, Any], key: str) -> Any:
     return content[key]
 
 
-def _bounds(value: Any, what: str) -> float | tuple[float, float, float]:
-    if not isinstance(value, list):
-        return as_number(value, what)
-    if len(value) != 3:
-        raise ValueError(f"{what} must be one number or three, got {len(value)}")
-    return as_three(value, what)
-
-
 def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
     return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
 
 
 def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
-    domain = as_object(_entry(content, "domain"), "domain", known={"translation", "angle_degrees"})
-    degrees = _bounds(_entry(domain, "angle_degrees"), "domain.angle_degrees")
-    if np.max(degrees) > 180:
-        raise ValueError(f"domain.angle_degrees is {degrees}, but it must be at most 180")
-    angle = np.deg2rad(degrees)
-    box = HandleBox(
-        translation=_bounds(_entry(domain, "translation"), "domain.translation"),
-        angle=float(angle) if angle.ndim == 0 else (angle[0], angle[1], angle[2]),
-    )
     return PosingProblem(
         mesh,
         _handles(_entry(content, "handles"), mesh),
         material=_material(content.get("material", {})),
         stiffness=as_number(_entry(content, "stiffness"), "stiffness"),
-        domain=box,
+        domain=handle_box(_entry(content, "domain"), content["handles"]),
     )
 
 
@@ -134,7 +119,7 @@ def _material(value: Any) -> StVK:
 
 
 def _handles(value: Any, mesh: TetMesh) -> Handles:
-    known = {"name", "boxes", "spheres", "vertices"}
+    known = {"name", "boxes", "spheres", "vertices", "domain"}
     items = [
         as_object(item, f"handles[{i}]", known=known)
         for i, item in enumerate(as_list(value, "handles"))

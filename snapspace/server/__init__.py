@@ -1,5 +1,14 @@
-"""A local server for the page."""
+"""A local server for the page: models to pose, and meshes to choose handles on."""
 
+from .body import MESH_SUFFIXES, PROBLEM_SUFFIX, mesh_body, problem_body
 from .serve import serve
+from .shared_body import SharedBody
 
-__all__ = ["serve"]
+__all__ = [
+    "MESH_SUFFIXES",
+    "PROBLEM_SUFFIX",
+    "SharedBody",
+    "mesh_body",
+    "problem_body",
+    "serve",
+]

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import hmac
+from collections.abc import Container
 from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.websockets import WebSocketClose
 
-LOCAL = frozenset({"127.0.0.1", "localhost", "::1"})
+from .hosts import LOCAL
+
 HEADERS = {
     "Cache-Control": "no-store",
     "Content-Security-Policy": "frame-ancestors 'none'",
@@ -22,6 +25,8 @@ HEADERS = {
 class Guard:
     """Answers requests only that name this host, come from its own page, and carry the token.
 
+    Websockets as well as others: browsers let any page open one to any server.
+
     Another page in the same browser could reach a local port: by its name in the Host header
     (DNS rebinding), or with an Origin of its own. Other users of the machine do not know the token.
     The port may be another one, as of a tunnel.
@@ -31,20 +36,25 @@ class Guard:
     app : ASGIApp
     token : str
         In the query as token=...
-    hosts : frozenset of str, default the names of this machine
+    hosts : container of str, default the names of this machine for itself
         Names that a request may call the server by.
     """
 
-    def __init__(self, app: ASGIApp, *, token: str, hosts: frozenset[str] = LOCAL) -> None:
+    def __init__(self, app: ASGIApp, *, token: str, hosts: Container[str] = LOCAL) -> None:
         self._app = app
         self._token = token.encode()
         self._hosts = hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
+        if scope["type"] not in ("http", "websocket"):  # lifespan: from the server itself
             await self._app(scope, receive, send)
             return
         refusal = self._refusal(Headers(scope=scope), scope["query_string"])
+        if scope["type"] == "websocket":
+            # closed before it is accepted, the handshake is answered with 403
+            answer = self._app if refusal is None else WebSocketClose(1008, refusal)
+            await answer(scope, receive, send)
+            return
 
         async def send_guarded(message: Message) -> None:
             if message["type"] == "http.response.start":
@@ -52,12 +62,12 @@ class Guard:
                 message["headers"] = [*message["headers"], *added]
             await send(message)
 
-        answer = self._app if refusal is None else PlainTextResponse(refusal, status_code=403)
-        await answer(scope, receive, send_guarded)
+        page = self._app if refusal is None else PlainTextResponse(refusal, status_code=403)
+        await page(scope, receive, send_guarded)
 
     def _refusal(self, headers: Headers, query: bytes) -> str | None:
         host = headers.get("host", "")
-        if _name(f"//{host}") not in self._hosts:
+        if (_name(f"//{host}") or "") not in self._hosts:
             return "snapspace: this server does not go by that name; use the address it printed"
         origin = headers.get("origin")
         if origin is not None and origin != f"http://{host}":

@@ -1,44 +1,67 @@
-"""Serving the page of a model until Ctrl-C."""
+"""Serving the page until Ctrl-C."""
 
 from __future__ import annotations
 
-import errno
 import secrets
+import signal
 import socket
-from collections.abc import Callable
+import tempfile
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import uvicorn
 
 from ..reduction import ReducedModel
 from .app import page_app
-from .guard import LOCAL
+from .hosts import hosts_for, shown_host
+from .listener import listening
+from .live import LARGEST_MESSAGE
+from .shared_body import SharedBody
+from .site import UPLOAD_LIMIT, Site
 
 HOST = "127.0.0.1"
+#: How long the end of connections is waited for at Ctrl-C.
+GRACE_SECONDS = 1
+#: A page that is silent for longer is gone. Tunnels and sleepy machines take their time.
+SILENCE_SECONDS = 90
 
 
 def serve(
-    model: ReducedModel,
+    model: ReducedModel | None = None,
     *,
+    body: SharedBody | None = None,
     title: str,
     up: str = "z",
+    folder: Path = Path(),
+    upload_limit: int = UPLOAD_LIMIT,
     host: str = HOST,
     port: int = 0,
     ready: Callable[[str], None] = print,
 ) -> None:
-    """Serves a model's page, to any number of browsers, until Ctrl-C.
+    """Serves the page, to any number of browsers, until Ctrl-C.
 
-    Everything is solved in the page; the server only hands out the page and the model.
+    With a model it is posed or blended, and all is solved in the page. Else handles are chosen on a
+    mesh, and models are computed here.
 
     Parameters
     ----------
-    model : PosingModel or InterpolationModel
+    model : PosingModel or InterpolationModel, optional
+    body : SharedBody, optional
+        The mesh that pages begin with. With neither they ask for one.
     title : str
-        Heading of the page.
+        Heading of the page, until a mesh has a name.
     up : "x", "y" or "z", default "z"
         Axis that points up at first.
+    folder : Path, default the current one
+        Where what is made of uploaded meshes is saved.
+    upload_limit : int, default 256 MB
+        Bytes of a mesh that is dropped on the page.
     host : str, default "127.0.0.1"
         Address to listen at. Another one than this machine's own lets other machines in, who need
-        the token.
+        the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then name any
+        address in digits, or this machine's own name.
     port : int, default 0
         0 takes any that is free.
     ready : callable, default print
@@ -47,24 +70,64 @@ def serve(
     Raises
     ------
     ValueError
-        If the address cannot be listened at.
+        If the address cannot be listened at, or for a model that pages do not solve.
     """
-    listener = _listening(host, port)
+    listener = listening(host, port)
     token = secrets.token_urlsafe(18)
-    app = page_app(model, title=title, up=up, token=token, hosts=LOCAL | {host.lower()})
-    config = uvicorn.Config(
-        app, log_level="error", access_log=False, lifespan="off", server_header=False
-    )
-    name = f"[{host}]" if ":" in host else host
-    server = _Server(
-        config, lambda: ready(f"http://{name}:{listener.getsockname()[1]}/?token={token}")
-    )
     try:
-        server.run(sockets=[listener])
+        with _terminated_alike(), _scratch_folder() as scratch:
+            site = Site(
+                title=title,
+                up=up,
+                token=token,
+                folder=folder.resolve(),
+                scratch=scratch,
+                body=body,
+                model=model,
+                upload_limit=upload_limit,
+            )
+            address = f"http://{shown_host(host)}:{listener.getsockname()[1]}/?token={token}"
+            config = uvicorn.Config(
+                page_app(site, hosts=hosts_for(host)),
+                log_level="error",
+                access_log=False,
+                lifespan="off",
+                server_header=False,
+                ws="websockets-sansio",
+                ws_max_size=LARGEST_MESSAGE,
+                ws_ping_timeout=SILENCE_SECONDS,
+                ws_per_message_deflate=False,
+                timeout_graceful_shutdown=GRACE_SECONDS,
+            )
+            _Server(config, lambda: ready(address)).run(sockets=[listener])
     except KeyboardInterrupt:  # uvicorn has closed everything, and raises it again
         pass
     finally:
         listener.close()
+
+
+@contextmanager
+def _scratch_folder() -> Iterator[Path]:
+    with tempfile.TemporaryDirectory(prefix="snapspace-", ignore_cleanup_errors=True) as name:
+        yield Path(name)
+
+
+@contextmanager
+def _terminated_alike() -> Iterator[None]:
+    """SIGTERM ends the block as Ctrl-C does, so that temporary files are removed."""
+    if threading.current_thread() is not threading.main_thread():
+        yield  # only the main thread gets signals
+        return
+
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    # uvicorn has its own handler while it runs, and then raises the signal again for this one
+    before = signal.signal(signal.SIGTERM, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 class _Server(uvicorn.Server):
@@ -77,23 +140,3 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets=sockets)
         self._tell()
-
-
-def _listening(host: str, port: int) -> socket.socket:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    listener = socket.socket(family, socket.SOCK_STREAM)
-    try:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind((host, port))
-        listener.listen()
-    except OSError as error:
-        listener.close()
-        taken = error.errno == errno.EADDRINUSE
-        cure = "give another --port" if taken else "give another --host or --port"
-        raise ValueError(
-            f"cannot listen at {host}:{port}: {error.strerror or error}; {cure}"
-        ) from None
-    except OverflowError:
-        listener.close()
-        raise ValueError(f"port is {port}, but ports go from 0 to 65535") from None
-    return listener

@@ -11,6 +11,7 @@ from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import InterpolationModel
 from .frame_report import FrameReport
+from .given_coordinates import given_coordinates
 from .session import Session
 
 FloatArray = NDArray[np.float64]
@@ -76,6 +77,25 @@ class BlendingSession(Session[InterpolationModel]):
             self._set_weights(before)
             self._loop.q = shape
         return report
+
+    def put(self, weights: ArrayLike, q: ArrayLike) -> None:
+        """Takes a frame that was solved elsewhere, as in the page; nothing is solved.
+
+        Parameters
+        ----------
+        weights : array_like, (poses,), of sum one
+        q : array_like, (dimension,) or fewer
+            Coordinates of the shape, or the leading ones, which set `dimension`.
+
+        Raises
+        ------
+        ValueError
+            For another number of weights or coordinates, one that is not finite, or another sum.
+        """
+        w = self.model.problem.weights(weights, extrapolate=True)
+        shape = given_coordinates(q, self.model.dimension)
+        self.dimension, self._loop.q = len(shape), shape
+        self._set_weights(w)
 
     def reset(self) -> None:
         """Back to the mean shape: equal weights."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import numpy as np
@@ -13,6 +13,7 @@ from ..certificate import PosingProbe, ResidualSample
 from ..problem import affine_offset, rigid_offset
 from ..reduction import Cubature, PosingModel
 from .frame_report import FrameReport
+from .given_coordinates import given_coordinates
 from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
@@ -129,6 +130,38 @@ class PosingSession(Session[PosingModel]):
         maps = [_world_map(offset, center) for offset, center in zip(offsets, centers, strict=True)]
         return self._solve_at(np.array(maps), offsets)
 
+    def put(self, motions: Sequence[tuple[ArrayLike, ArrayLike]], q: ArrayLike) -> None:
+        """Takes a frame that was solved elsewhere, as in the page; nothing is solved.
+
+        Parameters
+        ----------
+        motions : for each handle a rotation (3, 3) about its centroid and a translation (3,)
+        q : array_like, (dimension,) or fewer
+            Coordinates of the shape, or the leading ones, which set `dimension`.
+
+        Raises
+        ------
+        ValueError
+            For another number of motions or coordinates, one that is not finite, or a matrix that
+            is no rotation; handles and shape stay as they were.
+        """
+        handles = self.model.problem.handles
+        if len(motions) != len(handles):
+            raise ValueError(
+                f"put: got {len(motions)} motions, but there are {len(handles)} handles"
+            )
+        maps = {}
+        for handle, (rotation, translation) in zip(handles, motions, strict=True):
+            turn = _finite(rotation, (3, 3), f"put: the rotation of '{handle.name}'")
+            shift = _finite(translation, (3,), f"put: the translation of '{handle.name}'")
+            if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
+                raise ValueError(f"put: the matrix of '{handle.name}' is no rotation")
+            offset = np.column_stack([turn - np.eye(3), shift])
+            maps[handle.name] = _world_map(offset, self._center(handle.name))
+        shape = given_coordinates(q, self.model.dimension)
+        self.dimension, self._loop.q = len(shape), shape
+        self._set(*self._moved(maps))
+
     def reset(self) -> None:
         """Back to rest: all handles and the shape."""
         handles = len(self.model.problem.handles)
@@ -143,9 +176,10 @@ class PosingSession(Session[PosingModel]):
         handle; an affine map that is not a rigid motion is outside.
         """
         problem = self.model.problem
-        names = problem.handles.names[1:]
-        moving = zip(names, self._offsets[1:], strict=True)
-        return tuple(name for name, offset in moving if not is_inside(problem.domain, offset))
+        moving = zip(
+            problem.handles.names[1:], problem.domain.bounds, self._offsets[1:], strict=True
+        )
+        return tuple(name for name, bounds, offset in moving if not is_inside(bounds, offset))
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`pose`."""

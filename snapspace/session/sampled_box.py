@@ -5,20 +5,20 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..problem import HandleBox, euler_of_rotation
+from ..problem import euler_of_rotation
 
 FloatArray = NDArray[np.float64]
 
 _ROUNDING = 1e-9
 
 
-def is_inside(domain: HandleBox, offset: FloatArray) -> bool:
-    """Whether the offset [A - I | t] (3, 4) of a moving handle is a motion of the box.
+def is_inside(bounds: FloatArray, offset: FloatArray) -> bool:
+    """Whether the offset [A - I | t] (3, 4) of a handle is within its bounds (6,) of the box.
 
     An affine map that is not a rigid motion never is. A rotation has two triples of Euler angles
     (besides turns by 2 pi); one of them in the box is enough.
     """
-    bounds = domain.half_widths[:6] + _ROUNDING
+    bounds = bounds + _ROUNDING
     rotation = offset[:, :3] + np.eye(3)
     if not np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-9) or np.linalg.det(rotation) < 0:
         return False

@@ -6,11 +6,13 @@ import time
 import warnings
 from collections.abc import Sequence
 from concurrent.futures import Executor
+from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..interruptible import check_stop
 from ..problem import Problem
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
 from .displacement_rows import DisplacementRows
@@ -32,7 +34,15 @@ STOP_SECONDS = 0.4
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C during `solve_snapshots`; the finished samples are in its checkpoint, if any."""
+    """Ctrl-C during `solve_snapshots`; the finished samples are in its checkpoint, if any.
+
+    finished : Snapshots of them, in the order of the samples; None if there are none, and of
+        samples that were chosen on the way
+    """
+
+    def __init__(self, message: str, finished: Snapshots | None = None) -> None:
+        super().__init__(message)
+        self.finished = finished
 
 
 class Backend(Protocol):
@@ -128,21 +138,25 @@ class Run:
         except KeyboardInterrupt:
             self._book(backend.stop(STOP_SECONDS))
             done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
-            raise Interrupted(done) from None
+            finished = self._of(sorted(self.reports)) if self.reports else None
+            raise Interrupted(done, finished) from None
         finally:
             self._save()
             backend.close()
 
     def snapshots(self) -> Snapshots:
         """All samples, once they are solved."""
-        numbers = range(len(self.samples))
+        return replace(self._of(range(len(self.samples))), gram=self.held_out.gram)
+
+    def _of(self, numbers: Sequence[int]) -> Snapshots:
         rows = DisplacementRows([self.rows[i] for i in numbers], self.problem.base.size)
         reports = [self.reports[i] for i in numbers]
-        return Snapshots(self.problem, self.samples, rows, reports, self.held_out.gram)
+        return Snapshots(self.problem, self.samples[np.array(numbers)], rows, reports)
 
     def _solve_on(self, backend: Backend) -> None:
         submitted = 0
         while len(self.reports) < len(self.samples):
+            check_stop()
             self._advance()
             while submitted < len(self.schedule) and self._ready(submitted, backend):
                 self._submit(backend, submitted)

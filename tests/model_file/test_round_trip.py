@@ -25,7 +25,7 @@ from snapspace import (
 from snapspace.mesh import mass_matrix
 from snapspace.problem import HandleBox
 
-from ..shapes import irregular_bar
+from ..shapes import bar_problem, irregular_bar
 from ..snapshots.bars import parameters, posing_bar
 
 
@@ -83,6 +83,15 @@ def test_three_handles_bounds_per_axis_and_a_lumped_mass_survive(tmp_path: Path)
     snapshots = solve_snapshots(problem, parameters(problem, 6), threads=1)
     subspace = snapshot_pca(snapshots, dimension=4, lumped=True)
     made = reduce(problem, subspace, snapshots=snapshots, threads=1)
+    assert_same_model(load(made.save(tmp_path / "m.snapspace")), made)
+
+
+def test_bounds_of_single_handles_survive(tmp_path: Path) -> None:
+    problem = bar_problem()
+    box = HandleBox(translation=[(0.1, 0.2, 0.3), (0, 0, 0)], angle=0.2, moving=2)
+    problem = problem.with_handles(problem.handles, domain=box)
+    snapshots = solve_snapshots(problem, parameters(problem, 6), threads=1)
+    made = reduce(problem, snapshot_pca(snapshots, dimension=4), snapshots=snapshots, threads=1)
     assert_same_model(load(made.save(tmp_path / "m.snapspace")), made)
 
 

@@ -62,6 +62,7 @@ def compiled(folder: Path) -> ctypes.CDLL:
     library = ctypes.CDLL(str(target))
     library.allocations.restype = ctypes.c_long
     library.snapspace_create_posing.restype = ctypes.c_void_p
+    library.snapspace_create_posing_cubature.restype = ctypes.c_void_p
     library.snapspace_create_blending.restype = ctypes.c_void_p
     return library
 
@@ -71,6 +72,16 @@ class Basis(ctypes.Structure):
         ("vertices", ctypes.c_int),
         ("tau", ctypes.c_void_p),
         ("modes", ctypes.c_void_p),
+    )
+
+
+class Cubature(ctypes.Structure):
+    _fields_ = (
+        ("tets", ctypes.c_int),
+        ("rows", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+        ("lam", ctypes.c_double),
+        ("mu", ctypes.c_double),
     )
 
 
@@ -96,5 +107,5 @@ class Report(ctypes.Structure):
 
 
 def address(array: NDArray[Any]) -> ctypes.c_void_p:
-    assert array.dtype == np.float64 and array.flags.c_contiguous
+    assert array.dtype in (np.float64, np.float32) and array.flags.c_contiguous
     return ctypes.c_void_p(array.ctypes.data)

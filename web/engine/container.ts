@@ -46,6 +46,10 @@ export class Container {
     }
   }
 
+  has(name: string): boolean {
+    return this.#entries.has(name);
+  }
+
   /** The shape of an array; `axes` is how many it must have. */
   shape(name: string, axes: number): number[] {
     const { shape } = this.#entry(name);

@@ -1,3 +1,5 @@
+import type { Box } from "./sampled_box.ts";
+import type { Estimator } from "./estimator.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** What the page needs of a model, whether it came as a model file or in an exported page. */
@@ -18,6 +20,15 @@ interface Common {
   readonly coordinateScale: number;
   /** Of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
+  readonly material: Material;
+  /** Of models that were calibrated. */
+  readonly estimator: Estimator | null;
+}
+
+/** Lame parameters of St.Venant-Kirchhoff material. */
+export interface Material {
+  readonly lam: number;
+  readonly mu: number;
 }
 
 export interface PosingModel extends Common {
@@ -25,12 +36,27 @@ export interface PosingModel extends Common {
   readonly handles: readonly Handle[];
   /** Index of the handle that a surface vertex belongs to, or -1. */
   readonly handleOfVertex: Int32Array<ArrayBuffer>;
-  /** Half widths of the box of motions that was sampled: lengths, and radians. */
-  readonly box: { readonly translation: readonly number[]; readonly angle: readonly number[] };
-  readonly quartic: Float64Array<ArrayBuffer>;
+  /** The box of motions that was sampled, handle by handle; of those at rest, the first one too, zeros. */
+  readonly boxes: readonly Box[];
+  readonly elastic: Quartic | Cubature;
   readonly K: Float64Array<ArrayBuffer>;
   readonly L: Float64Array<ArrayBuffer>;
   readonly S: Float64Array<ArrayBuffer>;
+}
+
+/** The exact reduced energy, a polynomial. */
+export interface Quartic {
+  readonly kind: "quartic";
+  readonly coefficients: Float64Array<ArrayBuffer>;
+}
+
+/** The energy as a sum over few tets. */
+export interface Cubature {
+  readonly kind: "cubature";
+  /** Displacement gradients of the modes, tets x 9 x dimension. */
+  readonly rows: Float32Array<ArrayBuffer>;
+  /** The volume that each tet stands for. */
+  readonly weights: Float64Array<ArrayBuffer>;
 }
 
 export interface Handle {

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "online/cubature.cpp"
 #include "online/quartic.cpp"
 #include "online/snapspace_online.cpp"
 

@@ -1,3 +1,4 @@
+import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { PosingModel } from "./model.ts";
 import {
@@ -26,7 +27,9 @@ export class PosingSession {
   readonly model: PosingModel;
   readonly #core: Core;
   readonly #stop: Termination;
+  readonly #certifier: Certifier | null;
   #maps: RigidMap[];
+  #offsets: readonly number[] = [];
 
   static async create(module: WebAssembly.Module, model: PosingModel): Promise<PosingSession> {
     return new PosingSession(model, await Core.create(module, model));
@@ -35,6 +38,7 @@ export class PosingSession {
   private constructor(model: PosingModel, core: Core) {
     this.model = model;
     this.#core = core;
+    this.#certifier = Certifier.of(model);
     const { valueScale, coordinateScale } = model;
     this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
     this.#maps = model.handles.map(() => IDENTITY);
@@ -97,6 +101,11 @@ export class PosingSession {
     return this.#core.solve(this.#stop);
   }
 
+  /** How far the shape is from the full solution; null if the model cannot tell. */
+  certificate(): Certificate | null {
+    return this.#certifier?.certify(this.q, this.#offsets) ?? null;
+  }
+
   /** Back to rest. */
   reset(): void {
     this.#set(this.model.handles.map(() => IDENTITY));
@@ -108,7 +117,7 @@ export class PosingSession {
     return this.model.handles.flatMap((_, handle) => {
       if (handle === 0) return [];
       const { rotation, translation } = this.#relative(handle);
-      const how = beyondBox(this.model.box, rotation, translation);
+      const how = beyondBox(this.model.boxes[handle], rotation, translation);
       return how ? [{ handle, how }] : [];
     });
   }
@@ -137,6 +146,7 @@ export class PosingSession {
     });
     try {
       this.#core.setOffsets(offsets);
+      this.#offsets = offsets;
     } catch (error) {
       this.#maps = before;
       throw error;

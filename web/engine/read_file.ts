@@ -1,14 +1,25 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
-import { coefficientCount, type Handle, type Model } from "./model.ts";
+import { NO_PINS } from "./estimator.ts";
+import { estimatorOf, pinsOf } from "./read_estimator.ts";
+import { displacementGradients } from "./displacement_gradients.ts";
+import {
+  coefficientCount,
+  type Cubature,
+  type Handle,
+  type Material,
+  type Model,
+  type Quartic,
+} from "./model.ts";
 import { registered } from "./registration.ts";
+import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
 import { boundaryFaces, diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
 
 /** Reads a .snapspace file (snapspace/model_file); `name` is shown where the file has none. */
 export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
-  if (kind === "posing") return readPosing(container, name);
+  if (kind === "posing" || kind === "posing-cubature") return readPosing(container, name);
   if (kind === "interpolation") return readInterpolation(container, name);
   throw new UnreadableModel(
     `This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`,
@@ -47,11 +58,14 @@ function readPosing(container: Container, name: string): Model {
     dimension,
     faces: compact,
     space: quantised(picked(rest, surface, vertices), picked(basis, surface, vertices)),
-    ...scales(about.material.mu, volumes, diagonal),
+    ...scales(about.material, volumes, diagonal),
+    estimator: estimatorOf(container, { tets, basis, tau: rest, rests: [rest] }, (corners, isSampled) =>
+      pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
+    ),
     handles,
     handleOfVertex: Int32Array.from(surface, (vertex) => handleOf[vertex]),
-    box: about.domain,
-    quartic: container.doubles("quartic", coefficientCount(dimension)),
+    boxes: boxesOf(about.domain, count),
+    elastic: readElastic(container, rest, tets, basis),
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),
     S: container.doubles("handle_S", count, 4, 4),
@@ -86,14 +100,17 @@ function readInterpolation(container: Container, name: string): Model {
   }
 
   const first = shapes.subarray(0, 3 * vertices);
+  const basis = container.doubles("basis", dimension, 3 * vertices);
+  const registeredPoses = poses.map((_, pose) => mean.map((x, i) => x + offsets[3 * vertices * pose + i]));
   const base = embedded(mean);
   return {
     kind: "interpolation",
     name,
     dimension,
     faces: Uint32Array.from(container.indices("surface_faces", surfaceCount, [faceCount, 3])),
-    space: quantised(base, embedded(container.doubles("basis", dimension, 3 * vertices))),
-    ...scales(about.material.mu, tetVolumes(first, tets), diagonalOf(first)),
+    space: quantised(base, embedded(basis)),
+    ...scales(about.material, tetVolumes(first, tets), diagonalOf(first)),
+    estimator: estimatorOf(container, { tets, basis, tau: mean, rests: registeredPoses }, () => NO_PINS),
     poses,
     poseSpace: quantised(base, embedded(offsets)),
     lowestWeight: -about.extrapolation / poses.length,
@@ -104,9 +121,35 @@ function readInterpolation(container: Container, name: string): Model {
 }
 
 /** Units for the termination tests: the energy of a strain of 10 %, a displacement by a tenth of the diagonal. */
-function scales(mu: number, volumes: Float64Array, diagonal: number) {
+function scales({ lam, mu }: Material, volumes: Float64Array, diagonal: number) {
   const volume = volumes.reduce((sum, tet) => sum + tet, 0);
-  return { valueScale: 0.01 * mu * volume, coordinateScale: 0.1 * diagonal * Math.sqrt(volume), diagonal };
+  return {
+    valueScale: 0.01 * mu * volume,
+    coordinateScale: 0.1 * diagonal * Math.sqrt(volume),
+    diagonal,
+    material: { lam, mu },
+  };
+}
+
+function readElastic(
+  container: Container,
+  rest: Float64Array,
+  tets: Int32Array,
+  basis: Float64Array,
+): Quartic | Cubature {
+  const dimension = basis.length / rest.length;
+  if (!container.has("cubature_tets"))
+    return {
+      kind: "quartic",
+      coefficients: container.doubles("quartic", coefficientCount(dimension)),
+    };
+  const [count] = container.shape("cubature_tets", 1);
+  const chosen = container.indices("cubature_tets", tets.length / 4, [count]);
+  return {
+    kind: "cubature",
+    rows: displacementGradients(rest, tets, basis, chosen),
+    weights: container.doubles("cubature_weights", count),
+  };
 }
 
 function centroid(members: Int32Array, rest: Float64Array, masses: Float64Array): [number, number, number] {

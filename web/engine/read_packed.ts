@@ -1,6 +1,7 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
-import { coefficientCount, type Model } from "./model.ts";
+import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
+import { coefficientCount, type Cubature, type Handle, type Model, type Quartic } from "./model.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** Reads the model of an exported page (snapspace/page/pack.py). */
@@ -18,16 +19,18 @@ export function readPacked(container: Container): Model {
     valueScale: Number(about.value_scale),
     coordinateScale: Number(about.coordinate_scale),
     diagonal: Number(about.diagonal),
+    material: { lam: Number(about.material.lam), mu: Number(about.material.mu) },
   };
   if (container.header["kind"] === "posing") {
     const count = about.handles.length as number;
     return {
       ...common,
       kind: "posing",
+      estimator: readEstimator(container, dimension, about.handles),
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
-      box: about.box,
-      quartic: container.doubles("quartic", coefficientCount(dimension)),
+      boxes: about.boxes,
+      elastic: readElastic(container, dimension),
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),
       S: container.doubles("handle_S", count, 4, 4),
@@ -40,12 +43,64 @@ export function readPacked(container: Container): Model {
   return {
     ...common,
     kind: "interpolation",
+    estimator: readEstimator(container, dimension, []),
     poses,
     poseSpace: readSpace(container, "poses"),
     lowestWeight: Number(about.lowest_weight),
     quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
     sampleWeights: container.doubles("sample_weights", samples, poses.length),
     sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
+  };
+}
+
+function readElastic(container: Container, dimension: number): Quartic | Cubature {
+  if (!container.has("cubature_rows"))
+    return {
+      kind: "quartic",
+      coefficients: container.doubles("quartic", coefficientCount(dimension)),
+    };
+  const [tets] = container.shape("cubature_weights", 1);
+  return {
+    kind: "cubature",
+    rows: container.floats("cubature_rows", tets, 9, dimension),
+    weights: container.doubles("cubature_weights", tets),
+  };
+}
+
+function readEstimator(
+  container: Container,
+  dimension: number,
+  handles: readonly Handle[],
+): Estimator | null {
+  if (!container.has("estimator_ratios")) return null;
+  const [count, corners] = container.shape("estimator_rests", 3);
+  const [tets] = container.shape("estimator_tets", 2);
+  const [places] = container.shape("estimator_places", 1);
+  const [frames] = container.shape("estimator_ratios", 1);
+  const rests = container.doubles("estimator_rests", count, corners, 3);
+  return {
+    mass: container.doubles("estimator_mass", 1)[0],
+    modes: container.floats("estimator_modes", dimension, 3 * corners),
+    base: container.doubles("estimator_base", corners, 3),
+    rests: Array.from({ length: count }, (_, k) => rests.subarray(3 * corners * k, 3 * corners * (k + 1))),
+    tets: container.indices("estimator_tets", corners, [tets, 4]),
+    places: container.indices("estimator_places", corners, [places]),
+    weights: container.doubles("estimator_weights", places),
+    pins: handles.length > 0 ? readPins(container, handles, rests) : NO_PINS,
+    coordinates: container.doubles("estimator_coordinates", frames, dimension),
+    ratios: container.doubles("estimator_ratios", frames),
+  };
+}
+
+function readPins(container: Container, handles: readonly Handle[], rest: Float64Array): Pins {
+  const [count] = container.shape("estimator_pin_corners", 1);
+  const corners = container.indices("estimator_pin_corners", rest.length / 3, [count]);
+  const owners = container.indices("estimator_pin_handles", handles.length, [count]);
+  return {
+    corners,
+    handles: owners,
+    pulls: container.doubles("estimator_pin_pulls", count),
+    arms: armsOf(corners, owners, handles, rest),
   };
 }
 

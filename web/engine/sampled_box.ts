@@ -1,12 +1,27 @@
 import { eulerOfRotation, type Rotation, type Vector } from "./motion.ts";
 
-/** Half widths of the box of motions that a model was sampled in. */
+/** Half widths of the box of a handle's motions that a model was sampled in: lengths, and radians. */
 export interface Box {
   readonly translation: readonly number[];
   readonly angle: readonly number[];
 }
 
 const ROUNDING = 1e-9;
+
+/** The box of each handle out of bounds for all moving ones, or rows of bounds for each of them. */
+export function boxesOf(
+  domain: { translation: number[] | number[][]; angle: number[] | number[][] },
+  handles: number,
+): Box[] {
+  const row = (bounds: number[] | number[][], moving: number) =>
+    Array.isArray(bounds[0]) ? (bounds as number[][])[moving] : (bounds as number[]);
+  const rest: Box = { translation: [0, 0, 0], angle: [0, 0, 0] };
+  const moving = Array.from({ length: handles - 1 }, (_, i) => ({
+    translation: row(domain.translation, i),
+    angle: row(domain.angle, i),
+  }));
+  return [rest, ...moving];
+}
 
 /** How a motion about a handle's centroid leaves the box, for a reader; null inside.
  *

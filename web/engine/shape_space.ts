@@ -31,15 +31,21 @@ export function quantised(base: Float64Array, modes: Float64Array): ShapeSpace {
   return { vertices: size / 3, base: Float32Array.from(base), modes: integers, scales };
 }
 
-/** Writes base + sum_i c_i modes_i, with the first coefficients if there are fewer than modes. */
-export function reconstruct(space: ShapeSpace, coefficients: ArrayLike<number>, shape: Float32Array): void {
+/** Writes base + sum_i c_i modes_i, with the first coefficients if there are fewer than modes; of the
+ * 3 * vertices numbers those from `begin` to `end`. */
+export function reconstruct(
+  space: ShapeSpace,
+  coefficients: ArrayLike<number>,
+  shape: Float32Array,
+  begin = 0,
+  end = space.base.length,
+): void {
   const { base, modes, scales } = space;
-  const size = base.length;
-  shape.set(base);
+  shape.set(base.subarray(begin, end), begin);
   for (let mode = 0; mode < coefficients.length; mode++) {
     const factor = coefficients[mode] * scales[mode];
     if (factor === 0) continue;
-    const start = mode * size;
-    for (let i = 0; i < size; i++) shape[i] += factor * modes[start + i];
+    const start = mode * base.length;
+    for (let i = begin; i < end; i++) shape[i] += factor * modes[start + i];
   }
 }

@@ -1,6 +1,6 @@
 import { Vector3 } from "three";
 
-import { BlendingSession, type BlendingModel } from "../engine/index.ts";
+import { BlendingSession, planeStressRatio, reconstruct, type BlendingModel } from "../engine/index.ts";
 import { withWeight } from "./barycentric.ts";
 import { BlendPath } from "./blend_path.ts";
 import { BlendPolygon } from "./blend_polygon.ts";
@@ -21,8 +21,9 @@ export async function blendingView(
   options: ViewOptions,
 ): Promise<View> {
   const session = await BlendingSession.create(module, model);
+  const membrane = { rests: posesOf(model), ratio: planeStressRatio(model.material) };
   const make = (space: BlendingModel["space"]) =>
-    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu);
+    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, membrane);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];
   for (const surface of [elastic, straight]) {
     surface.paint(() => CLAY);
@@ -34,6 +35,7 @@ export async function blendingView(
   const hud = new Hud(
     model.name,
     `${model.poses.length} poses, ${model.space.vertices.toLocaleString("en")} surface vertices`,
+    model.estimator && (() => session.certificate()),
   );
   hud.dimension(model.dimension, model.dimension);
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
@@ -89,14 +91,17 @@ export async function blendingView(
     if (solved && solved.every((w, i) => w === wish[i])) return;
     hud.solved(session.blend(wish));
     solved = [...wish];
+    for (const surface of [elastic, straight]) surface.weights = wish;
     elastic.show(session.q);
     straight.show(wish);
     polygon.show(wish);
     sliders.forEach(({ set }, pose) => set(wish[pose]));
   };
+  const look = lookSection(stage, [elastic, straight], model, options.up);
   stage.beforeFrame = (seconds) => {
     if (path.playing) wish = path.advance(seconds);
     solve();
+    look.legend.look();
     hud.frame(seconds);
     label(stage, names, [elastic, straight], compared);
   };
@@ -141,19 +146,22 @@ export async function blendingView(
         hud.dimension(d, model.dimension);
         stage.draw();
       }),
-      lookSection(stage, [elastic, straight], model, options.up),
+      look.element,
     ],
     script: {
       kind: "interpolation",
       session,
       shown: () => elastic.shown(),
       straight: () => straight.shown(),
+      energies: () => elastic.energies(),
       onGpu: elastic.onGpu,
     },
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
+      look.legend.dispose();
+      hud.dispose();
       names.forEach((name) => name.remove());
       for (const surface of [elastic, straight]) {
         surface.object.removeFromParent();
@@ -161,6 +169,19 @@ export async function blendingView(
       }
     },
   };
+}
+
+/** The poses' surfaces: a blend's energy is the sum of those relative to each, with its weights. */
+function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
+  return poses.map((_, pose) => {
+    const shape = new Float32Array(poseSpace.base.length);
+    reconstruct(
+      poseSpace,
+      poses.map((_, k) => (k === pose ? 1 : 0)),
+      shape,
+    );
+    return shape;
+  });
 }
 
 /** Puts the names below their shapes. */

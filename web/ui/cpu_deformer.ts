@@ -1,6 +1,6 @@
 import { DataTexture, FloatType, RGBAFormat } from "three";
 
-import { reconstruct, type ShapeSpace } from "../engine/index.ts";
+import { reconstruct, vertexDensities, type Membrane, type ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 
 /** Positions and normals on the processor, where the graphics cannot draw into float textures. */
@@ -8,39 +8,67 @@ export class CpuDeformer implements Deformer {
   readonly positions: DataTexture;
   readonly normals: DataTexture;
   readonly width: number;
+  readonly energies: DataTexture;
   readonly #space: ShapeSpace;
+  readonly #membrane: Membrane | null;
   readonly #faces: Uint32Array;
   readonly #shape: Float32Array;
   readonly #normals: Float32Array;
+  #goal: Float32Array;
+  #weights: readonly number[] | null = null;
 
-  constructor(space: ShapeSpace, faces: Uint32Array) {
+  constructor(space: ShapeSpace, faces: Uint32Array, membrane: Membrane | null = null) {
     const [width, height] = textureSize(space.vertices);
     const texture = () =>
       new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
     this.#space = space;
+    this.#membrane = membrane;
     this.#faces = faces;
+    this.#goal = space.base;
     this.width = width;
     this.positions = texture();
     this.normals = texture();
+    this.energies = texture();
     this.#shape = new Float32Array(3 * space.vertices);
     this.#normals = new Float32Array(3 * space.vertices);
     this.update([]);
   }
 
-  update(coefficients: ArrayLike<number>): void {
+  set goal(positions: Float32Array) {
+    this.#goal = positions;
+  }
+
+  update(coefficients: ArrayLike<number>, share = 0): void {
     reconstruct(this.#space, coefficients, this.#shape);
+    if (share > 0)
+      for (let i = 0; i < this.#shape.length; i++) this.#shape[i] += share * (this.#goal[i] - this.#shape[i]);
     weightedNormals(this.#shape, this.#faces, this.#normals);
     asTexels(this.#shape, this.positions.image.data as Float32Array);
     asTexels(this.#normals, this.normals.image.data as Float32Array);
     this.positions.needsUpdate = true;
     this.normals.needsUpdate = true;
+    if (this.#weights && this.#membrane) {
+      const densities = vertexDensities(this.#membrane, this.#weights, this.#shape, this.#faces);
+      const texels = this.energies.image.data as Float32Array;
+      densities.forEach((density, vertex) => (texels[4 * vertex] = density));
+      this.energies.needsUpdate = true;
+    }
+  }
+
+  weigh(weights: readonly number[] | null): void {
+    this.#weights = weights;
   }
 
   read(): Float32Array {
     return fromTexels(this.positions.image.data as Float32Array, this.#space);
   }
 
+  readEnergies(): Float32Array {
+    return fromTexels(this.energies.image.data as Float32Array, this.#space).filter((_, i) => i % 3 === 0);
+  }
+
   dispose(): void {
+    this.energies.dispose();
     this.positions.dispose();
     this.normals.dispose();
   }

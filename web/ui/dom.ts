@@ -80,3 +80,14 @@ export function slider(
   const element = h("label", { className: "slider" }, h("span", {}, label), text, input);
   return { element, input, set };
 }
+
+/** A button that asks for a file. `accept` as of an input. */
+export function filePicker(label: string, accept: string, act: (file: File) => void): HTMLElement {
+  const input = h("input", { type: "file", accept, hidden: true });
+  input.addEventListener("change", () => {
+    const file = input.files?.[0];
+    input.value = ""; // the same file can be taken again
+    if (file) act(file);
+  });
+  return h("div", {}, h("button", { type: "button", onclick: () => input.click() }, label), input);
+}

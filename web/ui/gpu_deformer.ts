@@ -1,36 +1,25 @@
 import {
-  BufferAttribute,
-  BufferGeometry,
-  Camera,
   DataArrayTexture,
   DataTexture,
   FloatType,
-  GLSL3,
-  IntType,
-  Mesh,
-  NearestFilter,
-  RawShaderMaterial,
   RGBAFormat,
   RGBAIntegerFormat,
-  RGIntegerFormat,
   ShortType,
-  WebGLRenderTarget,
   type Texture,
   type WebGLRenderer,
+  type WebGLRenderTarget,
 } from "three";
 
-import type { ShapeSpace } from "../engine/index.ts";
+import type { Membrane, ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
+import { GpuEnergies } from "./gpu_energies.ts";
+import { disposePass, floatTarget, integers, pass, run, type Pass } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
 /** Modes that the shader takes: a WebGL 2 texture has at least so many layers. */
 export const MOST_MODES = 256;
 
-const VERTEX = `
-in vec3 position;
-void main() { gl_Position = vec4(position, 1.0); }`;
-
-/** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. */
+/** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. A share of the way from there to a goal. */
 const POSITIONS = `
 precision highp float;
 precision highp sampler2D;
@@ -39,12 +28,15 @@ uniform sampler2D base;
 uniform isampler2DArray modes;
 uniform vec4 coefficients[${MOST_MODES / 4}];
 uniform int count;
+uniform sampler2D goal;
+uniform float share;
 out vec4 result;
 void main() {
   ivec2 at = ivec2(gl_FragCoord.xy);
   vec3 sum = texelFetch(base, at, 0).xyz;
   for (int i = 0; i < count; i++)
     sum += coefficients[i >> 2][i & 3] * vec3(texelFetch(modes, ivec3(at, i), 0).xyz);
+  if (share > 0.0) sum = mix(sum, texelFetch(goal, at, 0).xyz, share);
   result = vec4(sum, 1.0);
 }`;
 
@@ -74,15 +66,17 @@ void main() {
   result = vec4(sum, 1.0);
 }`;
 
-/** Positions and normals on the graphics processor. */
+/** Positions and normals on the graphics processor, and energies where they are asked for. */
 export class GpuDeformer implements Deformer {
   readonly width: number;
   readonly #renderer: WebGLRenderer;
   readonly #space: ShapeSpace;
-  readonly #targets: WebGLRenderTarget[];
-  readonly #passes: Mesh<BufferGeometry, RawShaderMaterial>[];
-  readonly #textures: Texture[];
-  readonly #camera = new Camera();
+  readonly #membrane: Membrane | null;
+  readonly #targets: readonly WebGLRenderTarget[];
+  readonly #passes: readonly Pass[];
+  readonly #textures: readonly Texture[];
+  readonly #target: DataTexture;
+  #energies: GpuEnergies | null = null;
 
   /** Whether this browser can draw into float textures, and takes so many modes and vertices. */
   static supports(renderer: WebGLRenderer, space: ShapeSpace): boolean {
@@ -93,42 +87,41 @@ export class GpuDeformer implements Deformer {
     );
   }
 
-  constructor(renderer: WebGLRenderer, space: ShapeSpace, faces: Uint32Array) {
+  constructor(
+    renderer: WebGLRenderer,
+    space: ShapeSpace,
+    faces: Uint32Array,
+    membrane: Membrane | null = null,
+  ) {
     const [width, height] = textureSize(space.vertices);
     this.width = width;
     this.#renderer = renderer;
     this.#space = space;
-    this.#targets = [0, 1].map(
-      () =>
-        new WebGLRenderTarget(width, height, {
-          type: FloatType,
-          format: RGBAFormat,
-          minFilter: NearestFilter,
-          magFilter: NearestFilter,
-          depthBuffer: false,
-        }),
-    );
-    const base = new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
-    asTexels(space.base, base.image.data as Float32Array);
+    this.#membrane = membrane;
+    this.#targets = [floatTarget(width, height), floatTarget(width, height)];
+    const base = floats(space.base, width, height);
+    this.#target = floats(space.base, width, height);
     const modes = layers(space, width, height);
     const around = rings(faces, space.vertices);
     const ranges = integers(around.ranges, width, height);
     const pairs = integers(around.pairs, ...textureSize(around.pairs.length / 2));
-    this.#textures = [base, modes, ranges, pairs];
+    this.#textures = [base, this.#target, modes, ranges, pairs];
     for (const texture of this.#textures) texture.needsUpdate = true;
-    const coefficients = new Float32Array(MOST_MODES);
+    const places = {
+      positions: { value: this.positions },
+      ranges: { value: ranges },
+      pairs: { value: pairs },
+    };
     this.#passes = [
       pass(POSITIONS, {
         base: { value: base },
         modes: { value: modes },
-        coefficients: { value: coefficients },
+        coefficients: { value: new Float32Array(MOST_MODES) },
         count: { value: 0 },
+        goal: { value: this.#target },
+        share: { value: 0 },
       }),
-      pass(NORMALS, {
-        positions: { value: this.positions },
-        ranges: { value: ranges },
-        pairs: { value: pairs },
-      }),
+      pass(NORMALS, places),
     ];
     this.update([]);
   }
@@ -141,39 +134,69 @@ export class GpuDeformer implements Deformer {
     return this.#targets[1].texture;
   }
 
-  update(coefficients: ArrayLike<number>): void {
+  get energies(): Texture | null {
+    return this.#energies?.texture ?? null;
+  }
+
+  set goal(positions: Float32Array) {
+    asTexels(positions, this.#target.image.data as Float32Array);
+    this.#target.needsUpdate = true;
+  }
+
+  update(coefficients: ArrayLike<number>, share = 0): void {
     const { uniforms } = this.#passes[0].material;
     for (let i = 0; i < coefficients.length; i++)
       uniforms.coefficients.value[i] = coefficients[i] * this.#space.scales[i];
     uniforms.count.value = coefficients.length;
-    const { autoClear } = this.#renderer;
-    const shadows = this.#renderer.shadowMap.autoUpdate;
-    this.#renderer.autoClear = false;
-    this.#renderer.shadowMap.autoUpdate = false;
-    this.#passes.forEach((mesh, i) => {
-      this.#renderer.setRenderTarget(this.#targets[i]);
-      this.#renderer.render(mesh, this.#camera);
-    });
-    this.#renderer.setRenderTarget(null);
-    this.#renderer.autoClear = autoClear;
-    this.#renderer.shadowMap.autoUpdate = shadows;
+    uniforms.share.value = share;
+    run(
+      this.#renderer,
+      this.#passes.map((mesh, i) => [mesh, this.#targets[i]]),
+    );
+    this.#energies?.update();
+  }
+
+  weigh(weights: readonly number[] | null): void {
+    if (weights && !this.#energies && this.#membrane) {
+      const { ranges, pairs } = this.#passes[1].material.uniforms;
+      const { width, height } = this.#targets[0];
+      this.#energies = new GpuEnergies(this.#renderer, this.#membrane, width, height, {
+        positions: { value: this.positions },
+        ranges,
+        pairs,
+      });
+    }
+    this.#energies?.weigh(weights);
   }
 
   read(): Float32Array {
-    const { width, height } = this.#targets[0];
-    const texels = new Float32Array(4 * width * height);
-    this.#renderer.readRenderTargetPixels(this.#targets[0], 0, 0, width, height, texels);
-    return fromTexels(texels, this.#space);
+    return this.#readFrom(this.#targets[0]);
+  }
+
+  readEnergies(): Float32Array {
+    const target = this.#energies?.target;
+    return target ? this.#readFrom(target).filter((_, i) => i % 3 === 0) : new Float32Array();
   }
 
   dispose(): void {
     this.#targets.forEach((target) => target.dispose());
     this.#textures.forEach((texture) => texture.dispose());
-    for (const mesh of this.#passes) {
-      mesh.geometry.dispose();
-      mesh.material.dispose();
-    }
+    this.#passes.forEach(disposePass);
+    this.#energies?.dispose();
   }
+
+  #readFrom(target: WebGLRenderTarget): Float32Array {
+    const { width, height } = target;
+    const texels = new Float32Array(4 * width * height);
+    this.#renderer.readRenderTargetPixels(target, 0, 0, width, height, texels);
+    return fromTexels(texels, this.#space);
+  }
+}
+
+function floats(rows: Float32Array, width: number, height: number): DataTexture {
+  const texture = new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
+  asTexels(rows, texture.image.data as Float32Array);
+  return texture;
 }
 
 /** Modes as layers of an array of textures, without a copy in floats. */
@@ -189,35 +212,4 @@ function layers(space: ShapeSpace, width: number, height: number): DataArrayText
   texture.type = ShortType;
   texture.internalFormat = "RGBA16I";
   return texture;
-}
-
-/** Pairs of integers, a texel each. */
-function integers(values: Int32Array, width: number, height: number): DataTexture {
-  const texels = new Int32Array(2 * width * height);
-  texels.set(values);
-  const texture = new DataTexture(texels, width, height, RGIntegerFormat, IntType);
-  texture.internalFormat = "RG32I";
-  return texture;
-}
-
-function pass(
-  fragmentShader: string,
-  uniforms: RawShaderMaterial["uniforms"],
-): Mesh<BufferGeometry, RawShaderMaterial> {
-  const triangle = new BufferGeometry();
-  triangle.setAttribute(
-    "position",
-    new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),
-  );
-  const material = new RawShaderMaterial({
-    vertexShader: VERTEX,
-    fragmentShader,
-    uniforms,
-    glslVersion: GLSL3,
-    depthTest: false,
-    depthWrite: false,
-  });
-  const mesh = new Mesh(triangle, material);
-  mesh.frustumCulled = false;
-  return mesh;
 }

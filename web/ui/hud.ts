@@ -1,4 +1,4 @@
-import type { FrameReport } from "../engine/index.ts";
+import { CONFIDENCE, type Certificate, type FrameReport } from "../engine/index.ts";
 import { h } from "./dom.ts";
 
 const STATUS: Partial<Record<FrameReport["status"], string>> = {
@@ -8,6 +8,8 @@ const STATUS: Partial<Record<FrameReport["status"], string>> = {
   unbounded: "no minimum here",
 };
 
+const PAUSE = 120; // milliseconds without another frame
+
 /** Dimension, time of a solve and rate of frames, in a corner; and what the user should know, below. */
 export class Hud {
   readonly element: HTMLElement;
@@ -16,19 +18,26 @@ export class Hud {
     d: figure("d", "coordinates"),
     solve: figure("solve", "of one solve"),
     fps: figure("fps", ""),
+    error: figure("error", "estimated distance from the full solution, of the displacement"),
   };
+  readonly #remark = h("p", { role: "status" });
+  readonly #certify: (() => Certificate | null) | null;
+  #certifying = 0;
   readonly #solves: number[] = [];
   readonly #frames: number[] = [];
   #shown = 0;
 
-  constructor(title: string, detail: string) {
-    const { d, solve, fps } = this.#figures;
+  /** `certify` tells the error of the present frame; without it there is no such figure. */
+  constructor(title: string, detail: string, certify: (() => Certificate | null) | null = null) {
+    const { d, solve, fps, error } = this.#figures;
+    this.#certify = certify;
     this.element = h(
       "header",
       { className: "hud" },
       h("h1", {}, title),
       h("p", {}, detail),
-      h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes),
+      h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes, ...(certify ? error.nodes : [])),
+      this.#remark,
     );
   }
 
@@ -41,6 +50,13 @@ export class Hud {
     const told = STATUS[report.status];
     if (told) this.#figures.solve.value.textContent = told;
     else this.#tell();
+    // once a drag pauses: certificates are not for frames that nobody looks at
+    clearTimeout(this.#certifying);
+    if (this.#certify) this.#certifying = window.setTimeout(() => this.#tellError(), PAUSE);
+  }
+
+  dispose(): void {
+    clearTimeout(this.#certifying);
   }
 
   /** Time since the frame before; long ones are pauses. */
@@ -50,10 +66,23 @@ export class Hud {
     this.#tell();
   }
 
+  /** A remark on the shape that is shown, or an empty text. */
+  remark(text: string): void {
+    if (this.#remark.textContent !== text) this.#remark.textContent = text;
+  }
+
   /** What must be known, or an empty text. */
   warn(text: string): void {
     if (this.notice.textContent !== text) this.notice.textContent = text;
     this.notice.hidden = text === "";
+  }
+
+  #tellError(): void {
+    const { value } = this.#figures.error;
+    const found = this.#certify!();
+    value.textContent = found ? percent(found.relative) : "–";
+    value.title =
+      found?.upper != null ? `below ${percent(found.upper)} with ${percent(CONFIDENCE)} confidence` : "";
   }
 
   #tell(): void {
@@ -75,4 +104,5 @@ function keep(values: number[], value: number): void {
   if (values.length > 30) values.shift();
 }
 
+const percent = (share: number) => `${Number((100 * share).toPrecision(2))} %`;
 const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;

@@ -1,29 +1,39 @@
 import type { Model } from "../engine/index.ts";
 import { choice, h, section, slider, toggle } from "./dom.ts";
+import { Legend } from "./legend.ts";
 import type { Axis, Stage } from "./stage.ts";
-import type { Surface } from "./surface.ts";
+import type { Colors, Surface } from "./surface.ts";
 
-/** How many of the coordinates are solved for. */
-export function qualitySection(dimension: number, act: (dimension: number) => void): HTMLElement {
+/** How many of the coordinates are solved for, and what else belongs to it. */
+export function qualitySection(
+  dimension: number,
+  act: (dimension: number) => void,
+  ...others: HTMLElement[]
+): HTMLElement {
   const range = { min: Math.min(4, dimension), max: dimension, step: 1, value: dimension };
-  return section("Quality", slider("Dimensions", range, String, act).element);
+  return section("Quality", slider("Dimensions", range, String, act).element, ...others);
 }
 
 /** Colours, wires, what is up, and the first view again. */
-export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up: Axis): HTMLElement {
+export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up: Axis) {
   const each = (act: (surface: Surface) => void) => {
     surfaces.forEach(act);
     stage.draw();
   };
   const own = model.kind === "posing" ? "Handles" : "Clay";
-  const colors = choice<"own" | "displacement">(
+  const legend = new Legend(stage, surfaces);
+  const colors = choice<Colors>(
     "Colours",
     [
       ["own", own],
-      ["displacement", "Displacement"],
+      ["displacement", "Displaced"],
+      ["energy", "Strain"],
     ],
     "own",
-    (value) => each((surface) => (surface.displacementColors = value === "displacement")),
+    (value) => {
+      each((surface) => (surface.colors = value));
+      legend.colors = value;
+    },
   );
   const wires = toggle("Wireframe", "W", false, (on) => each((surface) => (surface.wireframe = on)));
   wires.id = "wires";
@@ -42,5 +52,6 @@ export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up:
     { type: "button", title: "F", id: "frame", onclick: () => stage.look() },
     "Reset view",
   );
-  return section("Look", colors.element, ups.element, h("div", { className: "row" }, wires, frame));
+  const row = h("div", { className: "row" }, wires, frame);
+  return { element: section("Look", colors.element, legend.element, ups.element, row), legend };
 }

@@ -1,6 +1,6 @@
 import { Color, Matrix4 } from "three";
 
-import type { FrameReport, Motion, PosingSession } from "../engine/index.ts";
+import { rotationOfEuler, type FrameReport, type Motion, type PosingSession } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
@@ -12,24 +12,53 @@ export type Mode = "move" | "turn";
  *
  * Wishes are collected and solved once before the next picture. */
 export class Posing {
-  readonly session: PosingSession;
-  readonly surface: Surface;
   readonly stage: Stage;
   mode: Mode = "move";
   onSolved: (report: FrameReport) => void = () => {};
+  /** After the end of a drag. */
+  onReleased: () => void = () => {};
   /** After anything that controls show has changed. */
   onChange: () => void = () => {};
+  #session: PosingSession;
+  #surface: Surface;
   #selected = -1;
   readonly #wishes = new Map<number, Motion>();
   readonly #history: History<Motion[]>;
 
   constructor(stage: Stage, session: PosingSession, surface: Surface) {
     this.stage = stage;
-    this.session = session;
-    this.surface = surface;
+    this.#session = session;
+    this.#surface = surface;
     this.#history = new History(this.#motions());
     this.#paint();
     this.#show();
+  }
+
+  get session(): PosingSession {
+    return this.#session;
+  }
+
+  get surface(): Surface {
+    return this.#surface;
+  }
+
+  /** Goes on with another model of the same handles: their motions, the selection and what was before stay. */
+  replace(session: PosingSession, surface: Surface): void {
+    const before = this.#session;
+    [this.#session, this.#surface] = [session, surface];
+    this.#paint();
+    let report = session.solve();
+    // in steps, as a drag comes there: one large one may end in another minimum
+    for (const share of [0.25, 0.5, 0.75, 1])
+      report = session.moveAll(
+        new Map(
+          before.model.handles.map((_, handle) => [
+            handle,
+            share < 1 ? partOf(before, handle, share) : before.motion(handle),
+          ]),
+        ),
+      );
+    this.#solved(report);
   }
 
   get selected(): number {
@@ -74,6 +103,7 @@ export class Posing {
     this.solveWishes();
     this.#history.push(this.#motions());
     this.onChange();
+    this.onReleased();
   }
 
   get canUndo(): boolean {
@@ -139,4 +169,13 @@ export class Posing {
     const { handleOfVertex } = this.session.model;
     this.surface.paint((vertex) => (handleOfVertex[vertex] < 0 ? CLAY : colors[handleOfVertex[vertex]]));
   }
+}
+
+function partOf(session: PosingSession, handle: number, share: number): Motion {
+  const [a, b, c] = session.euler(handle);
+  const [x, y, z] = session.motion(handle).translation;
+  return {
+    rotation: rotationOfEuler([share * a, share * b, share * c]),
+    translation: [share * x, share * y, share * z],
+  };
 }

@@ -120,6 +120,7 @@ export class HandleDrag {
   }
 
   #hover(event: PointerEvent): void {
+    if (!this.#posing.surface.isReady) return; // the next move will do
     const over = this.find(event.clientX, event.clientY).handle >= 0;
     this.#canvas.style.cursor = over ? "grab" : "";
   }

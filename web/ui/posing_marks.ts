@@ -22,10 +22,10 @@ export class Marks {
 
   constructor(posing: Posing) {
     this.#posing = posing;
-    const { handles, box } = posing.session.model;
+    const { handles, boxes } = posing.session.model;
     this.#dots = handles.map((_, handle) => dot(handleColor(handle)));
-    const [x, y, z] = box.translation;
     handles.forEach(({ center }, handle) => {
+      const [x, y, z] = boxes[handle].translation;
       if (handle === 0 || !(x > 0 || y > 0 || z > 0)) return;
       const edges = new EdgesGeometry(new BoxGeometry(2 * x, 2 * y, 2 * z));
       const lines = new LineSegments(

@@ -1,9 +1,10 @@
-import { PosingSession, type PosingModel } from "../engine/index.ts";
-import { choice, h, section } from "./dom.ts";
+import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
+import { choice, h, section, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import { Posing, type Mode } from "./posing.ts";
+import { Polishing } from "./polishing.ts";
 import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
@@ -14,25 +15,38 @@ import type { View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
 
+/** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
+export interface PosingView extends View {
+  replace(model: PosingModel): Promise<void>;
+}
+
 /** Posing: handles on the stage, controls in the panel. */
 export async function posingView(
   stage: Stage,
   module: WebAssembly.Module,
   model: PosingModel,
   options: ViewOptions,
-): Promise<View> {
-  const session = await PosingSession.create(module, model);
-  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, options.forceCpu);
-  stage.root.add(surface.object);
-  stage.place(model.space.base, options.up);
-  const posing = new Posing(stage, session, surface);
+): Promise<PosingView> {
+  const surfaceOf = ({ space, faces, diagonal, material }: PosingModel) =>
+    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, {
+      rests: [space.base],
+      ratio: planeStressRatio(material),
+    });
+  const surfaces = [surfaceOf(model)];
+  stage.root.add(surfaces[0].object);
+  if (!options.keepView) stage.place(model.space.base, options.up);
+  const posing = new Posing(stage, await PosingSession.create(module, model), surfaces[0]);
   const stop = new AbortController();
   const gizmo = new Gizmo(posing);
-  const marks = new Marks(posing);
+  let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
   listenToKeys(posing, stop.signal);
 
-  const hud = new Hud(model.name, `${model.space.vertices.toLocaleString("en")} surface vertices`);
+  const hud = new Hud(
+    model.name,
+    `${model.space.vertices.toLocaleString("en")} surface vertices`,
+    model.estimator && (() => posing.session.certificate()),
+  );
   hud.dimension(model.dimension, model.dimension);
   const list = model.handles.map(({ name }, handle) => {
     const swatch = h("i", { className: "swatch", "aria-hidden": true });
@@ -54,14 +68,19 @@ export async function posingView(
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const figures = h("p", { className: "figures" });
 
-  posing.onSolved = (report) => hud.solved(report);
+  const polishing = options.polish && new Polishing(posing, options.polish, (text) => hud.remark(text));
+  posing.onSolved = (report) => {
+    hud.solved(report);
+    polishing?.cancel();
+  };
+  posing.onReleased = () => void polishing?.ask();
   posing.onChange = () => {
     list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
     modes.set(posing.mode);
     undo.disabled = !posing.canUndo;
     redo.disabled = !posing.canRedo;
-    figures.textContent = posing.selected < 0 ? HELP : described(session, posing.selected);
-    const { outside } = session;
+    figures.textContent = posing.selected < 0 ? HELP : described(posing.session, posing.selected);
+    const { outside } = posing.session;
     hud.warn(
       outside.length === 0
         ? ""
@@ -73,9 +92,49 @@ export async function posingView(
   posing.onChange();
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
+    polishing?.advance();
+    look.legend.look();
     hud.frame(seconds);
   };
 
+  const polish = toggle(
+    "Polish",
+    "When a handle is let go, a few iterations in the full space",
+    true,
+    (on) => {
+      if (polishing) polishing.isOn = on;
+    },
+  );
+  const others = polishing ? [h("div", { className: "row" }, polish)] : [];
+  const qualityOf = (whole: number) =>
+    qualitySection(
+      whole,
+      (d) => {
+        posing.dimension = d;
+        hud.dimension(d, whole);
+      },
+      ...others,
+    );
+  let quality = qualityOf(model.dimension);
+  const replace = async (better: PosingModel) => {
+    const session = await PosingSession.create(module, better);
+    const [before] = surfaces;
+    surfaces[0] = surfaceOf(better);
+    surfaces[0].lookAs(before);
+    stage.root.add(surfaces[0].object);
+    marks.dispose();
+    posing.replace(session, surfaces[0]);
+    marks = new Marks(posing);
+    before.object.removeFromParent();
+    before.dispose();
+    hud.dimension(better.dimension, better.dimension);
+    const next = qualityOf(better.dimension);
+    quality.replaceWith(next);
+    quality = next;
+    stage.draw();
+  };
+
+  const look = lookSection(stage, surfaces, model, options.up);
   const panel = [
     section(
       "Handles",
@@ -84,29 +143,33 @@ export async function posingView(
       figures,
       h("div", { className: "row" }, undo, redo, reset),
     ),
-    qualitySection(model.dimension, (d) => {
-      posing.dimension = d;
-      hud.dimension(d, model.dimension);
-    }),
-    lookSection(stage, [surface], model, options.up),
+    quality,
+    look.element,
   ];
   return {
     hud,
     panel,
+    replace,
     script: {
       kind: "posing",
-      session,
-      shown: () => carried(surface.shown(), session),
+      get session() {
+        return posing.session;
+      },
+      shown: () => carried(posing.surface.shown(), posing.session),
+      energies: () => posing.surface.energies(),
       handle: (handle: number) => drag.screen(handle),
-      onGpu: surface.onGpu,
+      onGpu: surfaces[0].onGpu,
     },
     dispose: () => {
       stop.abort();
+      polishing?.cancel();
       stage.beforeFrame = () => {};
+      look.legend.dispose();
+      hud.dispose();
       gizmo.dispose();
       marks.dispose();
-      surface.object.removeFromParent();
-      surface.dispose();
+      surfaces[0].object.removeFromParent();
+      surfaces[0].dispose();
     },
   };
 }

@@ -29,6 +29,8 @@ export class Stage {
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 50);
   readonly root = new Group();
   readonly controls: OrbitControls;
+  /** Which axis of the model points up. */
+  up: Axis = "z";
   /** Called before each picture that is drawn. */
   beforeFrame: (seconds: number) => void = () => {};
   afterFrame: () => void = () => {};
@@ -81,6 +83,7 @@ export class Stage {
 
   /** Puts the bounding box of a shape on the ground, its diagonal one unit long, with an axis up. */
   place(shape: Float32Array, up: Axis): void {
+    this.up = up;
     const box = boxOf(shape);
     const diagonal = box.getSize(new Vector3()).length();
     this.root.scale.setScalar(1 / diagonal);

@@ -13,11 +13,19 @@ import {
   type WebGLRenderer,
 } from "three";
 
-import { reconstruct, type ShapeSpace } from "../engine/index.ts";
+import { EnergyScale, type Membrane, type ShapeSpace } from "../engine/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
+import { IdleShape } from "./idle_shape.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
+
+/** What its colours tell. */
+export type Colors = "own" | "displacement" | "energy";
+const COLORS: readonly Colors[] = ["own", "displacement", "energy"];
+
+/** Displacements, over the diagonal, at which their colours end. */
+export const FARTHEST = 0.25;
 
 /** A shaded surface whose shape is given by coefficients. */
 export class Surface {
@@ -32,9 +40,12 @@ export class Surface {
   readonly #solid: Mesh;
   readonly #wires: Mesh;
   readonly #uniforms: SurfaceUniforms;
-  readonly #cpu: Float32Array;
+  readonly #idle: IdleShape;
+  readonly #membrane: Membrane | null;
   #coefficients: ArrayLike<number> = [];
-  #cpuIsFresh = false;
+  #share = 0;
+  #weights: readonly number[] = [1];
+  #scale: EnergyScale | null = null;
 
   /** `forceCpu` takes the way of browsers that cannot draw into float textures. */
   constructor(
@@ -43,12 +54,16 @@ export class Surface {
     faces: Uint32Array<ArrayBuffer>,
     diagonal: number,
     forceCpu = false,
+    membrane: Membrane | null = null,
   ) {
     this.space = space;
     this.faces = faces;
     this.onGpu = !forceCpu && GpuDeformer.supports(renderer, space);
-    this.#deformer = this.onGpu ? new GpuDeformer(renderer, space, faces) : new CpuDeformer(space, faces);
-    this.#cpu = new Float32Array(3 * space.vertices);
+    this.#deformer = this.onGpu
+      ? new GpuDeformer(renderer, space, faces, membrane)
+      : new CpuDeformer(space, faces, membrane);
+    this.#membrane = membrane;
+    this.#idle = new IdleShape(space);
     const base = new BufferAttribute(space.base, 3);
     this.#geometry.setAttribute("position", base);
     this.#geometry.setAttribute("normal", base); // never read; without one three.js shades flat
@@ -61,8 +76,10 @@ export class Surface {
       shownPositions: { value: this.#deformer.positions },
       shownNormals: { value: this.#deformer.normals },
       shownWidth: { value: this.#deformer.width },
-      displacementColors: { value: 0 },
-      displacementUnit: { value: 4 / diagonal },
+      shownEnergies: { value: this.#deformer.normals },
+      shownColors: { value: 0 },
+      displacementEnd: { value: FARTHEST * diagonal },
+      energyEnd: { value: 1 },
     };
     const clay = new MeshStandardMaterial({
       vertexColors: true,
@@ -95,15 +112,30 @@ export class Surface {
   /** Takes the shape with these coefficients; the others are zero. */
   show(coefficients: ArrayLike<number>): void {
     this.#coefficients = coefficients;
-    this.#cpuIsFresh = false;
+    this.#share = 0;
+    this.#idle.show(coefficients);
     this.#deformer.update(coefficients);
+  }
+
+  /** Another shape, 3 numbers per vertex, to go to. */
+  set goal(positions: Float32Array) {
+    this.#deformer.goal = positions;
+  }
+
+  /** Goes a share of the way from the shape to the goal. */
+  blend(share: number): void {
+    this.#share = share;
+    this.#deformer.update(this.#coefficients, share);
   }
 
   /** The shape before its rigid motion, computed here: for picking. */
   positions(): Float32Array {
-    if (!this.#cpuIsFresh) reconstruct(this.space, this.#coefficients, this.#cpu);
-    this.#cpuIsFresh = true;
-    return this.#cpu;
+    return this.#idle.positions();
+  }
+
+  /** Whether `positions` are there without waiting. */
+  get isReady(): boolean {
+    return this.#idle.isFresh;
   }
 
   /** The shape before its rigid motion, as the vertex shader gets it. */
@@ -120,21 +152,69 @@ export class Surface {
     this.#solid.receiveShadow = on;
   }
 
-  set displacementColors(on: boolean) {
-    this.#uniforms.displacementColors.value = on ? 1 : 0;
+  get colors(): Colors {
+    return COLORS[this.#uniforms.shownColors.value];
+  }
+
+  set colors(colors: Colors) {
+    this.#uniforms.shownColors.value = COLORS.indexOf(colors);
+    this.#deformer.weigh(colors === "energy" ? this.#weights : null);
+    this.#deformer.update(this.#coefficients, this.#share);
+    this.#uniforms.shownEnergies.value = this.#deformer.energies ?? this.#deformer.normals;
+  }
+
+  /** Weights of the shapes at rest that energies are relative to; one of one by default. */
+  set weights(weights: readonly number[]) {
+    this.#weights = weights;
+    if (this.colors === "energy") this.#deformer.weigh(weights);
+  }
+
+  /** Whether energies can be shown. */
+  get hasEnergies(): boolean {
+    return this.#membrane !== null;
+  }
+
+  /** Where a scale of energies, over mu, should end for the present shape. */
+  energyScale(): number {
+    if (!this.#membrane) return 1;
+    this.#scale ??= new EnergyScale(this.space, this.#membrane, this.faces);
+    this.#scale.look(this.#coefficients, this.#weights);
+    return this.#scale.end;
+  }
+
+  /** Where the colours of energies end, over mu. */
+  set energyEnd(end: number) {
+    this.#uniforms.energyEnd.value = end;
+  }
+
+  /** Strain energy densities over mu, as the vertex shader gets them. */
+  energies(): Float32Array {
+    return this.#deformer.readEnergies();
+  }
+
+  /** Looks as another one does. */
+  lookAs(other: Surface): void {
+    this.#wires.visible = other.#wires.visible;
+    this.#solid.receiveShadow = other.#solid.receiveShadow;
+    this.colors = other.colors;
+    this.energyEnd = other.#uniforms.energyEnd.value;
   }
 
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
     const colors = this.#geometry.getAttribute("color") as BufferAttribute;
+    const numbers = colors.array as Float32Array;
     for (let vertex = 0; vertex < this.space.vertices; vertex++) {
       const { r, g, b } = color(vertex);
-      colors.setXYZ(vertex, r, g, b);
+      numbers[3 * vertex] = r;
+      numbers[3 * vertex + 1] = g;
+      numbers[3 * vertex + 2] = b;
     }
     colors.needsUpdate = true;
   }
 
   dispose(): void {
+    this.#idle.dispose();
     this.#deformer.dispose();
     this.#geometry.dispose();
     this.#materials.forEach((material) => material.dispose());

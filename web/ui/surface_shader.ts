@@ -3,19 +3,26 @@ import type { IUniform, Material, Texture } from "three";
 export type SurfaceUniforms = Record<string, IUniform> & {
   shownPositions: IUniform<Texture>;
   shownNormals: IUniform<Texture>;
+  shownEnergies: IUniform<Texture>;
   shownWidth: IUniform<number>;
-  displacementColors: IUniform<number>;
-  displacementUnit: IUniform<number>;
+  /** 0: the vertices' own; 1: displacement; 2: strain energy. */
+  shownColors: IUniform<number>;
+  /** What the ramps end at: a length, and a density over mu. */
+  displacementEnd: IUniform<number>;
+  energyEnd: IUniform<number>;
 };
 
 const DECLARATIONS = `
 uniform highp sampler2D shownPositions;
 uniform highp sampler2D shownNormals;
 uniform highp int shownWidth;
-uniform float displacementColors;
-uniform float displacementUnit;
+uniform highp sampler2D shownEnergies;
+uniform int shownColors;
+uniform float displacementEnd;
+uniform float energyEnd;
 // from pale sand by coral to plum: lightness falls all the way, so it reads without colours as well
-vec3 displacementRamp(float t) {
+vec3 shownRamp(float x) {
+  float t = clamp(x, 0.0, 1.0);
   vec3 a = vec3(0.80, 0.76, 0.66), b = vec3(0.86, 0.47, 0.22), c = vec3(0.55, 0.09, 0.20), d = vec3(0.10, 0.02, 0.16);
   return t < 0.33 ? mix(a, b, t / 0.33) : t < 0.7 ? mix(b, c, (t - 0.33) / 0.37) : mix(c, d, (t - 0.7) / 0.3);
 }
@@ -28,8 +35,9 @@ const POSITION = `
 ${CELL}
 vec3 transformed = texelFetch(shownPositions, shownCell, 0).xyz;
 #if defined( USE_COLOR )
-  float moved = clamp(displacementUnit * length(transformed - position), 0.0, 1.0);
-  vColor.rgb = mix(vColor.rgb, displacementRamp(moved), displacementColors);
+  // the root: energy goes with the square of strain, and its scale would be nearly empty
+  if (shownColors == 1) vColor.rgb = shownRamp(length(transformed - position) / displacementEnd);
+  if (shownColors == 2) vColor.rgb = shownRamp(sqrt(max(texelFetch(shownEnergies, shownCell, 0).x, 0.0) / energyEnd));
 #endif`;
 
 /** Makes a material of three.js take positions and normals from textures in place of attributes. */

@@ -1,9 +1,10 @@
 import type { Hud } from "./hud.ts";
+import type { Polish } from "./polishing.ts";
 import type { Axis } from "./stage.ts";
 
 /** What is on the stage and in the panel for one model. */
 export interface View {
-  readonly hud: Hud;
+  readonly hud: Pick<Hud, "element" | "notice">;
   readonly panel: HTMLElement[];
   /** For scripts and tests, as `window.snapspace`. */
   readonly script: Record<string, unknown>;
@@ -13,4 +14,8 @@ export interface View {
 export interface ViewOptions {
   readonly up: Axis;
   readonly forceCpu: boolean;
+  /** Leaves the camera as it is, and what stands before it. */
+  readonly keepView?: boolean;
+  /** Improves frames when a handle is let go. */
+  readonly polish?: Polish;
 }

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { PosingSession } from "../posing_session.ts";
-import type { PosingModel } from "../model.ts";
+import { coefficientCount, type PosingModel } from "../model.ts";
 import { readModel } from "../read_model.ts";
 import { UnreadableModel } from "../errors.ts";
 import { bytes, core } from "./expected.ts";
@@ -42,7 +42,7 @@ for (const file of ["posing.snapspace", "posing.packed", "blending.snapspace", "
       refused(whole.slice(0, Math.floor(share * whole.byteLength)), /not a complete/);
     const size = Number(new DataView(whole).getBigUint64(0, true));
     const header = new TextDecoder().decode(new Uint8Array(whole, 8, size));
-    const name = file.startsWith("posing") ? "quartic" : "quartics";
+    const name = file.startsWith("posing") ? "handle_K" : "quartics";
     const renamed = header.replace(`"${name}"`, `"${"x".repeat(name.length)}"`);
     const altered = whole.slice(0);
     new Uint8Array(altered).set(new TextEncoder().encode(renamed), 8);
@@ -51,6 +51,10 @@ for (const file of ["posing.snapspace", "posing.packed", "blending.snapspace", "
 
 test("an energy without a minimum at rest is told", async () => {
   const model = readModel(bytes("posing.packed"), "") as PosingModel;
-  const damaged = { ...model, quartic: model.quartic.map(() => 0), K: model.K.map(() => 0) };
+  const elastic = {
+    kind: "quartic",
+    coefficients: new Float64Array(coefficientCount(model.dimension)),
+  } as const;
+  const damaged = { ...model, elastic, K: model.K.map(() => 0) };
   await assert.rejects(PosingSession.create(core, damaged), /no minimum at rest/);
 });

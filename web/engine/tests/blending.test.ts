@@ -5,13 +5,14 @@ import { BlendingSession } from "../blending_session.ts";
 import type { BlendingModel } from "../model.ts";
 import { readModel } from "../read_model.ts";
 import { reconstruct } from "../shape_space.ts";
-import { bytes, core, distance, expected } from "./expected.ts";
+import { bytes, core, distance, expected, isCertificate } from "./expected.ts";
 
 interface Frame {
   weights: number[];
   value: number;
   surface: number[];
   linear: number[];
+  certificate: [number, number] | null;
   outside: string[];
 }
 
@@ -32,6 +33,7 @@ for (const file of ["blending.snapspace", "blending.packed"])
       assert.ok(distance(shape, frame.surface) < 1e-4 * diagonal);
       reconstruct(model.poseSpace, frame.weights, shape);
       assert.ok(distance(shape, frame.linear) < 3e-5 * diagonal, "the linear blend of registered poses");
+      isCertificate(session.certificate(), frame.certificate, 1e-2);
       assert.deepEqual(session.outside, frame.outside);
     }
     assert.throws(() => session.blend(model.poses.map(() => 1)), /a sum of one/);

@@ -1,5 +1,8 @@
+import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+
+import type { Certificate } from "../certificate.ts";
 
 /** Models and numbers that Python's Session made for these tests (tests/page/test_engine.py). */
 const folder = process.env["SNAPSPACE_EXPECTED"];
@@ -27,4 +30,16 @@ export function distance(a: ArrayLike<number>, b: ArrayLike<number>): number {
     if (!(difference <= most)) most = Number.isNaN(difference) ? Infinity : difference;
   }
   return most;
+}
+
+/** Asserts that a certificate is Python's [relative, upper], or null as that. */
+export function isCertificate(
+  found: Certificate | null,
+  wanted: [number, number] | null,
+  tolerance: number,
+): void {
+  assert.equal(found === null, wanted === null);
+  if (!found || !wanted) return;
+  assert.ok(Math.abs(found.relative / wanted[0] - 1) < tolerance, `${found.relative}, not ${wanted[0]}`);
+  assert.ok(Math.abs(found.upper! / wanted[1] - 1) < tolerance);
 }

@@ -6,21 +6,24 @@ import { applied, eulerOfRotation, plus, rotationOfEuler, type Vector } from "..
 import { PosingSession } from "../posing_session.ts";
 import { readModel } from "../read_model.ts";
 import { reconstruct } from "../shape_space.ts";
-import { bytes, core, distance, expected } from "./expected.ts";
+import { bytes, core, distance, expected, isCertificate } from "./expected.ts";
 
 interface Frame {
   motions: [number, Vector, Vector][];
   value: number;
   q: number[];
+  certificate: [number, number] | null;
   surface: number[];
   outside: number[];
 }
 
-const { frames, diagonal, leading } = expected<{
+interface Drag {
   frames: Frame[];
   diagonal: number;
   leading: { dimension: number; value: number };
-}>("posing.json");
+}
+
+const { diagonal } = expected<Drag>("posing.json");
 
 /** The shown surface: tau + U q, carried along by the first handle. */
 function surface(session: PosingSession): Float32Array {
@@ -33,8 +36,9 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-for (const file of ["posing.snapspace", "posing.packed"])
+for (const file of ["posing.snapspace", "posing.packed", "cubature.snapspace", "cubature.packed"])
   test(`a drag is that of Session: ${file}`, async () => {
+    const { frames, leading } = expected<Drag>(`${file.split(".")[0]}.json`);
     const model = readModel(bytes(file), "bar") as PosingModel;
     const session = await PosingSession.create(core, model);
     // coefficients of the packed model are in single precision
@@ -52,12 +56,14 @@ for (const file of ["posing.snapspace", "posing.packed"])
       );
       assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
       assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
+      isCertificate(session.certificate(), frame.certificate, 1e3 * exact);
       assert.deepEqual(
         session.outside.map(({ handle }) => handle),
         frame.outside,
       );
     }
     session.dimension = leading.dimension;
+    assert.equal(session.certificate(), null, "calibrated for all dimensions");
     assert.equal(session.q.length, leading.dimension);
     assert.ok(Math.abs(session.solve().value - leading.value) < 1e-4 * Math.abs(leading.value));
     session.reset();
@@ -84,8 +90,28 @@ test("the packed model is the file's, on the surface", () => {
   assert.ok(distance(packed.space.modes, file.space.modes) <= 1);
   assert.ok(distance(packed.handles[1].center, file.handles[1].center) < 1e-12 * diagonal);
   assert.ok(Math.abs(packed.valueScale / file.valueScale - 1) < 1e-12);
-  assert.deepEqual(packed.box, file.box);
+  assert.deepEqual(packed.boxes, file.boxes);
 });
+
+for (const file of ["own_boxes.snapspace", "own_boxes.packed"])
+  test(`each handle has its own box: ${file}`, async () => {
+    const own = expected<{ frames: { share: number; outside: number[] }[]; boxes: number[][] }>(
+      "own_boxes.json",
+    );
+    const model = readModel(bytes(file), "bar") as PosingModel;
+    const boxes = model.boxes.map((box) => [...box.translation, ...box.angle]);
+    assert.deepEqual(boxes, own.boxes);
+    const session = await PosingSession.create(core, model);
+    const outside = () => session.outside.map(({ handle }) => handle);
+    const scaled = (values: readonly number[], share: number) =>
+      [0, 1, 2].map((i) => share * values[i]) as unknown as Vector;
+    for (const { share, outside: those } of own.frames) {
+      session.move(1, scaled(model.boxes[1].angle, share), scaled(model.boxes[1].translation, share));
+      assert.deepEqual(outside(), those);
+    }
+    session.move(2, [0, 0, 0], [1e-3, 0, 0]);
+    assert.deepEqual(outside(), [1, 2]);
+  });
 
 test("a gimbal-locked rotation keeps its matrix", () => {
   for (const beta of [Math.PI / 2, -Math.PI / 2]) {

@@ -1,0 +1,191 @@
+"""The page in headless Chromium with software rendering: opening, solving, work per frame.
+
+    python benchmarks/page.py dragon.snapspace dragon120.snapspace
+
+Solve times are of the same drag, a straight way between random motions of the handles, 60 frames
+each, in the page (WebAssembly) and in the native engine (one thread), in one run. Work per frame is
+what the main thread does besides drawing while a pointer drags a handle: event handlers and
+everything between them and the call that draws.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import common
+import numpy as np
+from playwright.sync_api import sync_playwright
+
+import snapspace as ss
+from snapspace.page import export_html, packed
+
+SOFTWARE_WEBGL = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+READY = "new Promise(function look(done) { snapspace.ready ? done() : setTimeout(look, 10, done) })"
+DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
+# Batches of ten solves: a page's clock may tick in tenths of milliseconds only.
+SOLVES = """(frames) => {
+  const times = [];
+  for (let first = 0; first < frames.length; first += 10) {
+    const batch = frames.slice(first, first + 10);
+    let spent = 0;
+    for (const motions of batch)
+      spent += snapspace.session.moveAll(new Map(motions)).milliseconds;
+    times.push(spent / batch.length);
+  }
+  return times;
+}"""
+# The first listener of a move notes the time, the last one adds what the others took.
+WATCH = """() => {
+  window.works = [];
+  let begin = 0, events = 0;
+  for (const name of ["pointermove", "pointerdown", "pointerup"]) {
+    addEventListener(name, () => (begin = performance.now()), { capture: true });
+    addEventListener(name, () => (events += performance.now() - begin));
+  }
+  const { stage } = snapspace, after = stage.afterFrame;
+  stage.afterFrame = () => {
+    works.push(events + stage.work);
+    events = 0;
+    after();
+  };
+}"""
+Motions = list[tuple[int, dict[str, list[float]]]]
+
+
+def way(model: ss.PosingModel, frames: int, seed: int) -> np.ndarray:
+    """Parameters of a drag from rest."""
+    ends = ss.sample(model.problem.domain, frames // 60 + 1, seed=seed)
+    ends = np.vstack([np.zeros_like(ends[:1]), ends])
+    steps = np.arange(frames) / 60.0
+    first = steps.astype(int)
+    share = (steps - first)[:, None]
+    path: np.ndarray = (1 - share) * ends[first] + share * ends[first + 1]
+    return path
+
+
+def motions(model: ss.PosingModel, parameters: np.ndarray) -> Motions:
+    """What the page's session takes for one parameter vector."""
+    offsets = model.problem.offsets(parameters)
+    return [
+        (
+            handle,
+            {
+                "rotation": (offset[:, :3] + np.eye(3)).ravel().tolist(),
+                "translation": offset[:, 3].tolist(),
+            },
+        )
+        for handle, offset in enumerate(offsets)
+    ]
+
+
+def native(model: ss.PosingModel, path: np.ndarray) -> list[float]:
+    """Milliseconds of solves, mean of ten at a time as in the page."""
+    session = model.session()
+    times = np.array([1e3 * session.pose(w).seconds for w in path])
+    means: list[float] = times.reshape(-1, 10).mean(axis=1).tolist()
+    return means
+
+
+def pointer_drag(page: Any, handle: int, steps: int) -> None:
+    """Presses a handle's centre and moves on an ellipse, a frame for each step."""
+    x, y = page.evaluate(f"snapspace.handle({handle})")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for angle in np.linspace(0, 4 * np.pi, steps):
+        page.mouse.move(x + 60 * np.sin(angle), y - 40 * (1 - np.cos(angle)))
+        page.evaluate("new Promise((done) => requestAnimationFrame(done))")
+    page.mouse.up()
+    page.evaluate(DRAWN)
+
+
+def summary(values: list[float]) -> dict[str, float]:
+    return {
+        "median": float(np.median(values)),
+        "p95": float(np.percentile(values, 95)),
+        "worst": float(np.max(values)),
+    }
+
+
+def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, Any]:
+    """All figures of one model."""
+    model = ss.load(path)
+    if not isinstance(model, ss.PosingModel):
+        sys.exit(f"{path}: this benchmark takes posing models")
+    with tempfile.TemporaryDirectory() as folder:
+        html = export_html(model, Path(folder) / "model.html")
+        page = browser.new_page(viewport={"width": 640, "height": 400})
+        page.goto(html.as_uri() + args.query)
+        page.evaluate(READY)
+        page.evaluate(DRAWN)
+        opened = page.evaluate("[snapspace.openedIn, snapspace.startedIn]")
+        page.evaluate(WATCH)
+        pointer_drag(page, 1, args.steps)
+        works = page.evaluate("works")
+        page.evaluate("snapspace.session.reset()")
+        drag = way(model, args.frames, seed=7)
+        solves = page.evaluate(SOLVES, [motions(model, w) for w in drag])
+        shown = page.evaluate("snapspace.session.model.space.vertices")
+        page.close()
+    return {
+        "model": path.name,
+        "dimension": model.dimension,
+        "surface_vertices": shown,
+        "packed_bytes": len(packed(model, name=path.stem)),
+        "opened_ms": opened[0],
+        "started_ms": opened[1],
+        "solve": summary(solves),
+        "native_solve": summary(native(model, drag)),
+        "work": summary(works),
+        "frames": len(works),
+    }
+
+
+def rows(figures: dict[str, Any]) -> list[tuple[str, Any, str]]:
+    solve, native_solve, work = figures["solve"], figures["native_solve"], figures["work"]
+    goal = "<= 1.5 at d = 40" if figures["dimension"] <= 40 else ""
+    return [
+        ("surface vertices", figures["surface_vertices"], ""),
+        ("model in the page, MB", figures["packed_bytes"] / 1e6, ""),
+        ("from the model's bytes to the first picture, ms", figures["opened_ms"], "<= 1500"),
+        ("from the page's start to the first picture, ms", figures["started_ms"], ""),
+        ("solve in WebAssembly, ms, median", solve["median"], goal),
+        ("solve in WebAssembly, ms, 95 %", solve["p95"], ""),
+        ("solve of the native engine, ms, median", native_solve["median"], ""),
+        ("times slower than native", solve["median"] / native_solve["median"], ""),
+        ("main thread besides drawing, ms, median", work["median"], "<= 3 at 25k"),
+        ("main thread besides drawing, ms, 95 %", work["p95"], "<= 3 at 25k"),
+        ("main thread besides drawing, ms, worst", work["worst"], ""),
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("models", nargs="+", type=Path, help=".snapspace files of posing models")
+    parser.add_argument("--frames", type=int, default=300, help="of the simulated drag")
+    parser.add_argument("--steps", type=int, default=60, help="of the pointer's drag")
+    parser.add_argument("--query", default="", help="such as ?deform=cpu")
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+    program = shutil.which("chromium") or sys.exit("needs chromium on the path")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=program, args=SOFTWARE_WEBGL)
+        results = [measured(browser, path, args) for path in args.models]
+        browser.close()
+    if args.json:
+        print(json.dumps(results))
+        return
+    for figures in results:
+        title = f"{figures['model']}, d = {figures['dimension']}"
+        common.show(title, rows(figures), figures, False)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,76 @@
+"""Body: the tets that a page chooses handles on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from ..filling import fill_surface
+from ..interruptible import check_stop
+from ..mesh import SURFACE_SUFFIXES, TET_SUFFIXES, TetMesh, read_surface, read_tets
+from ..mesh.input_path import existing_file
+from ..problem import PosingProblem, read_problem
+
+PROBLEM_SUFFIX = ".json"
+MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Body:
+    """A mesh and what is known of it.
+
+    name : shown, and the name of files
+    mesh : TetMesh
+    file : Path of the tets, or None if they are in no file of the user
+    folder : Path where files are saved
+    problem : PosingProblem with the handles to begin with, or None
+    """
+
+    name: str
+    mesh: TetMesh
+    file: Path | None
+    folder: Path
+    problem: PosingProblem | None = None
+
+
+def problem_body(path: Path) -> Body:
+    """The mesh and the handles of a problem file; ValueError if it cannot be read."""
+    problem = read_problem(path)
+    return Body(
+        name=path.stem,
+        mesh=problem.mesh,
+        file=(path.parent / json.loads(path.read_text(encoding="utf-8"))["mesh"]).resolve(),
+        folder=path.resolve().parent,
+        problem=problem,
+    )
+
+
+def mesh_body(path: Path, *, stage: Callable[[str], None]) -> Body:
+    """Tets out of a file, or made inside of its surface.
+
+    Parameters
+    ----------
+    path : Path
+    stage : callable
+        Gets "reading" and, for a surface, "filling" before these parts of the work.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read or filled; the message begins with its path.
+    """
+    existing_file(path, known=MESH_SUFFIXES)
+    folder = path.resolve().parent
+    stage("reading")
+    if path.suffix.lower() in TET_SUFFIXES:
+        return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
+    vertices, faces = read_surface(path)
+    stage("filling")
+    check_stop()
+    try:
+        mesh = fill_surface(vertices, faces)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return Body(name=path.stem, mesh=mesh, file=None, folder=folder)

@@ -1,0 +1,51 @@
+"""Job: long work on a thread of its own, which can be told to stop."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+
+from ..interruptible import stoppable
+
+
+class Job:
+    """Work that begins at once on its own thread.
+
+    Parameters
+    ----------
+    work : callable
+        Ends as at Ctrl-C once `stop` was called, see `stoppable`.
+    failed : callable
+        Gets the error if the work raises one; not if it was told to stop.
+    """
+
+    def __init__(self, work: Callable[[], None], *, failed: Callable[[Exception], None]) -> None:
+        self._stop = threading.Event()
+        self._work, self._failed = work, failed
+        # a daemon: compiled work that cannot be stopped must not hold up the end of the program
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    @property
+    def running(self) -> bool:
+        """Whether the work has not ended yet."""
+        return self._thread.is_alive()
+
+    def stop(self) -> None:
+        """Tells the work to stop; returns at once."""
+        self._stop.set()
+
+    def wait(self, seconds: float) -> bool:
+        """Waits until the work has ended; whether it has."""
+        self._thread.join(seconds)
+        return not self.running
+
+    def _run(self) -> None:
+        try:
+            with stoppable(self._stop.is_set):
+                self._work()
+        except KeyboardInterrupt:
+            pass
+        except Exception as error:
+            if not self._stop.is_set():
+                self._failed(error)

@@ -1,0 +1,268 @@
+"""Messages between a page and its server; tools/make_messages.py writes them for TypeScript.
+
+On the websocket a message is a JSON object: the fields of one of these classes, and `type`, the
+class's name in snake case. Lengths are in the mesh's unit, angles in radians, times in seconds.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+Vector = tuple[float, float, float]
+Matrix = tuple[float, float, float, float, float, float, float, float, float]
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandleChoice:
+    """A handle as the page chose it, or as a problem file has it.
+
+    name : unique among the handles
+    vertices : indices among all vertices of the mesh, also those inside
+    moving : whether it moves while sampling; one handle at least does not
+    translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
+        common ones
+    """
+
+    name: str
+    vertices: tuple[int, ...]
+    moving: bool = True
+    translation: Vector | None = None
+    angle: Vector | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class HandleMotion:
+    """Where a handle is: a rigid motion about its centre at rest.
+
+    rotation : row by row
+    """
+
+    rotation: Matrix
+    translation: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choose:
+    """Page: these are the handles. Answered by `Chosen`, or `Failed`.
+
+    request : any number of 32 bits, repeated in the answers
+    translation, angle : common bounds of the sampled motions, half widths per axis
+    """
+
+    request: int
+    handles: tuple[HandleChoice, ...]
+    translation: Vector
+    angle: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class Compute:
+    """Page: compute models for the handles chosen last. A computation that runs is replaced.
+
+    Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
+
+    samples, dimension, seed : of the last model
+    stiffness : of the handles, as in a problem file
+    poisson : Poisson's ratio of the material, 0 to below 0.5; null: that of the problem file, or of
+        lam = mu
+    """
+
+    request: int
+    samples: int
+    dimension: int
+    seed: int
+    stiffness: float
+    poisson: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cancel:
+    """Page: end what runs, filling or computing. Models and solved samples stay.
+
+    Answered by `Cancelled`, also if nothing runs.
+    """
+
+    request: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Save:
+    """Page: save the problem, the newest model, and a mesh that was filled. Answered by `Saved`.
+
+    name : of the files, without folder or ending; null: the mesh's
+    """
+
+    request: int
+    name: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polish:
+    """Page: improve a shape in the full space. A polish that runs is replaced, without an answer.
+
+    Answered by a binary frame, `request` as a 32-bit integer and the positions of the surface's
+    vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
+
+    model : number of the model
+    handles : where the handles of the model are, all of them and in its order; of posing models
+    weights : of blending models, one per pose
+    q : coordinates of the shape, or fewer, the leading ones
+    iterations : at most
+    """
+
+    request: int
+    model: int
+    handles: tuple[HandleMotion, ...] = ()
+    weights: tuple[float, ...] = ()
+    q: tuple[float, ...]
+    iterations: int = 10
+
+
+@dataclass(frozen=True, kw_only=True)
+class Workspace:
+    """Server: what the page works with. The first message, and again after an upload.
+
+    id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=...
+    kind : "empty": the page asks for a mesh; "reading": progress follows, and another workspace;
+        "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
+    name : of the mesh or model
+    mesh : address of the packed mesh; null unless the kind is mesh
+    up : axis that points up at first, x, y or z
+    handles, translation, angle : chosen at first
+    diagonal : of the mesh; 0 if there is none
+    samples, dimension, seed, stiffness, poisson : computed with, unless the page asks otherwise
+    folder : where `Save` writes, for the reader
+    upload_limit : bytes
+    """
+
+    id: str
+    kind: str
+    name: str
+    mesh: str | None
+    up: str
+    handles: tuple[HandleChoice, ...]
+    translation: Vector
+    angle: Vector
+    diagonal: float
+    samples: int
+    dimension: int
+    seed: int
+    stiffness: float
+    poisson: float | None
+    folder: str
+    upload_limit: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Chosen:
+    """Server: the handles are taken, in this order, the one that holds the shape first."""
+
+    request: int
+    handles: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Progress:
+    """Server: how far the work is; up to ten a second.
+
+    request : of the `Compute`; 0 while a mesh is read or filled
+    stage : waiting (for another computation on this machine), reading, filling, snapshots,
+        subspace, energy
+    done, total : samples; 0 of 0 where nothing is counted
+    seconds : since the work began
+    eta : until the stage ends; null if not known
+    error : expected relative error of samples that were not solved for; null if not known
+    """
+
+    request: int
+    stage: str
+    done: int
+    total: int
+    seconds: float
+    eta: float | None
+    error: float | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Model:
+    """Server: a model that can be posed. Better ones follow until one is final.
+
+    number : increases; that of the newest model is in its address
+    address : of the packed model; it stays until two newer ones are there
+    dimension, samples : of this model
+    error : expected relative error of samples that were not solved for; null if not known
+    seconds : since the computation began
+    """
+
+    request: int
+    number: int
+    address: str
+    dimension: int
+    samples: int
+    error: float | None
+    final: bool
+    seconds: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cancelled:
+    """Server: nothing runs any more.
+
+    request : of the `Cancel`
+    """
+
+    request: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class Failed:
+    """Server: a request was refused, or its work came to an error.
+
+    request : 0 where the message could not be read, and for meshes
+    message : what is wrong and what helps, one line for the reader
+    """
+
+    request: int
+    message: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Saved:
+    """Server: what was written.
+
+    problem, model, mesh : paths; null for what there is not
+    """
+
+    request: int
+    problem: str | None
+    model: str | None
+    mesh: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Polished:
+    """Server: the shape of the binary frame before this message.
+
+    moved : root mean square over the body, relative to the displacement from rest; null without one
+    status : converged, max_iterations, line_search_failed or not_finite
+    """
+
+    request: int
+    moved: float | None
+    iterations: int
+    status: str
+    seconds: float
+
+
+FROM_PAGE = (Choose, Compute, Cancel, Save, Polish)
+FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished)
+PARTS = (HandleChoice, HandleMotion)
+
+PageMessage = Choose | Compute | Cancel | Save | Polish
+ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished
+
+
+def type_name(message: type) -> str:
+    """The `type` of a message's class: its name in snake case."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "_", message.__name__).lower()

@@ -1,0 +1,57 @@
+"""Models: the newest models of a page, by number."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..reduction import ReducedModel
+
+#: A page fetches a model while the next one may come.
+KEPT = 2
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A model and what the page reads of it."""
+
+    number: int
+    model: ReducedModel
+    content: bytes
+
+
+class Models:
+    """Numbers count from 1, also after `clear`: an address never means another model."""
+
+    def __init__(self) -> None:
+        self._kept: tuple[Kept, ...] = ()
+        self._count = 0
+
+    def add(self, model: ReducedModel, content: bytes) -> int:
+        """Keeps a model, and lets go of the oldest one; its number."""
+        self._count += 1
+        self._kept = (*self._kept[1 - KEPT :], Kept(self._count, model, content))
+        return self._count
+
+    @property
+    def newest(self) -> Kept | None:
+        """The last model; None before the first."""
+        return self._kept[-1] if self._kept else None
+
+    def has_as_good(self, model: ReducedModel) -> bool:
+        """Whether the newest model is of the same problem and no smaller."""
+        newest = self.newest
+        if newest is None or newest.model.problem is not model.problem:
+            return False
+        return _size(newest.model) >= _size(model)
+
+    def find(self, number: int) -> Kept | None:
+        """A model by number; None if it is not there any more."""
+        return next((kept for kept in self._kept if kept.number == number), None)
+
+    def clear(self) -> None:
+        """Lets go of all."""
+        self._kept = ()
+
+
+def _size(model: ReducedModel) -> tuple[int, int]:
+    return model.dimension, len(model.training_parameters)

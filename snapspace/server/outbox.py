@@ -1,0 +1,50 @@
+"""Outbox: messages on their way to a page."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections import deque
+
+from .messages import Progress, ServerMessage
+
+Item = ServerMessage | bytes
+
+
+class Outbox:
+    """A queue that any thread fills and the event loop empties.
+
+    Of progress that a slow connection has not taken yet only the newest is kept.
+
+    Parameters
+    ----------
+    loop : asyncio.AbstractEventLoop
+        The one that empties it.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        self._loop = loop
+        self._lock = threading.Lock()
+        self._items: deque[Item] = deque()
+        self._filled = asyncio.Event()
+
+    def put(self, *items: Item) -> None:
+        """Adds items, which stay together."""
+        with self._lock:
+            if self._items and isinstance(self._items[-1], Progress):
+                if isinstance(items[0], Progress):
+                    self._items.pop()
+            self._items.extend(items)
+        try:
+            self._loop.call_soon_threadsafe(self._filled.set)
+        except RuntimeError:  # the loop is closed, and so is the page
+            pass
+
+    async def get(self) -> Item:
+        """The next item, once there is one."""
+        while True:
+            with self._lock:
+                if self._items:
+                    return self._items.popleft()
+                self._filled.clear()
+            await self._filled.wait()

@@ -1,0 +1,163 @@
+"""Saving what a page has made, beside its mesh and never over another file."""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import json
+import os
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..mesh import write_tets
+from ..mesh.atomic_file import atomic_file
+from ..model_file import SUFFIX
+from ..problem import PosingProblem, problem_content
+from ..reduction import ReducedModel
+from .body import PROBLEM_SUFFIX, Body
+from .messages import Saved
+
+MESH_SUFFIX = ".msh"
+LONGEST = 100
+
+
+@dataclass
+class Savings:
+    """Writes files of one page, and knows which are its own: only those are replaced.
+
+    A file counts as its own while nobody else has changed it since.
+    """
+
+    _own: dict[Path, tuple[int, int]] = field(default_factory=dict)
+
+    def save(
+        self,
+        body: Body,
+        problem: PosingProblem,
+        model: ReducedModel | None,
+        *,
+        name: str | None,
+        request: int,
+    ) -> Saved:
+        """Writes problem file, model, and the mesh if it is in no file yet.
+
+        Parameters
+        ----------
+        body : Body
+        problem : PosingProblem
+        model : ReducedModel or None
+        name : str or None
+            Of the files, without an extension; None: the body's. Where other files have it they
+            become NAME-2, NAME-3 and so on, all alike.
+        request : int
+            Repeated in the answer.
+
+        Returns
+        -------
+        Saved
+            Each file is complete, or not there.
+
+        Raises
+        ------
+        ValueError
+            For a name that is no file name, or a folder that cannot be written to.
+        """
+        folder = body.folder
+        suffixes = [PROBLEM_SUFFIX]
+        suffixes += [] if model is None else [SUFFIX]
+        suffixes += [] if body.file is not None else [MESH_SUFFIX]
+        named = body.name if name is None else checked_name(name)
+        with self._held(folder, named, suffixes) as stem:
+            mesh = folder / f"{stem}{MESH_SUFFIX}" if body.file is None else body.file
+            if body.file is None:
+                self._write(mesh, lambda path: write_tets(path, body.mesh))
+            content = problem_content(problem, os.path.relpath(mesh, folder))
+            file = folder / f"{stem}{PROBLEM_SUFFIX}"
+            self._write(file, lambda path: _write_text(path, json.dumps(content) + "\n"))
+            model_file = folder / f"{stem}{SUFFIX}"
+            if model is not None:
+                self._write(model_file, model.save)
+        return Saved(
+            request=request,
+            problem=str(file),
+            model=None if model is None else str(model_file),
+            mesh=str(mesh) if body.file is None else None,
+        )
+
+    @contextlib.contextmanager
+    def _held(self, folder: Path, name: str, suffixes: list[str]) -> Iterator[str]:
+        """The name, or the first with a number, that no other file has, while files get it."""
+        for number in itertools.count(1):
+            stem = name if number == 1 else f"{name}-{number}"
+            paths = [folder / f"{stem}{suffix}" for suffix in suffixes]
+            if self._hold(paths):
+                break
+        try:
+            yield stem
+        finally:
+            self._drop_empty(paths)
+
+    def _hold(self, paths: list[Path]) -> bool:
+        """Makes empty files of these names; False, and none of them, if one is another's."""
+        try:
+            for path in paths:
+                if not self._is_own(path):
+                    path.open("x").close()  # fails if it is there, even as a link to nowhere
+                    self._own[path] = _stamp(path)
+        except FileExistsError:
+            self._drop_empty(paths)
+            return False
+        except OSError as error:
+            self._drop_empty(paths)
+            raise ValueError(
+                f"{paths[0].parent}: cannot be written to ({error.strerror}); start the server in "
+                "another folder"
+            ) from None
+        return True
+
+    def _drop_empty(self, paths: list[Path]) -> None:
+        """Removes one's own files that only hold a name."""
+        for path in paths:
+            if self._is_own(path) and not path.stat().st_size:
+                path.unlink()
+                del self._own[path]
+
+    def _is_own(self, path: Path) -> bool:
+        with contextlib.suppress(OSError):
+            return path in self._own and self._own[path] == _stamp(path)
+        return False
+
+    def _write(self, path: Path, write: Callable[[Path], object]) -> None:
+        write(path)
+        self._own[path] = _stamp(path)
+
+
+def checked_name(name: str) -> str:
+    """A name that is safe in any folder; ValueError for another one."""
+    reserved = re.fullmatch(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", name, re.IGNORECASE)
+    if not re.fullmatch(r"[\w][\w .+()-]*", name) or len(name) > LONGEST or reserved:
+        raise ValueError(
+            f"save: the name {name[:LONGEST]!r} is no plain file name; take letters, digits, "
+            f"spaces, . - _ + ( ), at most {LONGEST}"
+        )
+    return name.rstrip(" .")
+
+
+def plain_name(name: str) -> str:
+    """A file name made safe: what comes after folders, other characters replaced."""
+    last = re.split(r"[/\\]", name)[-1]
+    cleaned = re.sub(r"[^\w .+()-]", "_", last).strip(" .-")
+    return cleaned[-LONGEST:].lstrip(" .-") or "mesh"
+
+
+def _write_text(path: Path, text: str) -> None:
+    with atomic_file(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    """What changes when a file is written: inode and time."""
+    state = path.stat()
+    return state.st_ino, state.st_mtime_ns

@@ -1,0 +1,38 @@
+"""Site: what all pages of a server share."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..reduction import ReducedModel
+from .shared_body import SharedBody
+from .turns import Turns
+
+#: 256 MB.
+UPLOAD_LIMIT = 256 * 2**20
+
+
+@dataclass(frozen=True, kw_only=True)
+class Site:
+    """What a server was started with.
+
+    title : shown until a mesh has a name
+    up : axis that points up at first
+    token : letters, digits, - and _ only: it becomes part of addresses
+    folder : Path where files of uploaded meshes are saved
+    scratch : Path for temporary files, which the server removes in the end
+    body : SharedBody that pages begin with; None if they ask for a mesh
+    model : to pose or blend, instead of a body; or None
+    upload_limit : bytes
+    """
+
+    title: str
+    up: str
+    token: str
+    folder: Path
+    scratch: Path
+    body: SharedBody | None = None
+    model: ReducedModel | None = None
+    upload_limit: int = UPLOAD_LIMIT
+    turns: Turns = field(default_factory=Turns)

@@ -1,0 +1,55 @@
+"""Turns: one computation at a time, in the order they came."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from ..interruptible import POLL_SECONDS, check_stop
+
+
+class Turns:
+    """A queue for what uses all of the machine.
+
+    Two computations at once would both take twice the time, and twice the memory.
+    """
+
+    def __init__(self) -> None:
+        self._queue: deque[object] = deque()
+        self._changed = threading.Condition()
+
+    @contextmanager
+    def turn(self, waiting: Callable[[int], None]) -> Iterator[None]:
+        """Waits until those before are done, and runs the block.
+
+        Parameters
+        ----------
+        waiting : callable
+            Gets how many are before, some ten times a second while there are any.
+
+        Raises
+        ------
+        Stopped
+            If this thread was told to stop while it waited.
+        """
+        ticket = object()
+        with self._changed:
+            self._queue.append(ticket)
+        try:
+            while before := self._before(ticket):
+                waiting(before)
+                check_stop()
+            yield
+        finally:
+            with self._changed:
+                self._queue.remove(ticket)
+                self._changed.notify_all()
+
+    def _before(self, ticket: object) -> int:
+        """How many come first; if there are any, after a while or a change."""
+        with self._changed:
+            if self._queue[0] is not ticket:
+                self._changed.wait(POLL_SECONDS)
+            return self._queue.index(ticket)

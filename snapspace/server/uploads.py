@@ -1,0 +1,78 @@
+"""Uploads: mesh files that are dropped on a page."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import PlainTextResponse, Response
+
+from .body import MESH_SUFFIXES
+from .saving import plain_name
+from .site import Site
+from .workspace import Workspace
+
+
+def upload_endpoint(
+    site: Site, workspaces: dict[str, Workspace]
+) -> Callable[[Request], Awaitable[Response]]:
+    """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
+
+    The answer is 202 once the file is here, the rest comes by the websocket. Else it is one line of
+    text: 404 for a page that is not connected, 409 where a model is shown, 413 beyond the limit,
+    415 for a file that is no mesh.
+
+    Parameters
+    ----------
+    site : Site
+    workspaces : dict
+        By id.
+    """
+
+    async def upload(request: Request) -> Response:
+        workspace = workspaces.get(request.query_params.get("workspace", ""))
+        name = plain_name(request.query_params.get("name", ""))
+        if workspace is None:
+            return _refusal(404, "the page of this upload is not connected; reload it")
+        if site.model is not None:
+            return _refusal(409, "this server shows a model; start `snapspace view` with a mesh")
+        if Path(name).suffix.lower() not in MESH_SUFFIXES:
+            return _refusal(415, f"{name}: a page takes meshes, {' '.join(MESH_SUFFIXES)}")
+        too_large = f"{name}: more than {site.upload_limit / 2**20:g} MB; raise --upload-limit"
+        if int(request.headers.get("content-length", "0")) > site.upload_limit:
+            return _refusal(413, too_large)
+        place = Path(tempfile.mkdtemp(dir=site.scratch)) / name
+        try:
+            complete = await _received(request, place, site.upload_limit)
+        except (ClientDisconnect, OSError) as error:
+            await run_in_threadpool(shutil.rmtree, place.parent, ignore_errors=True)
+            return _refusal(
+                400, f"{name}: the upload broke off ({type(error).__name__}); try again"
+            )
+        if not complete:
+            await run_in_threadpool(shutil.rmtree, place.parent, ignore_errors=True)
+            return _refusal(413, too_large)
+        await run_in_threadpool(workspace.upload, place)
+        return Response(status_code=202)
+
+    return upload
+
+
+async def _received(request: Request, place: Path, limit: int) -> bool:
+    """Writes the body of a request to a file, and reads no further than the limit."""
+    size = 0
+    with place.open("wb") as file:
+        async for part in request.stream():
+            size += len(part)
+            if size > limit:
+                return False
+            file.write(part)
+    return True
+
+
+def _refusal(status: int, text: str) -> Response:
+    return PlainTextResponse(f"snapspace: {text}", status_code=status)

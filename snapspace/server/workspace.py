@@ -1,0 +1,234 @@
+"""Workspace: what one page works with, and its work in the background."""
+
+from __future__ import annotations
+
+import logging
+import secrets
+import shutil
+import threading
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from ..growing import Growth
+from ..interruptible import check_stop
+from ..page import packed
+from ..reduction import ReducedModel
+from . import messages
+from .bench import Bench
+from .body import Body, mesh_body
+from .job import Job
+from .mesh_pack import packed_mesh
+from .models import Models
+from .polish_jobs import PolishJobs
+from .reporter import Reporter
+from .shared_body import Stage
+from .site import Site
+
+#: How long the end of stopped work is waited for: solvers ask between the parts of an iteration.
+STOP_SECONDS = 0.4
+SAMPLES, DIMENSION = 300, 40
+
+
+class Workspace:
+    """Answers one page. Calls may come from any thread; what takes long runs in jobs.
+
+    Parameters
+    ----------
+    site : Site
+    emit : callable
+        Gets messages, and bytes for binary frames; those of one call stay together. From any
+        thread.
+    """
+
+    def __init__(self, site: Site, emit: Callable[..., None]) -> None:
+        self.id = secrets.token_urlsafe(9)
+        self._site, self._emit = site, emit
+        self._lock = threading.Lock()  # of the calls; jobs do not take it
+        self._work: Job | None = None
+        self._polishes = PolishJobs(emit, self._fail)
+        self._bench: Bench | None = None
+        self._meshes = 0
+        self._models = Models()
+
+    def open(self) -> None:
+        """Sends the first message, and begins to read or fill where the server has a mesh."""
+        shared = self._site.body
+        if self._site.model is not None:
+            self._emit(replace(self._empty(), kind="model"))
+        elif shared is None:
+            self._emit(self._empty())
+        else:
+            with self._lock:
+                self._open(shared.get, self._site.title)
+
+    def upload(self, path: Path) -> None:
+        """Opens a mesh file in place of what there was; its folder is removed once it is read."""
+
+        def make(stage: Stage) -> Body:
+            try:
+                body = mesh_body(path, stage=stage)
+            except ValueError as error:
+                raise ValueError(str(error).replace(str(path), path.name)) from None
+            finally:
+                shutil.rmtree(path.parent, ignore_errors=True)
+            return replace(body, file=None, folder=self._site.folder)
+
+        with self._lock:
+            self._open(make, path.stem)
+
+    def receive(self, message: messages.PageMessage) -> None:
+        """Answers a message, at once or by a job."""
+        with self._lock:
+            try:
+                self._answer(message)
+            except Exception as error:
+                self._fail(message.request, error)
+
+    def mesh_content(self, number: int) -> bytes | None:
+        """The packed mesh of an address; None if there is another one by now."""
+        bench = self._bench
+        if bench is None or number != self._meshes:
+            return None
+        return packed_mesh(bench.body.mesh, name=bench.body.name, up=self._site.up)
+
+    def model_content(self, number: int) -> bytes | None:
+        """The packed model of an address; None if it is not kept any more."""
+        kept = self._models.find(number)
+        return None if kept is None else kept.content
+
+    def close(self) -> None:
+        """Ends all work, and lets go of what it made."""
+        with self._lock:
+            jobs = [job for job in (self._work, self._polishes.stop()) if job is not None]
+            for job in jobs:
+                job.stop()
+            for job in jobs:
+                job.wait(STOP_SECONDS)
+            # by hand: jobs refer to this, and a collector of cycles does not see their size
+            self._work = self._bench = None
+            self._polishes = PolishJobs(self._emit, self._fail)
+            self._models.clear()
+
+    def _answer(self, message: messages.PageMessage) -> None:
+        if isinstance(message, messages.Choose):
+            self._emit(self._bench_now().choose(message))
+        elif isinstance(message, messages.Compute):
+            self._compute(message)
+        elif isinstance(message, messages.Cancel):
+            self._end_work()
+            self._emit(messages.Cancelled(request=message.request))
+        elif isinstance(message, messages.Save):
+            self._emit(self._bench_now().save(message))
+        else:
+            self._polishes.begin(message, self._model(message.model))
+
+    def _bench_now(self) -> Bench:
+        if self._bench is None:
+            raise ValueError("there is no mesh yet; drop one on the page, or wait until it is read")
+        return self._bench
+
+    def _model(self, number: int) -> ReducedModel:
+        if number == 0 and self._site.model is not None:
+            return self._site.model
+        kept = self._models.find(number)
+        if kept is None:
+            raise ValueError(f"model {number} is not kept any more; take the newest one")
+        return kept.model
+
+    def _compute(self, order: messages.Compute) -> None:
+        bench, request = self._bench_now(), order.request
+
+        def publish(growth: Growth, error: float | None, seconds: float) -> None:
+            if self._models.has_as_good(growth.model) and not growth.final:
+                return  # computed again: what the page has is from the last time
+            content = packed(growth.model, name=bench.body.name, up=self._site.up)
+            check_stop()
+            number = self._models.add(growth.model, content)
+            self._tell(
+                messages.Model(
+                    request=request,
+                    number=number,
+                    address=self._address("model", number),
+                    dimension=growth.model.dimension,
+                    samples=len(growth.snapshots),
+                    error=error,
+                    final=growth.final,
+                    seconds=seconds,
+                )
+            )
+
+        report = Reporter(self._tell, request)
+        computation = bench.computation(
+            order, turns=self._site.turns, report=report, publish=publish
+        )
+        self._end_work()
+        self._work = Job(computation.run, failed=lambda error: self._fail(request, error))
+
+    def _open(self, make: Callable[[Stage], Body], name: str) -> None:
+        """Begins to make a body of a name; the page gets it when it is there."""
+        self._end_work()
+        self._bench = None
+        self._models.clear()
+        empty = self._empty()
+        self._emit(replace(empty, kind="reading", name=name))
+        report = Reporter(self._tell, 0)
+
+        def work() -> None:
+            try:
+                body = make(report.tell)
+                check_stop()
+                bench = Bench(body, self._models)
+                self._meshes += 1
+                self._bench = bench
+                self._emit(bench.begin(empty, mesh=self._address("mesh", self._meshes)))
+            except BaseException:
+                self._emit(empty)
+                raise
+
+        self._work = Job(work, failed=lambda error: self._fail(0, error))
+
+    def _end_work(self) -> None:
+        if self._work is not None:
+            self._work.stop()
+            self._work.wait(STOP_SECONDS)
+
+    def _tell(self, message: messages.ServerMessage) -> None:
+        """Of a job: sends a message, unless it was told to stop."""
+        check_stop()
+        self._emit(message)
+
+    def _fail(self, request: int, error: Exception) -> None:
+        if isinstance(error, MemoryError):
+            text = "the memory of this machine is used up; take fewer samples or a coarser mesh"
+        elif isinstance(error, ValueError):
+            text = str(error)
+        else:
+            logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
+            text = (
+                f"the server has a fault ({type(error).__name__}: {error}); its output tells more"
+            )
+        self._emit(messages.Failed(request=request, message=text.replace("\n", " ")))
+
+    def _address(self, what: str, number: int) -> str:
+        return f"{what}/{self.id}/{number}?token={self._site.token}"
+
+    def _empty(self) -> messages.Workspace:
+        return messages.Workspace(
+            id=self.id,
+            kind="empty",
+            name=self._site.title,
+            mesh=None,
+            up=self._site.up,
+            handles=(),
+            translation=(0.0, 0.0, 0.0),
+            angle=(0.0, 0.0, 0.0),
+            diagonal=0.0,
+            samples=SAMPLES,
+            dimension=DIMENSION,
+            seed=0,
+            stiffness=1000.0,
+            poisson=None,
+            folder=str(self._site.folder),
+            upload_limit=self._site.upload_limit,
+        )

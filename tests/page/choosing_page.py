@@ -1,0 +1,86 @@
+"""The page on which handles are chosen, as its user sees it."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .pages import SECONDS, Page, Point
+
+
+def places(page: Page) -> NDArray[np.float64]:
+    """Where the vertices are in the window, (n, 2)."""
+    script = "[...Array(snapspace.choosing.mesh.shape.length / 3).keys()].flatMap(snapspace.screen)"
+    return np.array(page.run(script)).reshape(-1, 2)
+
+
+def selected(page: Page) -> set[int]:
+    return set(page.run("snapspace.selected"))
+
+
+def handles(page: Page) -> dict[str, set[int]]:
+    found = page.run("snapspace.handles")
+    return {handle["name"]: set(handle["vertices"]) for handle in found}
+
+
+def stroke(page: Page, *points: Point, key: str | None = None, button: str = "left") -> None:
+    """Presses at the first point, goes along the others and lets go."""
+    mouse, keyboard = page.page.mouse, page.page.keyboard
+    if key:
+        keyboard.down(key)
+    mouse.move(*points[0])
+    mouse.down(button=button)
+    for point in points[1:]:
+        mouse.move(*point, steps=5)
+    mouse.up(button=button)
+    if key:
+        keyboard.up(key)
+    page.settle()
+
+
+def tool(page: Page, name: str) -> None:
+    page.page.get_by_role("radio", name=name, exact=True).click()
+
+
+def press(page: Page, name: str) -> None:
+    page.page.get_by_role("button", name=name, exact=True).click()
+
+
+def make_handle(page: Page, name: str) -> None:
+    """The selection becomes a handle, and its name is typed at once."""
+    press_new = page.page.get_by_role("button", name="New handle")
+    press_new.first.click()
+    page.page.keyboard.type(name)
+    page.page.keyboard.press("Enter")
+
+
+def ends_as_handles(page: Page) -> None:
+    """The ends of a bar along x become the handles foot and head, by box and lasso."""
+    x, y = places(page).T
+    left, right, top, bottom = x.min(), x.max(), y.min(), y.max()
+    quarter = 0.2 * (right - left)
+    tool(page, "Box")
+    stroke(page, (left - 5, top - 5), (left + quarter, bottom + 5))
+    make_handle(page, "foot")
+    tool(page, "Lasso")
+    edge = right - quarter
+    corners = [(edge, top - 5), (right + 5, top - 5), (right + 5, bottom + 5), (edge, bottom + 5)]
+    stroke(page, *corners)
+    make_handle(page, "head")
+
+
+def set_number(page: Page, label: str, value: int) -> None:
+    """Types a number among the motions and samples."""
+    field = page.page.get_by_label(label)
+    if not field.is_visible():
+        page.page.locator("summary").click()
+    field.fill(str(value))
+
+
+def wait_for_text(page: Page, selector: str, text: str) -> None:
+    end = time.monotonic() + SECONDS
+    while text not in (found := page.text(selector)):
+        assert time.monotonic() < end, f"no '{text}' in: {found}"
+        page.page.wait_for_timeout(20)

@@ -1,0 +1,179 @@
+"""Tools that select, and the list of handles, in a browser with the real server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from snapspace.generators import bar
+from snapspace.mesh import TetMesh, write_tets
+
+from .choosing_page import (
+    ends_as_handles,
+    handles,
+    make_handle,
+    places,
+    press,
+    selected,
+    stroke,
+    tool,
+)
+from .pages import OpenPage, Page
+from .serving import served
+
+MESH = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("choosing")
+    write_tets(folder / "bar.mesh", MESH)
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        yield address
+
+
+@pytest.fixture
+def page(address: str, opened: OpenPage) -> Page:
+    page: Page = opened(address)
+    page.wait("Boolean(snapspace.ready)")  # at first it tells that the mesh is read
+    assert page.run("snapspace.kind") == "choosing"
+    return page
+
+
+def within(page: Page, low: tuple[float, float], high: tuple[float, float]) -> set[int]:
+    inside = ((places(page) >= low) & (places(page) <= high)).all(axis=1)
+    return set(np.flatnonzero(inside).tolist())
+
+
+def surface_of(mesh: TetMesh) -> set[int]:
+    return set(mesh.surface_vertices.tolist())
+
+
+def test_a_box_takes_what_lies_in_it_and_a_lasso_too(page: Page) -> None:
+    x, y = places(page).mean(axis=0)
+    low, high = (x - 70, y - 60), (x + 10, y + 60)
+    expected = within(page, low, high)
+    assert 0 < len(expected) < len(MESH.vertices) and not expected <= surface_of(MESH)
+    tool(page, "Box")
+    stroke(page, high, low)
+    assert selected(page) == expected
+    stroke(page, low, (low[0] + 30, high[1]), key="Alt")
+    assert selected(page) == within(page, (low[0] + 30.001, low[1]), high)
+    press(page, "Clear")
+    assert not selected(page)
+    tool(page, "Lasso")
+    stroke(page, low, (high[0], low[1]), high, (low[0], high[1]))
+    assert selected(page) == expected
+    for key, count in (("z", 0), ("Shift+Z", len(expected))):
+        page.page.keyboard.press(f"Control+{key}")
+        assert len(selected(page)) == count
+
+
+def test_only_what_is_seen(page: Page) -> None:
+    tool(page, "Box")
+    tool(page, "Seen only")
+    stroke(page, (3, 3), (500, 470))
+    seen = selected(page)
+    # the camera looks from +x, -y (the page's front) and +z: these sides of the bar are seen
+    x, y, z = MESH.vertices.T
+    front = (x == x.max()) | (y == y.min()) | (z == z.max())
+    assert seen == set(np.flatnonzero(front).tolist())
+    assert seen < surface_of(MESH)
+
+
+def test_the_brush_paints_a_ball_also_inside(page: Page) -> None:
+    x, y = places(page)[np.argmin(((MESH.vertices - (2.0, -0.5, 0.5)) ** 2).sum(axis=1))]
+    stroke(page, (x, y))
+    center = page.run("([x, y]) => snapspace.choosing.hit([x, y])", [x, y])
+    away = np.linalg.norm(MESH.vertices - center, axis=1)
+    assert selected(page) == set(np.flatnonzero(away <= 0.05 * MESH.diagonal).tolist())
+    for _ in range(8):
+        page.page.keyboard.press("]")
+    stroke(page, (x, y), (x + 60, y + 8))
+    painted = selected(page)
+    assert not painted <= surface_of(MESH)
+    stroke(page, (x + 60, y + 8), key="Alt")
+    assert selected(page) < painted
+    assert page.run("document.querySelector('.ring').style.display") != "none"
+
+
+def test_keys_paint_without_a_pointer(page: Page) -> None:
+    page.page.locator("canvas").focus()
+    for key in ("ArrowUp", "ArrowLeft", " ", "ArrowRight", " "):
+        page.page.keyboard.press(key)
+    assert selected(page)
+    page.page.keyboard.press("Enter")
+    assert list(handles(page)) == ["handle 1"]
+    page.page.keyboard.press("Escape")
+    page.page.keyboard.press("x")
+    assert page.run("snapspace.choosing.tool") == "box"
+
+
+def test_the_right_button_and_a_drag_beside_look_around(page: Page) -> None:
+    camera = "snapspace.stage.camera.position.toArray()"
+    before = page.run(camera)
+    tool(page, "Box")
+    stroke(page, (200, 200), (260, 220), button="right")
+    after = page.run(camera)
+    assert after != before and not selected(page)
+    tool(page, "Brush")
+    stroke(page, (20, 460), (80, 450))
+    assert page.run(camera) != after and not selected(page)
+
+
+def test_a_vertex_belongs_to_one_handle(page: Page) -> None:
+    ends_as_handles(page)
+    before = handles(page)
+    assert set(before) == {"foot", "head"}
+    assert (
+        page.run("[...document.querySelectorAll('.handles button')].map((b) => b.ariaPressed)")[1]
+        == "true"
+    ), "the first one is fixed"
+    tool(page, "Box")
+    stroke(page, (3, 3), (500, 470))
+    make_handle(page, "all")
+    assert set(handles(page)) == {"all"} and len(handles(page)["all"]) == len(MESH.vertices)
+    press(page, "Undo")
+    press(page, "Undo")
+    assert handles(page) == before
+    name = page.page.get_by_label("Name of the handle").first
+    name.fill("head")
+    name.press("Enter")
+    assert "There is a handle head already." in page.text("#panel")
+    assert handles(page) == before
+    press(page, "Delete head")
+    assert "part to move" in page.text("#panel")
+    assert page.page.get_by_role("button", name="Compute").is_disabled()
+
+
+def test_a_finger_paints_and_two_look(address: str, opened: OpenPage) -> None:
+    page = opened(address, size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark")
+    page.wait("Boolean(snapspace.ready)")
+    touch = page.page.context.new_cdp_session(page.page)
+
+    def send(kind: str, *points: tuple[float, float]) -> None:
+        touches = [{"x": px, "y": py, "id": i} for i, (px, py) in enumerate(points)]
+        touch.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": touches})
+        page.settle()
+
+    x, y = places(page).mean(axis=0)
+    send("touchStart", (x, y))
+    send("touchMove", (x + 10, y))
+    send("touchEnd")
+    painted = selected(page)
+    assert painted
+    camera = "snapspace.stage.camera.position.toArray()"
+    before = page.run(camera)
+    send("touchStart", (x + 30, y))
+    send("touchStart", (x + 30, y), (x + 80, y))
+    for step in range(1, 5):
+        send("touchMove", (x + 30 + 8 * step, y), (x + 80 + 8 * step, y))
+    send("touchEnd")
+    assert page.run(camera) != before
+    assert selected(page) == painted, "what the first finger began is forgotten"
+    page.page.locator("button.floating").tap()
+    assert handles(page) == {"handle 1": painted}
+    assert page.run("document.documentElement.dataset.theme") == "dark"
+    assert page.run("document.querySelector('#panel').scrollWidth") == 390

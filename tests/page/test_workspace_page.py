@@ -1,0 +1,195 @@
+"""From a mesh to a saved model, in a browser with the real server."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel, load, read_problem
+from snapspace.generators import bar, creature
+from snapspace.mesh import write_tets
+
+from .choosing_page import ends_as_handles, handles, press, set_number, wait_for_text
+from .pages import SECONDS, OpenPage, Page
+from .serving import served
+from .test_posing_page import assert_shown
+
+BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+CREATURE = creature(5_000)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("workspace")
+    write_tets(folder / "bar.mesh", BAR)
+    write_tets(folder / "creature.mesh", CREATURE)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path, chromium: object) -> Iterator[str]:
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        yield address
+
+
+@pytest.fixture(scope="module")
+def empty(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
+    """A server without a mesh."""
+    with served(cwd=tmp_path_factory.mktemp("empty")) as address:
+        yield address
+
+
+@pytest.fixture
+def page(address: str, opened: OpenPage) -> Page:
+    page: Page = opened(address, size=(1000, 640))
+    page.wait("snapspace.kind === 'choosing'")
+    ends_as_handles(page)
+    return page
+
+
+def compute(page: Page, samples: int = 40, dimension: int = 16) -> None:
+    set_number(page, "Samples", samples)
+    set_number(page, "Dimensions", dimension)
+    press(page, "Compute")
+
+
+def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> None:
+    chosen = handles(page)
+    press(page, "Range")
+    page.page.get_by_label("Turn, plus or minus").first.fill("30")
+    compute(page, samples=1000, dimension=30)
+    page.wait("snapspace.kind === 'posing'")
+    wait_for_text(page, "#panel", "Ready to pose, and improving")
+    first = page.run("snapspace.session.model.dimension")
+    assert first < 30
+    x, y = page.run("snapspace.handle(1)")
+    mouse = page.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 30, y - 30, steps=4)
+    page.settle()
+    before = page.motions()[1][1]
+    assert np.linalg.norm(before) > 0.02
+    page.wait("snapspace.session.model.dimension === 30")
+    assert page.motions()[1][1] == before, "the drag went on where it was"
+    mouse.move(x + 50, y - 40, steps=4)
+    mouse.up()
+    page.settle()
+    assert np.linalg.norm(np.subtract(page.motions()[1][1], before)) > 0.01
+    wait_for_text(page, "#panel", "Done in")
+    press(page, "Save")
+    wait_for_text(page, "#panel", f"in {folder}")
+
+    problem = read_problem(folder / "bar.json")
+    found = {handle.name: set(handle.vertices.tolist()) for handle in problem.handles}
+    assert found == chosen and problem.handles.names[0] == "foot"
+    np.testing.assert_allclose(problem.domain.half_widths[3:], np.deg2rad(30.0))
+    model = load(folder / "bar.snapspace")
+    assert isinstance(model, PosingModel) and model.dimension == 30
+    press(page, "Polish")  # off: the live shape
+    assert_shown(model, page)
+
+    press(page, "Choose handles")
+    assert handles(page) == chosen
+    press(page, "Pose")
+    page.wait("snapspace.kind === 'posing'")
+
+
+def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
+    compute(page, samples=20_000)
+    page.wait("snapspace.kind === 'posing'")
+    press(page, "Cancel")
+    cancel = page.page.get_by_role("button", name="Cancel")
+    cancel.wait_for(state="hidden", timeout=1000 * SECONDS)
+    page.drag(page.run("snapspace.handle(1)"), 30, -20)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02, "what there is can be posed"
+    press(page, "Choose handles")
+    compute(page)
+    wait_for_text(page, "#panel", "40 samples")
+
+
+def test_what_the_server_refuses_is_told(page: Page) -> None:
+    page.page.locator("summary").click()
+    for label in ("Travel", "Turn"):
+        page.page.get_by_label(f"{label}, plus or minus").last.fill("0")
+    press(page, "Compute")
+    page.wait("document.querySelector('.fault').innerText !== ''")
+    assert page.run("document.querySelector('.fault').role") == "alert"
+    assert "zero" in page.text(".fault")
+    assert page.run("snapspace.kind") == "choosing"
+
+
+def test_two_pages_do_not_disturb_each_other(page: Page, address: str, opened: OpenPage) -> None:
+    other = opened(address)
+    other.wait("snapspace.kind === 'choosing'")
+    assert handles(other) == {}
+    ends_as_handles(other)
+    name = other.page.get_by_label("Name of the handle").last
+    name.fill("hand")
+    name.press("Enter")
+    compute(page)
+    compute(other)
+    for one, names in ((page, ["foot", "head"]), (other, ["foot", "hand"])):
+        one.wait("snapspace.kind === 'posing'")
+        wait_for_text(one, "#panel", "Done in")
+        assert one.run("snapspace.session.model.handles.map(({ name }) => name)") == names
+
+
+def test_a_problem_shows_its_handles(folder: Path, opened: OpenPage) -> None:
+    x = BAR.vertices[:, 0]
+    vertices = {"low": np.flatnonzero(x < 0.5), "high": np.flatnonzero(x > 3.5)}
+    content = {
+        "mesh": "bar.mesh",
+        "stiffness": 200.0,
+        "domain": {"translation": 0.4, "angle_degrees": 20},
+        "handles": [{"name": name, "vertices": v.tolist()} for name, v in vertices.items()],
+    }
+    path = folder / "given.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+    with served(path, cwd=folder) as address:
+        page = opened(address)
+        page.wait("snapspace.kind === 'choosing'")
+        assert handles(page) == {name: set(v.tolist()) for name, v in vertices.items()}
+        page.page.locator("summary").click()
+        assert page.page.get_by_label("Handles' stiffness").input_value() == "200"
+        assert page.page.get_by_label("Turn, plus or minus").last.input_value() == "20"
+        assert page.page.get_by_role("button", name="Compute").is_enabled()
+
+
+def test_a_mesh_is_uploaded(empty: str, folder: Path, opened: OpenPage) -> None:
+    page = opened(empty)
+    assert "Drop a mesh here" in page.text("#message")
+    page.page.set_input_files("#message input", folder / "creature.mesh")
+    page.wait("snapspace.kind === 'choosing'")
+    assert page.text(".hud h1") == "creature"
+    assert f"{len(CREATURE.vertices):,} vertices" in page.text(".hud")
+
+
+def test_a_bad_mesh_is_told(empty: str, tmp_path: Path, opened: OpenPage, folder: Path) -> None:
+    bad = tmp_path / "bad.mesh"
+    bad.write_text("MeshVersionFormatted 2\nDimension 3\nVertices\n4\n0 0 0 0\n", encoding="utf-8")
+    page = opened(empty)
+    page.page.set_input_files("#message input", bad)
+    page.wait("Boolean(document.querySelector('#message [role=alert]'))")
+    assert "bad.mesh" in page.text("#message")
+    page.page.set_input_files("#message input", folder / "bar.mesh")
+    page.wait("snapspace.kind === 'choosing'")
+
+
+def test_the_end_of_the_server_is_told_and_posing_goes_on(folder: Path, opened: OpenPage) -> None:
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        page = opened(address)
+        page.wait("snapspace.kind === 'choosing'")
+        ends_as_handles(page)
+        compute(page)
+        page.wait("snapspace.kind === 'posing'")
+        wait_for_text(page, "#panel", "Done in")
+    wait_for_text(page, "#panel", "No connection to the server")
+    page.drag(page.run("snapspace.handle(1)"), 30, -20)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    assert all("WebSocket connection" in fault for fault in page.faults)
+    page.faults.clear()

@@ -1,0 +1,326 @@
+"""Real servers and real websockets: from handles to models, and all that may come between."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+
+from snapspace import HandleBox, Handles, PosingProblem, load, read_problem, write_tets
+from snapspace.generators import bar
+from snapspace.mesh import write_surface
+from snapspace.problem import problem_content
+
+from .running import PATIENCE, Message, Page, Running
+
+MESH = bar(16, 3, 3)
+ENDS = {"foot": MESH.vertices[:, 0] < 0.1, "head": MESH.vertices[:, 0] > 3.9}
+REST = {"rotation": [1, 0, 0, 0, 1, 0, 0, 0, 1], "translation": [0, 0, 0]}
+LONG = {"samples": 20_000, "dimension": 20, "seed": 0, "stiffness": 1000.0}
+SHORT = {"samples": 40, "dimension": 8, "seed": 0, "stiffness": 1000.0}
+
+
+def running(*arguments: str | Path) -> Iterator[Running]:
+    server = Running(*arguments)
+    yield server
+    server.kill()
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("live")
+    write_tets(made / "mesh.msh", MESH)
+    problem = PosingProblem(
+        MESH,
+        Handles(list(ENDS.values()), names=list(ENDS)),
+        domain=HandleBox(translation=0.4, angle=0.5),
+    )
+    (made / "bar.json").write_text(json.dumps(problem_content(problem, "mesh.msh")))
+    return made
+
+
+@pytest.fixture(scope="module")
+def server(folder: Path) -> Iterator[Running]:
+    yield from running(folder / "bar.json")
+
+
+@pytest.fixture
+def page(server: Running) -> Iterator[Page]:
+    with server.page() as opened:
+        yield opened
+
+
+@pytest.fixture(scope="module")
+def empty() -> Iterator[Running]:
+    yield from running("--upload-limit", "1")
+
+
+def first_stage(page: Page) -> Message:
+    """The first progress of samples that are solved."""
+    while (progress := page.take("progress", "failed")).get("done") == 0:
+        pass
+    return progress
+
+
+def test_a_page_begins_with_the_problem_of_the_file(
+    server: Running, page: Page, folder: Path
+) -> None:
+    told = page.workspace()
+    assert (told["kind"], told["name"], told["folder"]) == ("mesh", "bar", str(folder))
+    assert told["translation"] == [0.4] * 3 and told["angle"] == pytest.approx([0.5] * 3)
+    assert told["diagonal"] == pytest.approx(MESH.diagonal)
+    for handle, (name, mask) in zip(told["handles"], ENDS.items(), strict=True):
+        assert handle["name"] == name and handle["moving"] == (name == "head")
+        assert handle["vertices"] == np.flatnonzero(mask).tolist()
+    arrays = server.fetch(told["mesh"])
+    np.testing.assert_array_equal(arrays["vertices"], MESH.vertices.astype(np.float32))
+    np.testing.assert_array_equal(arrays["faces"], MESH.surface)
+
+
+def test_models_come_and_become_better(server: Running, page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=5, **SHORT)
+    models = [page.take("model", "failed"), page.take("model", "failed")]
+    assert [model["final"] for model in models] == [False, True], models
+    assert [model["number"] for model in models] == [1, 2]
+    assert [model["samples"] for model in models] == [32, 40]
+    for model in models:
+        assert model["request"] == 5 and model["error"] > 0
+        assert len(server.fetch(model["address"])["space_scales"]) == model["dimension"] == 8
+    stages = [message["stage"] for message in page.seen if message["type"] == "progress"]
+    assert list(dict.fromkeys(stages)) == ["snapshots", "subspace", "energy"]
+    status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
+    assert status == 404 and b"not kept any more" in text
+
+
+def test_chosen_handles_come_back_in_the_models_order(server: Running, page: Page) -> None:
+    workspace = page.workspace()
+    foot, head = workspace["handles"]
+    ranges = {"translation": workspace["translation"], "angle": workspace["angle"]}
+    chosen = page.ask("choose", "chosen", request=2, handles=[head, foot], **ranges)
+    assert chosen["handles"] == ["foot", "head"]
+    page.send("choose", request=3, handles=[{**foot, "moving": True}, head], **ranges)
+    refused = page.take("failed", "chosen")
+    assert refused["request"] == 3 and "mark one as fixed" in refused["message"]
+    page.send("compute", request=4, **SHORT)
+    assert page.take("model", "failed")["type"] == "model", "the last good choice still holds"
+
+
+def test_cancel_keeps_what_is_solved(server: Running, page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=1, **LONG)
+    model = page.take("model", "failed")
+    first_stage(page)
+    begin = time.perf_counter()
+    page.ask("cancel", "cancelled", request=2)
+    assert time.perf_counter() - begin < 2.0  # some 0.1 s on a machine with nothing else to do
+    assert server.fetch(model["address"])["space_scales"].size == model["dimension"]
+    page.seen.clear()
+    page.send("compute", request=3, **{**LONG, "samples": 40})
+    better = page.take("model", "failed")
+    assert better["type"] == "model" and better["final"], "the first model is there already"
+    assert {message["request"] for message in page.seen} == {3}
+    assert page.ask("cancel", "cancelled", request=4), "also if nothing runs"
+
+
+def test_progress_comes_some_ten_times_a_second(page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=1, **LONG)
+    page.take("model", "failed")
+    first_stage(page)
+    page.seen.clear()
+    begin = time.perf_counter()
+    while time.perf_counter() - begin < 1.0:
+        progress = page.take("progress")
+        page.seen.append(progress)
+        assert progress["stage"] == "snapshots" and progress["total"] == 20_000 // 3
+    assert 1 <= len(page.seen) <= 13
+    assert page.seen[-1]["eta"] > 0
+
+
+def test_another_page_waits_for_its_turn(server: Running, page: Page) -> None:
+    page.workspace()
+    with server.page() as other:
+        other.workspace()
+        page.send("compute", request=1, **LONG)
+        first_stage(page)
+        other.send("compute", request=2, **SHORT)
+        waiting = other.take("progress", "model", "failed")
+        assert (waiting["stage"], waiting["request"]) == ("waiting", 2)
+        page.ask("cancel", "cancelled")
+        assert other.take("model", "failed")["type"] == "model"
+
+
+def test_a_page_that_is_closed_ends_its_computation(server: Running) -> None:
+    with server.page() as gone:
+        gone.workspace()
+        gone.send("compute", request=1, **LONG)
+        first_stage(gone)
+    with server.page() as next_one:
+        next_one.workspace()
+        next_one.send("compute", request=1, **SHORT)
+        assert next_one.take("model", "failed")["type"] == "model"
+
+
+def test_a_new_computation_replaces_the_one_that_runs(page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=1, **LONG)
+    first_stage(page)
+    page.send("compute", request=2, **SHORT)
+    while (message := page.take("model", "failed"))["request"] != 2:
+        pass
+    assert message["type"] == "model"
+
+
+def test_errors_are_answers(page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=7, **{**SHORT, "dimension": 41})
+    assert "raise the samples or lower the dimension" in page.take("failed")["message"]
+    page.send("compute", request=7, **{**SHORT, "poisson": 0.5})
+    assert "must be from 0 to below 0.5" in page.take("failed")["message"]
+    page.send("polish", request=8, model=3, q=[0.0])
+    assert page.take("failed") == {
+        "type": "failed",
+        "request": 8,
+        "message": "model 3 is not kept any more; take the newest one",
+    }
+    page.socket.send('{"type": "evil", "request": 9}')
+    refused = page.take("failed")
+    assert refused["request"] == 9 and "known are choose, compute" in refused["message"]
+    page.socket.send(b"binary")
+    assert "must be text" in page.take("failed")["message"]
+
+
+def test_too_large_a_message_ends_the_connection_only(server: Running, page: Page) -> None:
+    page.workspace()
+    with pytest.raises(ConnectionClosed):
+        page.socket.send(" " * (16 * 2**20 + 1))
+        page.take("failed")
+    with server.page() as other:
+        assert other.workspace()["kind"] == "mesh"
+
+
+def test_polish_gives_the_shape_and_only_the_newest(server: Running, page: Page) -> None:
+    page.workspace()
+    page.send("compute", request=1, **SHORT)
+    while not (model := page.take("model", "failed"))["final"]:
+        pass
+    frame: dict[str, Any] = {
+        "model": model["number"],
+        "handles": [REST, {**REST, "translation": [0.2, 0.1, 0.0]}],
+        "q": [0.0] * 8,
+    }
+    for request in (2, 3, 4):
+        page.send("polish", request=request, iterations=200, **frame)
+    while (done := page.take("polished", "failed"))["request"] != 4:
+        assert done["type"] == "polished"
+    assert done["status"] == "converged"
+    content = page.frames[-1]
+    assert np.frombuffer(content[:4], "<i4")[0] == 4
+    surface = np.frombuffer(content[4:], "<f4").reshape(-1, 3)
+    head = np.isin(MESH.surface_vertices, np.flatnonzero(ENDS["head"]))
+    rest = MESH.vertices[MESH.surface_vertices]
+    np.testing.assert_allclose((surface - rest)[head].mean(axis=0), [0.2, 0.1, 0.0], atol=0.02)
+
+
+def test_files_are_saved_beside_the_mesh(server: Running, page: Page, folder: Path) -> None:
+    page.workspace()
+    page.send("compute", request=1, **SHORT)
+    while not page.take("model", "failed")["final"]:
+        pass
+    saved = page.ask("save", "saved", request=2, name=None)
+    assert saved["problem"] == str(folder / "bar-2.json"), "bar.json is the user's"
+    assert read_problem(saved["problem"]).handles.names == ("foot", "head")
+    assert load(saved["model"]).dimension == 8 and saved["mesh"] is None
+    page.send("save", request=3, name="../bar")
+    assert "no plain file name" in page.take("failed")["message"]
+
+
+@pytest.mark.parametrize(
+    "stranger", [{"Origin": "http://evil.example"}, {"Origin": "null"}, {"token": "token=x"}]
+)
+def test_strangers_get_no_websocket(server: Running, stranger: dict[str, str]) -> None:
+    with pytest.raises(InvalidStatus, match="403"), server.page(**stranger):
+        pass
+
+
+def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) -> None:
+    thin = bar(16, 1, 1, width=0.25, height=0.25)  # few tets, soon filled
+    write_surface(tmp_path / "bar.ply", thin.vertices, thin.surface)
+    content = (tmp_path / "bar.ply").read_bytes()
+    with empty.page() as page:
+        told = page.take("workspace")
+        assert (told["kind"], told["mesh"], told["upload_limit"]) == ("empty", None, 2**20)
+        assert empty.upload(told["id"], "../b/drop me.ply", content) == (202, "")
+        told = page.workspace()
+        assert (told["kind"], told["name"]) == ("mesh", "drop me")
+        stages = [m["stage"] for m in page.seen if m["type"] == "progress"]
+        assert stages[-1] == "filling"
+        x = empty.fetch(told["mesh"])["vertices"][:, 0]
+        handles = [
+            {"name": "foot", "vertices": np.flatnonzero(x < 0.2).tolist(), "moving": False},
+            {"name": "head", "vertices": np.flatnonzero(x > 3.8).tolist()},
+        ]
+        ranges = {"translation": told["translation"], "angle": told["angle"]}
+        page.ask("choose", "chosen", handles=handles, **ranges)
+        page.send("compute", **{**SHORT, "stiffness": told["stiffness"], "poisson": 0.4})
+        assert page.take("model", "failed")["type"] == "model"
+
+
+def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: Path) -> None:
+    # the finest surface below the limit takes fTetWild many seconds
+    fine = bar(24, 12, 12)
+    write_surface(tmp_path / "fine.stl", fine.vertices, fine.surface)
+    with empty.page() as page:
+        told = page.take("workspace")
+        assert empty.upload(told["id"], "fine.stl", (tmp_path / "fine.stl").read_bytes())[0] == 202
+        while page.take("progress")["stage"] != "filling":
+            pass
+        page.send("compute", **SHORT)
+        assert "wait until it is read" in page.take("failed")["message"]
+        page.ask("cancel", "cancelled", request=3)
+        assert [m["kind"] for m in page.seen if m["type"] == "workspace"][-1] == "empty"
+
+
+def test_what_is_no_mesh_is_refused(empty: Running, server: Running) -> None:
+    with empty.page() as page:
+        told = page.take("workspace")
+        status, text = empty.upload(told["id"], "x.obj", b"0" * (2**20 + 1))
+        assert status == 413 and "more than 1 MB; raise --upload-limit" in text
+        assert empty.upload(told["id"], "x.exe", b"0")[0] == 415
+        assert empty.upload("another", "x.obj", b"0")[0] == 404
+        assert empty.upload(told["id"], "x.obj", b"hello")[0] == 202
+        assert page.take("failed") == {
+            "type": "failed",
+            "request": 0,
+            "message": "x.obj: it has no faces (0 vertices)",
+        }
+        page.send("save", request=4)
+        assert "there is no mesh yet" in page.take("failed")["message"]
+
+
+def test_ctrl_c_ends_computations_and_pages(folder: Path) -> None:
+    server = Running(folder / "mesh.msh", "--port", "0")
+    with server.page() as page:
+        told = page.workspace()
+        assert told["handles"] == [] and told["kind"] == "mesh"
+        handles = [
+            {"name": name, "vertices": np.flatnonzero(mask).tolist(), "moving": name == "head"}
+            for name, mask in ENDS.items()
+        ]
+        ranges = {"translation": told["translation"], "angle": told["angle"]}
+        page.ask("choose", "chosen", handles=handles, **ranges)
+        page.send("compute", **LONG)
+        first_stage(page)
+        begin = time.perf_counter()
+        code, rest = server.stop()
+        assert code == 0 and rest.splitlines()[-1] == "snapspace: stopped"
+        assert time.perf_counter() - begin < PATIENCE / 10
+        with pytest.raises(ConnectionClosed):
+            page.take("failed")

@@ -1,0 +1,112 @@
+"""What a page saves is complete, readable, and never over another file."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from snapspace import PosingModel, PosingProblem, load, read_problem, write_tets
+from snapspace.server.body import Body, mesh_body
+from snapspace.server.messages import Saved
+from snapspace.server.saving import Savings, checked_name, plain_name
+
+
+@pytest.fixture
+def body(posing_model: PosingModel, tmp_path: Path) -> Body:
+    path = tmp_path / "bar.msh"
+    write_tets(path, posing_model.problem.mesh)
+    return mesh_body(path, stage=lambda stage: None)
+
+
+def saved(
+    savings: Savings, body: Body, model: PosingModel, *, name: str | None = None, whole: bool = True
+) -> Saved:
+    return savings.save(body, model.problem, model if whole else None, name=name, request=1)
+
+
+def assert_same(a: PosingProblem, b: PosingProblem) -> None:
+    assert a.mesh.fingerprint == b.mesh.fingerprint and a.stiffness == b.stiffness
+    assert [h.vertices.tolist() for h in a.handles] == [h.vertices.tolist() for h in b.handles]
+    assert a.handles.names == b.handles.names
+    assert a.domain.half_widths == pytest.approx(b.domain.half_widths)  # in degrees on the way
+
+
+def test_problem_and_model_are_read_again(body: Body, posing_model: PosingModel) -> None:
+    done = saved(Savings(), body, posing_model)
+    assert done.mesh is None, "it lies there already"
+    assert done.problem is not None and done.model is not None
+    assert_same(read_problem(done.problem), posing_model.problem)
+    assert load(done.model).dimension == posing_model.dimension
+
+
+def test_a_mesh_that_is_in_no_file_is_saved_too(posing_model: PosingModel, tmp_path: Path) -> None:
+    filled = Body(name="filled", mesh=posing_model.problem.mesh, file=None, folder=tmp_path)
+    done = saved(Savings(), filled, posing_model, whole=False)
+    assert (done.mesh, done.model) == (str(tmp_path / "filled.msh"), None)
+    assert done.problem is not None
+    assert_same(read_problem(done.problem), posing_model.problem)
+
+
+def test_own_files_are_replaced_and_others_never(body: Body, posing_model: PosingModel) -> None:
+    savings, folder = Savings(), body.folder
+    foreign = folder / "bar.snapspace"
+    foreign.write_text("somebody's")
+    first = saved(savings, body, posing_model)
+    assert first.problem == str(folder / "bar-2.json")
+    assert first.model == str(folder / "bar-2.snapspace")
+    assert saved(savings, body, posing_model) == first, "one's own is replaced"
+    assert foreign.read_text() == "somebody's" and not (folder / "bar.json").exists()
+    other = saved(Savings(), body, posing_model)
+    assert other.problem == str(folder / "bar-3.json"), "another page's is not"
+    edited = folder / "bar-2.json"
+    edited.write_text("edited by hand")
+    os.utime(edited, ns=(1, 1))
+    assert saved(savings, body, posing_model).problem == str(folder / "bar-4.json")
+    assert edited.read_text() == "edited by hand"
+
+
+def test_a_link_that_leads_elsewhere_is_not_followed(
+    body: Body, posing_model: PosingModel, tmp_path: Path
+) -> None:
+    outside = tmp_path / "outside.txt"
+    (body.folder / "bar.json").symlink_to(outside)
+    done = saved(Savings(), body, posing_model, whole=False)
+    assert done.problem == str(body.folder / "bar-2.json") and not outside.exists()
+
+
+def test_nothing_is_left_behind_where_nothing_can_be_written(
+    posing_model: PosingModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gone = Body(name="x", mesh=posing_model.problem.mesh, file=None, folder=tmp_path / "no")
+    with pytest.raises(ValueError, match=r"no: cannot be written to .*start the server in"):
+        saved(Savings(), gone, posing_model)
+    here = Body(name="x", mesh=posing_model.problem.mesh, file=None, folder=tmp_path)
+
+    def full(*_: object) -> None:
+        raise ValueError("disk full")
+
+    monkeypatch.setattr("snapspace.server.saving.write_tets", full)
+    with pytest.raises(ValueError, match="disk full"):
+        saved(Savings(), here, posing_model)
+    assert list(tmp_path.iterdir()) == []
+
+
+BAD_NAMES = ["", ".", "..", "../x", "a/b", "a\\b", "/etc/x", "C:x", ".hidden", "a\0b", "a\nb"]
+
+
+@pytest.mark.parametrize("name", [*BAD_NAMES, "nul", "COM1.x", "-x", "x" * 101])
+def test_a_name_is_a_plain_one(name: str) -> None:
+    with pytest.raises(ValueError, match="is no plain file name"):
+        checked_name(name)
+
+
+def test_other_names_are_kept_and_those_of_uploads_are_made_plain() -> None:
+    for name in ("dragon", "my dragon (2)", "Drache_ä-1.2+3"):
+        assert checked_name(name) == name == plain_name(name)
+    assert plain_name("../../etc/pass wd.obj") == "pass wd.obj"
+    assert plain_name("C:\\x\\y.obj") == "y.obj"
+    assert plain_name("a\0b:c|d.obj") == "a_b_c_d.obj"
+    assert plain_name("") == plain_name("..") == "mesh"
+    assert plain_name("x" * 300 + ".obj").endswith(".obj") and len(plain_name("x" * 300)) == 100

@@ -1,0 +1,136 @@
+"""One computation at a time, and one body for all pages."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from snapspace.generators import bar
+from snapspace.interruptible import Stopped, stoppable
+from snapspace.server.body import Body
+from snapspace.server.job import Job
+from snapspace.server.shared_body import SharedBody
+from snapspace.server.turns import Turns
+
+PATIENCE = 20.0
+
+
+def started(work: Callable[[], None], *, failed: Callable[[Exception], None] | None = None) -> Job:
+    def no_error(error: Exception) -> None:
+        raise error
+
+    return Job(work, failed=failed or no_error)
+
+
+def test_turns_come_in_order_and_never_two_at_once() -> None:
+    turns, order, inside = Turns(), [], []
+    waiting = [threading.Event() for _ in range(4)]
+    release = threading.Event()
+
+    def work(number: int) -> Callable[[], None]:
+        def run() -> None:
+            with turns.turn(lambda before: waiting[number].set()):
+                inside.append(number)
+                assert len(inside) == 1
+                if number == 0:
+                    waiting[0].set()
+                    assert release.wait(PATIENCE)
+                order.append(inside.pop())
+
+        return run
+
+    jobs = []
+    for number in range(4):
+        jobs.append(started(work(number)))
+        assert waiting[number].wait(PATIENCE)
+    release.set()
+    assert all(job.wait(PATIENCE) for job in jobs)
+    assert order == [0, 1, 2, 3]
+
+
+def test_who_waits_can_be_stopped_and_who_fails_lets_the_next_one_in() -> None:
+    turns = Turns()
+    told: list[int] = []
+    entered, release, waits = threading.Event(), threading.Event(), threading.Event()
+
+    def first() -> None:
+        with turns.turn(told.append):
+            entered.set()
+            assert release.wait(PATIENCE)
+            raise ValueError("broken")
+
+    def second() -> None:
+        with turns.turn(lambda before: waits.set()):
+            raise AssertionError("it was stopped before")
+
+    errors: list[Exception] = []
+    one = started(first, failed=errors.append)
+    assert entered.wait(PATIENCE)
+    two = started(second)
+    assert waits.wait(PATIENCE)
+    two.stop()
+    assert two.wait(PATIENCE)
+    release.set()
+    assert one.wait(PATIENCE) and str(errors[0]) == "broken"
+    with turns.turn(told.append):
+        assert not told
+
+
+def test_an_error_after_the_stop_is_not_told() -> None:
+    entered, release = threading.Event(), threading.Event()
+
+    def work() -> None:
+        entered.set()
+        assert release.wait(PATIENCE)
+        raise ValueError("of what was given up")
+
+    errors: list[Exception] = []
+    job = started(work, failed=errors.append)
+    assert entered.wait(PATIENCE) and job.running
+    job.stop()
+    release.set()
+    assert job.wait(PATIENCE) and not errors
+
+
+def test_all_pages_share_a_body_and_the_next_one_makes_it_if_the_first_is_stopped() -> None:
+    body = Body(name="bar", mesh=bar(2, 1, 1), file=None, folder=Path())
+    makers: list[str] = []
+    entered = threading.Event()
+
+    def make(stage: Callable[[str], None]) -> Body:
+        makers.append(threading.current_thread().name)
+        stage("filling")
+        if len(makers) == 1:
+            entered.set()
+            assert stop.wait(PATIENCE)
+            raise Stopped
+        return body
+
+    shared, stop, waits = SharedBody(make), threading.Event(), threading.Event()
+    first = started(lambda: void(shared.get(lambda stage: None)))
+    assert entered.wait(PATIENCE)
+    told: list[str] = []
+
+    def tell(stage: str) -> None:
+        told.append(stage)
+        waits.set()
+
+    second = started(lambda: void(shared.get(tell)))
+    assert waits.wait(PATIENCE)
+    stop.set()
+    assert first.wait(PATIENCE) and second.wait(PATIENCE)
+    assert told[0] == "waiting" and told[-1] == "filling"
+    assert shared.get(lambda stage: None) is body and len(makers) == 2
+
+
+def test_who_waits_for_a_body_can_be_stopped() -> None:
+    shared = SharedBody(lambda stage: pytest.fail("the lock is taken"))
+    with shared._lock, stoppable(lambda: True), pytest.raises(Stopped):
+        shared.get(lambda stage: None)
+
+
+def void(_: object) -> None:
+    """For functions whose result does not matter."""

@@ -1,0 +1,128 @@
+"""What a page leaves behind: nothing."""
+
+from __future__ import annotations
+
+import gc
+import threading
+import weakref
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from snapspace.server.body import Body
+from snapspace.server.messages import Compute, Failed, Model
+from snapspace.server.messages import Workspace as Opened
+from snapspace.server.shared_body import SharedBody
+from snapspace.server.site import Site
+from snapspace.server.workspace import Workspace
+
+from ..shapes import bar_problem
+
+PATIENCE = 60.0
+ORDER = Compute(request=1, samples=12, dimension=4, seed=0, stiffness=100.0)
+
+
+class Mailbox:
+    """Messages of a workspace, without a page."""
+
+    def __init__(self) -> None:
+        self.messages: list[object] = []
+        self._came = threading.Condition()
+
+    def put(self, *items: object) -> None:
+        with self._came:
+            self.messages.extend(items)
+            self._came.notify_all()
+
+    def wait_for(self, message: type, **fields: object) -> None:
+        def is_here() -> bool:
+            return any(
+                isinstance(m, message) and all(getattr(m, k) == v for k, v in fields.items())
+                for m in self.messages
+            )
+
+        with self._came:
+            assert self._came.wait_for(is_here, PATIENCE), self.messages
+
+
+@pytest.fixture
+def site(tmp_path: Path) -> Site:
+    problem = bar_problem()
+    body = Body(name="bar", mesh=problem.mesh, file=None, folder=tmp_path, problem=problem)
+    shared = SharedBody(lambda stage: body)
+    return Site(title="", up="z", token="t", folder=tmp_path, scratch=tmp_path, body=shared)
+
+
+@pytest.fixture
+def no_collector() -> Iterator[None]:
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+def test_a_closed_page_holds_no_memory(site: Site, no_collector: None) -> None:
+    """Not even until cycles are collected: samples are large, and objects that hold them few."""
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    workspace.receive(ORDER)
+    mailbox.wait_for(Model, final=True)
+    held = [weakref.ref(workspace._bench), weakref.ref(workspace._models.newest.model)]  # type: ignore[union-attr]
+    workspace.close()
+    assert [one() for one in held] == [None, None]
+
+
+def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: Site) -> None:
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    materials = []
+    for request, ratio in enumerate((None, 0.4, None), start=1):
+        workspace.receive(replace(ORDER, request=request, poisson=ratio))
+        mailbox.wait_for(Model, request=request, final=True)
+        assert workspace._models.newest is not None
+        materials.append(workspace._models.newest.model.problem.material)
+    workspace.close()
+    assert materials[0] == materials[2] == bar_problem().material
+    lam, mu = materials[1].lam, materials[1].mu
+    assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
+
+
+def test_a_fault_is_an_answer_and_leaves_a_trace(
+    site: Site, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise KeyError("a fault of ours")
+
+    monkeypatch.setattr("snapspace.server.computation.growing_models", broken)
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    workspace.receive(ORDER)
+    mailbox.wait_for(Failed, request=1)
+    workspace.close()
+    (failed,) = (m for m in mailbox.messages if isinstance(m, Failed))
+    assert failed.message.startswith("the server has a fault") and "\n" not in failed.message
+    assert "a fault of ours" in caplog.text and caplog.records[0].exc_info
+
+
+def test_an_empty_memory_is_told_with_its_cure(site: Site, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("snapspace.server.computation.growing_models", full)
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    workspace.receive(ORDER)
+    mailbox.wait_for(Failed, request=1)
+    workspace.close()
+    (failed,) = (m for m in mailbox.messages if isinstance(m, Failed))
+    assert "fewer samples or a coarser mesh" in failed.message

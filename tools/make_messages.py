@@ -1,0 +1,98 @@
+"""Writes web/engine/messages.ts, the messages of snapspace/server/messages.py for the page.
+
+Run after a change of the messages; a test compares the file with what this script would write.
+
+    python tools/make_messages.py [--check]
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import sys
+import types
+import typing
+from pathlib import Path
+
+from snapspace.server import messages
+
+PATH = Path(__file__).parent.parent / "web" / "engine" / "messages.ts"
+SIMPLE = {int: "number", float: "number", str: "string", bool: "boolean", type(None): "null"}
+ALIASES = {messages.Vector: "Vector", messages.Matrix: "Matrix"}
+
+NINE = ", ".join(["number"] * 9)
+HEAD = f"""\
+// Written by tools/make_messages.py from snapspace/server/messages.py.
+
+export type Vector = readonly [number, number, number];
+export type Matrix = readonly [{NINE}];
+"""
+
+
+def messages_text() -> str:
+    """The TypeScript module."""
+    parts = [HEAD]
+    parts += [_interface(part, tagged=False) for part in messages.PARTS]
+    parts += [_interface(each, tagged=True) for each in messages.FROM_PAGE + messages.FROM_SERVER]
+    parts += [_union("PageMessage", messages.FROM_PAGE)]
+    parts += [_union("ServerMessage", messages.FROM_SERVER)]
+    return "\n".join(parts)
+
+
+def _interface(message: type, *, tagged: bool) -> str:
+    lines = [_comment(message), f"export interface {message.__name__} {{"]
+    if tagged:
+        lines.append(f'  readonly type: "{messages.type_name(message)}";')
+    hints = typing.get_type_hints(message)
+    for field in dataclasses.fields(message):
+        optional = "?" if field.default is not dataclasses.MISSING else ""
+        lines.append(f"  readonly {field.name}{optional}: {_type(hints[field.name])};")
+    return "\n".join([*lines, "}\n"])
+
+
+def _type(hint: typing.Any) -> str:
+    if hint in SIMPLE:
+        return SIMPLE[hint]
+    if hint in ALIASES:
+        return ALIASES[hint]
+    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
+        return hint.__name__
+    arguments = typing.get_args(hint)
+    if isinstance(hint, types.UnionType) or typing.get_origin(hint) is typing.Union:
+        return " | ".join(_type(argument) for argument in arguments)
+    if typing.get_origin(hint) is tuple and len(arguments) == 2 and arguments[1] is Ellipsis:
+        return f"readonly {_type(arguments[0])}[]"
+    raise TypeError(f"make_messages: no TypeScript for {hint}")
+
+
+def _comment(message: type) -> str:
+    lines = inspect.getdoc(message).splitlines()  # type: ignore[union-attr]
+    if len(lines) == 1:
+        return f"/** {lines[0]} */"
+    body = [f" * {line}".rstrip() for line in lines[1:]]
+    return "\n".join([f"/** {lines[0]}", *body, " */"])
+
+
+def _union(name: str, members: tuple[type, ...]) -> str:
+    # one a line if they are longer than a line, as prettier breaks them
+    names = [member.__name__ for member in members]
+    line = f"export type {name} = {' | '.join(names)};"
+    if len(line) <= 110:
+        return line + "\n"
+    return "\n".join([f"export type {name} =", *(f"  | {each}" for each in names)]) + ";\n"
+
+
+def main() -> int:
+    """Writes the file; with --check says whether it is up to date."""
+    if "--check" not in sys.argv[1:]:
+        PATH.write_text(messages_text(), encoding="utf-8")
+        print(f"wrote {PATH}")
+        return 0
+    if PATH.read_text(encoding="utf-8") == messages_text():
+        return 0
+    print("make_messages: web/engine/messages.ts is not up to date; run tools/make_messages.py")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

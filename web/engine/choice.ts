@@ -1,0 +1,133 @@
+import type { HandleChoice, Vector } from "./messages.ts";
+import { union, without } from "./selecting.ts";
+
+/** Half widths of the sampled motions per axis; null where the common ones hold. */
+export interface Ranges {
+  readonly translation: Vector | null;
+  readonly angle: Vector | null;
+}
+
+export interface ChosenHandle extends Ranges {
+  /** Stays while the name changes. */
+  readonly key: number;
+  readonly name: string;
+  /** Ascending. */
+  readonly vertices: Int32Array;
+  readonly moving: boolean;
+}
+
+/** Vertices that are selected, and the handles so far. Never changed: every step makes a new one. */
+export interface Choice {
+  /** Ascending. */
+  readonly selected: Int32Array;
+  readonly handles: readonly ChosenHandle[];
+}
+
+export const NOTHING: Int32Array = new Int32Array(0);
+
+/** What a server or a problem file has chosen. */
+export function choiceOf(handles: readonly HandleChoice[]): Choice {
+  const chosen = handles.map(({ name, vertices, moving = true, translation = null, angle = null }, key) => ({
+    key,
+    name,
+    vertices: Int32Array.from(vertices).sort(),
+    moving,
+    translation,
+    angle,
+  }));
+  return { selected: NOTHING, handles: chosen };
+}
+
+/** The handles as the server takes them, those that hold the shape first: so they are in models, too. */
+export function inOrder(handles: readonly ChosenHandle[]): ChosenHandle[] {
+  return [...handles.filter(({ moving }) => !moving), ...handles.filter(({ moving }) => moving)];
+}
+
+/** As the server takes them. */
+export function messageOf(handles: readonly ChosenHandle[]): HandleChoice[] {
+  return inOrder(handles).map(({ key: _, vertices, ...rest }) => ({ ...rest, vertices: [...vertices] }));
+}
+
+/** The selected vertices become a handle; the first one holds the shape, the others move. */
+export function withNewHandle(choice: Choice): Choice {
+  const { selected, handles } = choice;
+  const key = 1 + Math.max(-1, ...handles.map((handle) => handle.key));
+  const others = withoutVertices(handles, selected);
+  const moving = others.some((handle) => !handle.moving);
+  const name = freeName(handles);
+  const own = { key, name, vertices: selected, moving, translation: null, angle: null };
+  return { selected: NOTHING, handles: [...others, own] };
+}
+
+/** The selected vertices go over to a handle. */
+export function withMore(choice: Choice, key: number): Choice {
+  const { selected, handles } = choice;
+  const owner = handles.find((handle) => handle.key === key)!;
+  const others = withoutVertices(
+    handles.filter((handle) => handle !== owner),
+    selected,
+  );
+  const grown = { ...owner, vertices: union(owner.vertices, selected) };
+  const left = handles.flatMap((handle) =>
+    handle === owner ? [grown] : others.filter((other) => other.key === handle.key),
+  );
+  return { selected: NOTHING, handles: left };
+}
+
+/** The selected vertices belong to no handle. */
+export function withFree(choice: Choice): Choice {
+  return { ...choice, handles: withoutVertices(choice.handles, choice.selected) };
+}
+
+export function changed(choice: Choice, key: number, fields: Partial<ChosenHandle>): Choice {
+  const handles = choice.handles.map((handle) => (handle.key === key ? { ...handle, ...fields } : handle));
+  return { ...choice, handles };
+}
+
+export function withoutHandle(choice: Choice, key: number): Choice {
+  return { ...choice, handles: choice.handles.filter((handle) => handle.key !== key) };
+}
+
+/** What handles lost from one choice to the next, for the user; empty if nothing. */
+export function losses(before: Choice, after: Choice): string {
+  const told = before.handles.flatMap(({ key, name, vertices }) => {
+    const left = after.handles.find((handle) => handle.key === key)?.vertices.length ?? 0;
+    const lost = vertices.length - left;
+    if (lost <= 0) return [];
+    if (left === 0) return [`all of ${name}, which is gone`];
+    return [`${lost.toLocaleString("en")} of ${name}`];
+  });
+  return told.length ? `Taken over: ${told.join("; ")}.` : "";
+}
+
+/** Why a name cannot be given to a handle; empty if it can. */
+export function nameFault(choice: Choice, key: number, name: string): string {
+  if (name.trim() === "") return "A handle needs a name.";
+  const taken = choice.handles.some((handle) => handle.key !== key && handle.name === name.trim());
+  return taken ? `There is a handle ${name.trim()} already.` : "";
+}
+
+/** What must still be chosen before a model can be computed; empty if nothing. */
+export function lacking({ handles }: Choice): string {
+  if (handles.length === 0) return "First select the part that stays in place, and make it a handle.";
+  if (handles.length === 1) return "Now select a part to move, and make it a handle.";
+  if (handles.every(({ moving }) => moving)) return "One handle must be fixed: it holds the shape.";
+  if (handles.every(({ moving }) => !moving)) return "One handle must move.";
+  return "";
+}
+
+function withoutVertices(handles: readonly ChosenHandle[], vertices: Int32Array): ChosenHandle[] {
+  return handles
+    .map((handle) => {
+      const left = without(handle.vertices, vertices);
+      return left.length === handle.vertices.length ? handle : { ...handle, vertices: left };
+    })
+    .filter((handle) => handle.vertices.length > 0);
+}
+
+function freeName(handles: readonly ChosenHandle[]): string {
+  const names = new Set(handles.map(({ name }) => name));
+  let number = handles.length + 1;
+  while (names.has(`handle ${number}`)) number++;
+  return `handle ${number}`;
+}

@@ -1,0 +1,233 @@
+// Written by tools/make_messages.py from snapspace/server/messages.py.
+
+export type Vector = readonly [number, number, number];
+export type Matrix = readonly [number, number, number, number, number, number, number, number, number];
+
+/** A handle as the page chose it, or as a problem file has it.
+ *
+ * name : unique among the handles
+ * vertices : indices among all vertices of the mesh, also those inside
+ * moving : whether it moves while sampling; one handle at least does not
+ * translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
+ *     common ones
+ */
+export interface HandleChoice {
+  readonly name: string;
+  readonly vertices: readonly number[];
+  readonly moving?: boolean;
+  readonly translation?: Vector | null;
+  readonly angle?: Vector | null;
+}
+
+/** Where a handle is: a rigid motion about its centre at rest.
+ *
+ * rotation : row by row
+ */
+export interface HandleMotion {
+  readonly rotation: Matrix;
+  readonly translation: Vector;
+}
+
+/** Page: these are the handles. Answered by `Chosen`, or `Failed`.
+ *
+ * request : any number of 32 bits, repeated in the answers
+ * translation, angle : common bounds of the sampled motions, half widths per axis
+ */
+export interface Choose {
+  readonly type: "choose";
+  readonly request: number;
+  readonly handles: readonly HandleChoice[];
+  readonly translation: Vector;
+  readonly angle: Vector;
+}
+
+/** Page: compute models for the handles chosen last. A computation that runs is replaced.
+ *
+ * Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
+ *
+ * samples, dimension, seed : of the last model
+ * stiffness : of the handles, as in a problem file
+ * poisson : Poisson's ratio of the material, 0 to below 0.5; null: that of the problem file, or of
+ *     lam = mu
+ */
+export interface Compute {
+  readonly type: "compute";
+  readonly request: number;
+  readonly samples: number;
+  readonly dimension: number;
+  readonly seed: number;
+  readonly stiffness: number;
+  readonly poisson?: number | null;
+}
+
+/** Page: end what runs, filling or computing. Models and solved samples stay.
+ *
+ * Answered by `Cancelled`, also if nothing runs.
+ */
+export interface Cancel {
+  readonly type: "cancel";
+  readonly request: number;
+}
+
+/** Page: save the problem, the newest model, and a mesh that was filled. Answered by `Saved`.
+ *
+ * name : of the files, without folder or ending; null: the mesh's
+ */
+export interface Save {
+  readonly type: "save";
+  readonly request: number;
+  readonly name?: string | null;
+}
+
+/** Page: improve a shape in the full space. A polish that runs is replaced, without an answer.
+ *
+ * Answered by a binary frame, `request` as a 32-bit integer and the positions of the surface's
+ * vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
+ *
+ * model : number of the model
+ * handles : where the handles of the model are, all of them and in its order; of posing models
+ * weights : of blending models, one per pose
+ * q : coordinates of the shape, or fewer, the leading ones
+ * iterations : at most
+ */
+export interface Polish {
+  readonly type: "polish";
+  readonly request: number;
+  readonly model: number;
+  readonly handles?: readonly HandleMotion[];
+  readonly weights?: readonly number[];
+  readonly q: readonly number[];
+  readonly iterations?: number;
+}
+
+/** Server: what the page works with. The first message, and again after an upload.
+ *
+ * id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=...
+ * kind : "empty": the page asks for a mesh; "reading": progress follows, and another workspace;
+ *     "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
+ * name : of the mesh or model
+ * mesh : address of the packed mesh; null unless the kind is mesh
+ * up : axis that points up at first, x, y or z
+ * handles, translation, angle : chosen at first
+ * diagonal : of the mesh; 0 if there is none
+ * samples, dimension, seed, stiffness, poisson : computed with, unless the page asks otherwise
+ * folder : where `Save` writes, for the reader
+ * upload_limit : bytes
+ */
+export interface Workspace {
+  readonly type: "workspace";
+  readonly id: string;
+  readonly kind: string;
+  readonly name: string;
+  readonly mesh: string | null;
+  readonly up: string;
+  readonly handles: readonly HandleChoice[];
+  readonly translation: Vector;
+  readonly angle: Vector;
+  readonly diagonal: number;
+  readonly samples: number;
+  readonly dimension: number;
+  readonly seed: number;
+  readonly stiffness: number;
+  readonly poisson: number | null;
+  readonly folder: string;
+  readonly upload_limit: number;
+}
+
+/** Server: the handles are taken, in this order, the one that holds the shape first. */
+export interface Chosen {
+  readonly type: "chosen";
+  readonly request: number;
+  readonly handles: readonly string[];
+}
+
+/** Server: how far the work is; up to ten a second.
+ *
+ * request : of the `Compute`; 0 while a mesh is read or filled
+ * stage : waiting (for another computation on this machine), reading, filling, snapshots,
+ *     subspace, energy
+ * done, total : samples; 0 of 0 where nothing is counted
+ * seconds : since the work began
+ * eta : until the stage ends; null if not known
+ * error : expected relative error of samples that were not solved for; null if not known
+ */
+export interface Progress {
+  readonly type: "progress";
+  readonly request: number;
+  readonly stage: string;
+  readonly done: number;
+  readonly total: number;
+  readonly seconds: number;
+  readonly eta: number | null;
+  readonly error: number | null;
+}
+
+/** Server: a model that can be posed. Better ones follow until one is final.
+ *
+ * number : increases; that of the newest model is in its address
+ * address : of the packed model; it stays until two newer ones are there
+ * dimension, samples : of this model
+ * error : expected relative error of samples that were not solved for; null if not known
+ * seconds : since the computation began
+ */
+export interface Model {
+  readonly type: "model";
+  readonly request: number;
+  readonly number: number;
+  readonly address: string;
+  readonly dimension: number;
+  readonly samples: number;
+  readonly error: number | null;
+  readonly final: boolean;
+  readonly seconds: number;
+}
+
+/** Server: nothing runs any more.
+ *
+ * request : of the `Cancel`
+ */
+export interface Cancelled {
+  readonly type: "cancelled";
+  readonly request: number;
+}
+
+/** Server: a request was refused, or its work came to an error.
+ *
+ * request : 0 where the message could not be read, and for meshes
+ * message : what is wrong and what helps, one line for the reader
+ */
+export interface Failed {
+  readonly type: "failed";
+  readonly request: number;
+  readonly message: string;
+}
+
+/** Server: what was written.
+ *
+ * problem, model, mesh : paths; null for what there is not
+ */
+export interface Saved {
+  readonly type: "saved";
+  readonly request: number;
+  readonly problem: string | null;
+  readonly model: string | null;
+  readonly mesh: string | null;
+}
+
+/** Server: the shape of the binary frame before this message.
+ *
+ * moved : root mean square over the body, relative to the displacement from rest; null without one
+ * status : converged, max_iterations, line_search_failed or not_finite
+ */
+export interface Polished {
+  readonly type: "polished";
+  readonly request: number;
+  readonly moved: number | null;
+  readonly iterations: number;
+  readonly status: string;
+  readonly seconds: number;
+}
+
+export type PageMessage = Choose | Compute | Cancel | Save | Polish;
+
+export type ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished;

@@ -1,0 +1,76 @@
+import type { Container } from "./container.ts";
+import { armsOf, type Estimator, type Pins } from "./estimator.ts";
+import type { Handle } from "./model.ts";
+
+interface Body {
+  readonly tets: Int32Array;
+  /** Modes, rows of 3 * vertices numbers. */
+  readonly basis: Float64Array;
+  readonly tau: Float64Array;
+  readonly rests: readonly Float64Array[];
+}
+
+interface Held {
+  readonly handleOf: Int32Array;
+  readonly handles: readonly Handle[];
+  readonly rest: Float64Array;
+  readonly masses: Float64Array;
+  readonly stiffness: number;
+}
+
+/** The estimator of a model file: takes the tets around the sampled vertices out of the mesh; null without one. */
+export function estimatorOf(
+  container: Container,
+  { tets, basis, tau, rests }: Body,
+  pins: (corners: number[], isSampled: boolean[]) => Pins,
+): Estimator | null {
+  if (!container.has("estimator_vertices")) return null;
+  const [count] = container.shape("estimator_vertices", 1);
+  const [frames, dimension] = container.shape("estimator_coordinates", 2);
+  const vertices = container.indices("estimator_vertices", tau.length / 3, [count]);
+  const sampled = new Set(vertices);
+  const around = tets.filter((_, i) =>
+    [0, 1, 2, 3].some((corner) => sampled.has(tets[i - (i % 4) + corner])),
+  );
+  const corners = [...new Set(around)].sort((a, b) => a - b);
+  const place = new Map(corners.map((vertex, i) => [vertex, i]));
+  const taken = (rows: Float64Array, row = 0) =>
+    Float64Array.from({ length: 3 * corners.length }, (_, i) => {
+      const vertex = corners[Math.floor(i / 3)];
+      return rows[row * tau.length + 3 * vertex + (i % 3)];
+    });
+  const modes = new Float32Array(3 * corners.length * dimension);
+  for (let mode = 0; mode < dimension; mode++) modes.set(taken(basis, mode), 3 * corners.length * mode);
+  return {
+    mass: container.doubles("estimator_mass", 1)[0],
+    modes,
+    base: taken(tau),
+    rests: rests.map((rest) => taken(rest)),
+    tets: around.map((vertex) => place.get(vertex)!),
+    places: vertices.map((vertex) => place.get(vertex)!),
+    weights: container.doubles("estimator_weights", count),
+    pins: pins(
+      corners,
+      corners.map((vertex) => sampled.has(vertex)),
+    ),
+    coordinates: container.doubles("estimator_coordinates", frames, dimension),
+    ratios: container.doubles("estimator_residual_ratios", frames),
+  };
+}
+
+/** The sampled vertices that handles hold. */
+export function pinsOf(corners: number[], isSampled: boolean[], held: Held): Pins {
+  const { handleOf, handles, rest, masses, stiffness } = held;
+  const pinned = corners.flatMap((vertex, i) => (isSampled[i] && handleOf[vertex] >= 0 ? [i] : []));
+  const owners = Int32Array.from(pinned, (i) => handleOf[corners[i]]);
+  const own = Float64Array.from({ length: 3 * corners.length }, (_, i) => {
+    const vertex = corners[Math.floor(i / 3)];
+    return rest[3 * vertex + (i % 3)];
+  });
+  return {
+    corners: Int32Array.from(pinned),
+    handles: owners,
+    pulls: Float64Array.from(pinned, (i) => 2 * stiffness * masses[corners[i]]),
+    arms: armsOf(Int32Array.from(pinned), owners, handles, own),
+  };
+}

@@ -1,0 +1,86 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import {
+  changed,
+  choiceOf,
+  inOrder,
+  lacking,
+  losses,
+  messageOf,
+  nameFault,
+  withMore,
+  withNewHandle,
+  withoutHandle,
+  type Choice,
+} from "../choice.ts";
+
+const select = (choice: Choice, ...selected: number[]): Choice => ({
+  ...choice,
+  selected: Int32Array.from(selected),
+});
+const sets = ({ handles }: Choice) => Object.fromEntries(handles.map((h) => [h.name, [...h.vertices]]));
+
+const two = withNewHandle(select(withNewHandle(select(choiceOf([]), 1, 2, 3)), 7, 8));
+
+test("the first handle holds the shape, the others move", () => {
+  assert.deepEqual(sets(two), { "handle 1": [1, 2, 3], "handle 2": [7, 8] });
+  assert.deepEqual(
+    two.handles.map(({ moving }) => moving),
+    [false, true],
+  );
+  assert.equal(two.selected.length, 0);
+  assert.equal(lacking(two), "");
+});
+
+test("a vertex belongs to one handle, and what was taken over is told", () => {
+  const three = withNewHandle(select(two, 3, 4, 7, 8));
+  assert.deepEqual(sets(three), { "handle 1": [1, 2], "handle 3": [3, 4, 7, 8] });
+  assert.equal(losses(two, three), "Taken over: 1 of handle 1; all of handle 2, which is gone.");
+  assert.equal(losses(two, two), "");
+  const grown = withMore(select(two, 2, 9), two.handles[1].key);
+  assert.deepEqual(sets(grown), { "handle 1": [1, 3], "handle 2": [2, 7, 8, 9] });
+  assert.deepEqual(sets(two), { "handle 1": [1, 2, 3], "handle 2": [7, 8] }, "the step before stays");
+});
+
+test("names are unique, also those that are given", () => {
+  const [first, second] = two.handles;
+  assert.equal(nameFault(two, second.key, "head"), "");
+  assert.equal(nameFault(two, second.key, second.name), "");
+  assert.match(nameFault(two, second.key, ` ${first.name} `), /already/);
+  assert.match(nameFault(two, second.key, "  "), /needs a name/);
+  const named = changed(two, second.key, { name: "handle 3" });
+  assert.equal(withNewHandle(select(named, 20)).handles[2].name, "handle 4");
+});
+
+test("what is lacking", () => {
+  const [first, second] = two.handles;
+  assert.match(lacking(choiceOf([])), /stays in place/);
+  assert.match(lacking(withoutHandle(two, second.key)), /part to move/);
+  assert.match(lacking(changed(two, first.key, { moving: true })), /must be fixed/);
+  assert.match(lacking(changed(two, second.key, { moving: false })), /must move/);
+});
+
+test("the server gets the fixed ones first, and what it gave comes back the same", () => {
+  const swapped = changed(changed(two, two.handles[0].key, { moving: true }), two.handles[1].key, {
+    moving: false,
+    angle: [0.1, 0.2, 0.3],
+  });
+  const message = messageOf(swapped.handles);
+  assert.deepEqual(
+    message.map(({ name, moving }) => [name, moving]),
+    [
+      ["handle 2", false],
+      ["handle 1", true],
+    ],
+  );
+  assert.deepEqual(message[0], {
+    name: "handle 2",
+    vertices: [7, 8],
+    moving: false,
+    translation: null,
+    angle: [0.1, 0.2, 0.3],
+  });
+  assert.deepEqual(messageOf(choiceOf(message).handles), message);
+  assert.equal(inOrder(swapped.handles)[0].name, "handle 2");
+});

@@ -1,0 +1,157 @@
+import type { Vector } from "./motion.ts";
+import { distanceAlong } from "./ray_triangle.ts";
+
+const LEAF = 4;
+
+/** Boxes in boxes around the triangles of a shape at rest, for rays (Kay and Kajiya 1986).
+ *
+ * Nodes are split in the middle of their triangles' centres, or by their number where that leaves one side empty. */
+export class TriangleTree {
+  readonly #shape: Float32Array;
+  readonly #faces: Uint32Array;
+  /** Three corners each, node by node. */
+  readonly #order: Uint32Array;
+  /** Six numbers per node: lowest and highest corner. */
+  readonly #boxes: Float32Array;
+  /** Per node its range in #order if it is a leaf; else its first child, the second is the next node, and -1 less
+   * the axis that it was split along. */
+  readonly #ranges: Int32Array;
+  readonly #stack = new Int32Array(128);
+
+  constructor(shape: Float32Array, faces: Uint32Array) {
+    const count = faces.length / 3;
+    this.#shape = shape;
+    this.#faces = faces;
+    this.#order = Uint32Array.from({ length: count }, (_, i) => i);
+    this.#boxes = new Float32Array(6 * Math.max(2 * count, 1));
+    this.#ranges = new Int32Array(2 * Math.max(2 * count, 1));
+    this.#build(count);
+  }
+
+  /** The first triangle that a ray hits, and how far in lengths of the direction; null if there is none. */
+  hit(origin: Vector, direction: Vector): { face: number; along: number } | null {
+    const found = this.#trace(origin, direction, 0, Infinity, false);
+    return found.face < 0 ? null : found;
+  }
+
+  /** Whether a triangle is hit between two lengths of the direction. */
+  isBlocked(origin: Vector, direction: Vector, from: number, to: number): boolean {
+    return this.#trace(origin, direction, from, to, true).face >= 0;
+  }
+
+  #trace([ox, oy, oz]: Vector, [dx, dy, dz]: Vector, from: number, to: number, any: boolean) {
+    const [ix, iy, iz] = [1 / dx, 1 / dy, 1 / dz];
+    const boxes = this.#boxes;
+    const stack = this.#stack;
+    let [face, along] = [-1, to];
+    let depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const node = stack[--depth];
+      const b = 6 * node;
+      const x0 = (boxes[b] - ox) * ix;
+      const x1 = (boxes[b + 3] - ox) * ix;
+      const y0 = (boxes[b + 1] - oy) * iy;
+      const y1 = (boxes[b + 4] - oy) * iy;
+      const z0 = (boxes[b + 2] - oz) * iz;
+      const z1 = (boxes[b + 5] - oz) * iz;
+      const enters = Math.max(Math.min(x0, x1), Math.min(y0, y1), Math.min(z0, z1));
+      const leaves = Math.min(Math.max(x0, x1), Math.max(y0, y1), Math.max(z0, z1));
+      // with NaN, from a ray in a face of the box, every comparison is false and the box is looked into
+      if (enters > leaves || enters > along || leaves < from) continue;
+      const start = this.#ranges[2 * node];
+      const end = this.#ranges[2 * node + 1];
+      if (end < 0) {
+        const forwards = (end === -1 ? dx : end === -2 ? dy : dz) > 0;
+        stack[depth++] = forwards ? start + 1 : start; // the nearer one last, so that it is taken first
+        stack[depth++] = forwards ? start : start + 1;
+        continue;
+      }
+      for (let i = start; i < end; i++) {
+        const f = this.#order[i];
+        const t = distanceAlong(this.#shape, this.#faces, 3 * f, ox, oy, oz, dx, dy, dz);
+        if (t <= from || t >= along) continue;
+        [face, along] = [f, t];
+        if (any) return { face, along };
+      }
+    }
+    return { face, along };
+  }
+
+  #build(count: number): void {
+    const centers = this.#centers();
+    const waiting: [node: number, start: number, end: number][] = [[0, 0, count]];
+    let nodes = 1;
+    for (let job = waiting.pop(); job; job = waiting.pop()) {
+      const [node, start, end] = job;
+      if (end - start <= LEAF) {
+        this.#ranges.set([start, end], 2 * node);
+        continue;
+      }
+      const [middle, axis] = this.#split(centers, start, end);
+      this.#ranges.set([nodes, -1 - axis], 2 * node);
+      waiting.push([nodes, start, middle], [nodes + 1, middle, end]);
+      nodes += 2;
+    }
+    for (let node = nodes - 1; node >= 0; node--) this.#enclose(node); // children have the higher numbers
+  }
+
+  #centers(): Float32Array {
+    const shape = this.#shape;
+    const faces = this.#faces;
+    const centers = new Float32Array(faces.length);
+    for (let f = 0; f < faces.length; f += 3)
+      for (let axis = 0; axis < 3; axis++)
+        centers[f + axis] =
+          (shape[3 * faces[f] + axis] + shape[3 * faces[f + 1] + axis] + shape[3 * faces[f + 2] + axis]) / 3;
+    return centers;
+  }
+
+  #enclose(node: number): void {
+    const boxes = this.#boxes;
+    const b = 6 * node;
+    boxes.fill(Infinity, b, b + 3).fill(-Infinity, b + 3, b + 6);
+    const start = this.#ranges[2 * node];
+    const end = this.#ranges[2 * node + 1];
+    if (end < 0) {
+      for (let axis = 0; axis < 3; axis++) {
+        boxes[b + axis] = Math.min(boxes[6 * start + axis], boxes[6 * start + 6 + axis]);
+        boxes[b + axis + 3] = Math.max(boxes[6 * start + axis + 3], boxes[6 * start + axis + 9]);
+      }
+      return;
+    }
+    for (let i = start; i < end; i++)
+      for (let corner = 0; corner < 3; corner++) {
+        const v = 3 * this.#faces[3 * this.#order[i] + corner];
+        for (let axis = 0; axis < 3; axis++) {
+          const x = this.#shape[v + axis];
+          if (x < boxes[b + axis]) boxes[b + axis] = x;
+          if (x > boxes[b + axis + 3]) boxes[b + axis + 3] = x;
+        }
+      }
+  }
+
+  /** Brings the triangles of a range into two sides, along the axis in which their centres spread most. */
+  #split(centers: Float32Array, start: number, end: number): [middle: number, axis: number] {
+    const order = this.#order;
+    let axis = 0;
+    let [widest, middle] = [-1, 0];
+    for (let candidate = 0; candidate < 3; candidate++) {
+      let [low, high] = [Infinity, -Infinity];
+      for (let i = start; i < end; i++) {
+        const x = centers[3 * order[i] + candidate];
+        if (x < low) low = x;
+        if (x > high) high = x;
+      }
+      if (high - low > widest) [widest, middle, axis] = [high - low, (low + high) / 2, candidate];
+    }
+    let left = start;
+    for (let i = start; i < end; i++) {
+      const triangle = order[i];
+      if (centers[3 * triangle + axis] >= middle) continue;
+      order[i] = order[left];
+      order[left++] = triangle;
+    }
+    return [left === start || left === end ? (start + end) >> 1 : left, axis];
+  }
+}

@@ -1,0 +1,185 @@
+import { Color, Raycaster, Vector2, Vector3 } from "three";
+
+import { NOTHING, type Choice } from "../engine/choice.ts";
+import type { Vector } from "../engine/motion.ts";
+import type { RestMesh } from "../engine/rest_mesh.ts";
+import { inBall, inLasso, inRectangle, placesOf, seenFrom, union, without } from "../engine/selecting.ts";
+import type { Place } from "../engine/selecting.ts";
+import { TriangleTree } from "../engine/triangle_tree.ts";
+import { ownerColors } from "./choosing_colors.ts";
+import { History } from "./history.ts";
+import type { Stage } from "./stage.ts";
+import type { Surface } from "./surface.ts";
+
+export type Tool = "brush" | "box" | "lasso" | "look";
+
+/** The state of choosing: what is selected, the handles, the tool, and what was before. */
+export class Choosing {
+  readonly stage: Stage;
+  readonly mesh: RestMesh;
+  readonly surface: Surface;
+  tool: Tool = "brush";
+  /** Whether tools take vertices away. */
+  removing = false;
+  /** Whether box and lasso take what is seen only, and not what lies behind or inside. */
+  seenOnly = false;
+  /** Of the brush, as a share of the mesh's diagonal. */
+  radius = 0.05;
+  /** After anything that controls show has changed. */
+  onChange: () => void = () => {};
+  readonly #history: History<Choice>;
+  readonly #tree: TriangleTree;
+  readonly #owners: Uint8Array;
+  readonly #caster = new Raycaster();
+  #choice: Choice;
+  #stroke: Int32Array | null = null;
+  #isPainted = false;
+
+  constructor(stage: Stage, mesh: RestMesh, surface: Surface, choice: Choice) {
+    this.stage = stage;
+    this.mesh = mesh;
+    this.surface = surface;
+    this.#choice = choice;
+    this.#history = new History(choice);
+    this.#tree = new TriangleTree(mesh.shape, mesh.faces);
+    this.#owners = new Uint8Array(mesh.shape.length / 3);
+  }
+
+  get choice(): Choice {
+    return this.#choice;
+  }
+
+  /** With those of a stroke that goes on. */
+  get selected(): Int32Array {
+    return this.#stroke ?? this.#choice.selected;
+  }
+
+  /** A step that can be undone. */
+  go(choice: Choice): void {
+    this.#stroke = null;
+    this.#choice = choice;
+    this.#history.push(choice);
+    this.changed();
+  }
+
+  /** A part of a stroke: these come to the selection, or leave it. */
+  take(vertices: Int32Array, remove: boolean): void {
+    this.#stroke = remove ? without(this.selected, vertices) : union(this.selected, vertices);
+    this.changed();
+  }
+
+  /** The end of a stroke. */
+  commit(): void {
+    if (this.#stroke) this.go({ ...this.#choice, selected: this.#stroke });
+  }
+
+  /** Forgets a stroke. */
+  cancel(): void {
+    this.#stroke = null;
+    this.changed();
+  }
+
+  clear(): void {
+    if (this.selected.length) this.go({ ...this.#choice, selected: NOTHING });
+  }
+
+  get canUndo(): boolean {
+    return this.#history.canUndo;
+  }
+
+  get canRedo(): boolean {
+    return this.#history.canRedo;
+  }
+
+  undo(): void {
+    this.#restore(this.#history.undo());
+  }
+
+  redo(): void {
+    this.#restore(this.#history.redo());
+  }
+
+  /** Tells controls and stage. */
+  changed(): void {
+    this.#isPainted = false;
+    this.onChange();
+    this.stage.draw();
+  }
+
+  /** Colours the surface, before a picture. */
+  paint(): void {
+    if (this.#isPainted) return;
+    this.#isPainted = true;
+    const colors = ownerColors(this.#choice.handles, this.#owners, this.selected);
+    this.surface.paint((vertex): Color => colors[this.#owners[vertex]]);
+  }
+
+  /** Where a point of the canvas hits the mesh, in the mesh's frame; null beside it. */
+  hit([x, y]: Place): Vector | null {
+    const { camera, root } = this.stage;
+    const [width, height] = this.size;
+    this.#caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
+    const { origin, direction } = this.#caster.ray.applyMatrix4(root.matrixWorld.clone().invert());
+    const found = this.#tree.hit(origin.toArray(), direction.toArray());
+    return found && origin.addScaledVector(direction, found.along).toArray();
+  }
+
+  inBrush(center: Vector): Int32Array {
+    return inBall(this.mesh.shape, center, this.radius * this.mesh.diagonal);
+  }
+
+  /** How large the brush is on the screen where it hits, in pixels. */
+  brushPixels(center: Vector): number {
+    const { camera, root } = this.stage;
+    const depth = new Vector3(...center)
+      .applyMatrix4(root.matrixWorld)
+      .applyMatrix4(camera.matrixWorldInverse).z;
+    const focal = this.size[1] / (2 * Math.tan((camera.fov * Math.PI) / 360));
+    return (this.radius * this.mesh.diagonal * root.scale.x * focal) / Math.max(-depth, camera.near);
+  }
+
+  inBox(from: Place, to: Place): Int32Array {
+    return this.#open(inRectangle(this.#places(), from, to));
+  }
+
+  inLine(line: readonly Place[]): Int32Array {
+    return this.#open(inLasso(this.#places(), line));
+  }
+
+  /** Where a vertex is in the window. */
+  screen(vertex: number): [number, number] {
+    const { camera, root, renderer } = this.stage;
+    const place = new Vector3().fromArray(this.mesh.shape, 3 * vertex);
+    place.applyMatrix4(root.matrixWorld).project(camera);
+    const box = renderer.domElement.getBoundingClientRect();
+    return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
+  }
+
+  /** Of the canvas, in pixels of the page. */
+  get size(): [number, number] {
+    const { clientWidth, clientHeight } = this.stage.renderer.domElement;
+    return [clientWidth, clientHeight];
+  }
+
+  #places(): Float32Array {
+    const { camera, root } = this.stage;
+    const matrix = camera.projectionMatrix
+      .clone()
+      .multiply(camera.matrixWorldInverse)
+      .multiply(root.matrixWorld);
+    return placesOf(this.mesh.shape, matrix.elements, ...this.size);
+  }
+
+  #open(vertices: Int32Array): Int32Array {
+    if (!this.seenOnly) return vertices;
+    const eye = this.stage.root.worldToLocal(this.stage.camera.position.clone());
+    return seenFrom(eye.toArray(), this.#tree, this.mesh.shape, this.mesh.faces, vertices);
+  }
+
+  #restore(choice: Choice | undefined): void {
+    if (!choice) return;
+    this.#stroke = null;
+    this.#choice = choice;
+    this.changed();
+  }
+}

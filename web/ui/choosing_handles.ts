@@ -1,0 +1,205 @@
+import {
+  changed,
+  lacking,
+  losses,
+  nameFault,
+  withMore,
+  withNewHandle,
+  withoutHandle,
+  type Choice,
+  type ChosenHandle,
+} from "../engine/choice.ts";
+import { union } from "../engine/selecting.ts";
+import type { Choosing } from "./choosing.ts";
+import { colorOf } from "./choosing_colors.ts";
+import type { CommonRanges } from "./choosing_sampling.ts";
+import { h, section } from "./dom.ts";
+import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
+
+/** The list of handles, and the button that makes one of the selection; `update` shows the present state. */
+export class HandleList {
+  readonly element: HTMLElement;
+  readonly #choosing: Choosing;
+  readonly #common: CommonRanges;
+  readonly #list = h("ul", { className: "handles" });
+  readonly #make = h("button", { type: "button", className: "primary wide", title: "Enter" });
+  /** The same button on the stage, for narrow windows. */
+  readonly floating = h("button", { type: "button", className: "primary floating" });
+  readonly #told = h("p", { className: "hint", role: "status" });
+  readonly #lacking = h("p", { className: "hint", id: "lacking" });
+  /** Keys of the handles whose ranges are shown. */
+  readonly #unfolded = new Set<number>();
+  #shown: readonly ChosenHandle[] | null = null;
+  #hadSelection = false;
+
+  constructor(choosing: Choosing, common: CommonRanges) {
+    this.#choosing = choosing;
+    this.#common = common;
+    for (const button of [this.#make, this.floating]) button.addEventListener("click", () => this.make());
+    this.element = section("Handles", this.#lacking, this.#make, this.#told, this.#list);
+  }
+
+  /** A handle of the selected vertices; its name can be typed at once. */
+  make(): void {
+    if (this.#choosing.choice.selected.length === 0) return;
+    this.#go(withNewHandle(this.#choosing.choice));
+    // where there is a keyboard: on a phone it would cover the stage
+    if (matchMedia("(hover: hover)").matches)
+      this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
+  }
+
+  update(): void {
+    const { selected, choice } = this.#choosing;
+    const count = selected.length;
+    this.#lacking.textContent = lacking(choice);
+    this.#make.disabled = count === 0;
+    const text = count === 0 ? "New handle" : `New handle · ${vertices(count)}`;
+    for (const button of [this.#make, this.floating])
+      if (button.textContent !== text) button.textContent = text;
+    this.floating.hidden = count === 0;
+    if (this.#shown === choice.handles && this.#hadSelection === count > 0) return;
+    if (this.#shown !== choice.handles && !this.#told.dataset["kept"]) this.#told.textContent = "";
+    delete this.#told.dataset["kept"];
+    this.#shown = choice.handles;
+    this.#hadSelection = count > 0;
+    // what the focus was on comes back: a list that is made anew would lose it
+    const focused = document.activeElement?.getAttribute("data-focus");
+    this.#list.replaceChildren(...choice.handles.map((handle) => this.#item(handle, count > 0)));
+    if (focused) this.#list.querySelector<HTMLElement>(`[data-focus="${focused}"]`)?.focus();
+  }
+
+  #go(next: Choice): void {
+    const told = losses(this.#choosing.choice, next);
+    this.#tell(told);
+    this.#choosing.go(next);
+  }
+
+  #tell(text: string): void {
+    this.#told.textContent = text;
+    this.#told.dataset["kept"] = "yes";
+  }
+
+  #item(handle: ChosenHandle, hasSelection: boolean): HTMLElement {
+    const { key, moving } = handle;
+    const { choice } = this.#choosing;
+    const own = (name: string) => ({ "data-focus": `${name}-${key}` });
+    const swatch = h("button", {
+      type: "button",
+      className: "swatch",
+      title: "Select its vertices",
+      "aria-label": `Select the vertices of ${handle.name}`,
+      ...own("swatch"),
+      onclick: () => this.#choosing.go({ ...choice, selected: union(choice.selected, handle.vertices) }),
+    });
+    swatch.style.background = colorOf(choice.handles, key);
+    const held = h(
+      "button",
+      {
+        type: "button",
+        className: "small",
+        title: moving ? "It moves; press to hold it in place" : "It stays in place; press to let it move",
+        "aria-pressed": !moving,
+        ...own("fixed"),
+        onclick: () => this.#go(changed(choice, key, { moving: !moving })),
+      },
+      "Fixed",
+    );
+    const remove = h(
+      "button",
+      {
+        type: "button",
+        className: "small bare",
+        "aria-label": `Delete ${handle.name}`,
+        title: "Delete",
+        onclick: () => this.#choosing.go(withoutHandle(this.#choosing.choice, key)),
+      },
+      "✕",
+    );
+    const below = h("div", { className: "below" }, h("span", {}, vertices(handle.vertices.length)));
+    if (hasSelection)
+      below.append(
+        h(
+          "button",
+          {
+            type: "button",
+            className: "link",
+            title: "The selection becomes part of it",
+            "aria-label": `Add the selection to ${handle.name}`,
+            ...own("more"),
+            onclick: () => this.#go(withMore(this.#choosing.choice, key)),
+          },
+          "Extend",
+        ),
+      );
+    const item = h("li", {}, h("div", { className: "top" }, swatch, this.#name(handle), held, remove), below);
+    if (moving) this.#ranges(handle, item, below);
+    return item;
+  }
+
+  #name(handle: ChosenHandle): HTMLInputElement {
+    const { key } = handle;
+    const input = h("input", { className: "name", value: handle.name, "data-focus": `name-${key}` });
+    input.setAttribute("aria-label", "Name of the handle");
+    input.spellcheck = false;
+    const take = () => {
+      const fault = nameFault(this.#choosing.choice, key, input.value);
+      if (fault) {
+        this.#tell(fault);
+        input.value = handle.name;
+      } else if (input.value.trim() !== handle.name) {
+        this.#go(changed(this.#choosing.choice, key, { name: input.value.trim() }));
+      }
+    };
+    input.addEventListener("change", take);
+    input.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== "Escape") return;
+      if (event.key === "Escape") input.value = handle.name;
+      event.stopPropagation(); // Enter would make a handle, Escape clear the selection
+      this.#choosing.stage.renderer.domElement.focus();
+    });
+    return input;
+  }
+
+  /** Own ranges of a handle, below its line once it is unfolded. */
+  #ranges(handle: ChosenHandle, item: HTMLElement, below: HTMLElement): void {
+    const { key } = handle;
+    const isOwn = handle.translation !== null || handle.angle !== null;
+    const set = (fields: Partial<ChosenHandle>) => {
+      const next = changed(this.#choosing.choice, key, fields);
+      this.#shown = next.handles; // the fields that are typed in stay
+      this.#choosing.go(next);
+    };
+    const common = this.#common();
+    const diagonal = this.#choosing.mesh.diagonal;
+    const fields = h(
+      "div",
+      { hidden: !this.#unfolded.has(key) },
+      rangeFields(shareOf(diagonal), handle.translation ?? common.translation, (translation) =>
+        set({ translation }),
+      ),
+      rangeFields(DEGREES, handle.angle ?? common.angle, (angle) => set({ angle })),
+    );
+    const unfold = h(
+      "button",
+      {
+        type: "button",
+        className: "link",
+        "aria-expanded": !fields.hidden,
+        "data-focus": `range-${key}`,
+        onclick: () => {
+          fields.hidden = !fields.hidden;
+          unfold.setAttribute("aria-expanded", String(!fields.hidden));
+          if (fields.hidden) this.#unfolded.delete(key);
+          else this.#unfolded.add(key);
+        },
+      },
+      isOwn ? "Own range" : "Range",
+    );
+    below.append(unfold);
+    item.append(fields);
+  }
+}
+
+function vertices(count: number): string {
+  return `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
+}

@@ -1,0 +1,113 @@
+import type { Choice } from "../engine/choice.ts";
+import type { RestMesh } from "../engine/rest_mesh.ts";
+import { Choosing } from "./choosing.ts";
+import { HandleList } from "./choosing_handles.ts";
+import { listenToChoosingKeys } from "./choosing_keys.ts";
+import { ToolOverlay } from "./choosing_overlay.ts";
+import { samplingPanel, type Sampling } from "./choosing_sampling.ts";
+import { selectPanel } from "./choosing_select_panel.ts";
+import { ChoosingTools } from "./choosing_tools.ts";
+import { choice, h, section, toggle } from "./dom.ts";
+import type { Axis, Stage } from "./stage.ts";
+import { Surface } from "./surface.ts";
+import type { View, ViewOptions } from "./view.ts";
+
+export interface ChoosingView extends View {
+  readonly choosing: Choosing;
+}
+
+/** Choosing handles: tools on the stage, their list in the panel. `compute` stands below. */
+export function choosingView(
+  stage: Stage,
+  mesh: RestMesh,
+  start: Choice,
+  sampling: Sampling,
+  compute: HTMLElement,
+  onChoice: (choice: Choice) => void,
+  options: ViewOptions,
+): ChoosingView {
+  // without modes: a shape at rest
+  const space = {
+    vertices: mesh.shape.length / 3,
+    base: mesh.shape,
+    modes: new Int16Array(0),
+    scales: new Float32Array(0),
+  };
+  const surface = new Surface(stage.renderer, space, mesh.faces, mesh.diagonal, true);
+  surface.show([]);
+  surface.object.updateMatrix();
+  stage.root.add(surface.object);
+  if (!options.keepView) stage.place(mesh.shape, options.up);
+  const stop = new AbortController();
+  const choosing = new Choosing(stage, mesh, surface, start);
+  const overlay = new ToolOverlay();
+  const tools = new ChoosingTools(choosing, overlay, stop.signal);
+  const select = selectPanel(choosing, () => tools.refresh());
+  const handles = new HandleList(choosing, () => sampling);
+  listenToChoosingKeys({ choosing, tools, make: () => handles.make() }, stop.signal);
+  stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
+  stage.beforeFrame = () => choosing.paint();
+  choosing.onChange = () => {
+    select.update();
+    handles.update();
+    onChoice(choosing.choice);
+  };
+  choosing.changed();
+
+  const inside = space.vertices - new Set(mesh.faces).size;
+  const counted = `${space.vertices.toLocaleString("en")} vertices, ${inside.toLocaleString("en")} of them inside`;
+  return {
+    choosing,
+    hud: {
+      element: h("header", { className: "hud" }, h("h1", {}, mesh.name), h("p", {}, counted)),
+      notice: h("p", { className: "notice", role: "status", hidden: true }),
+    },
+    panel: [
+      select.element,
+      handles.element,
+      samplingPanel(sampling, mesh.diagonal),
+      lookPanel(stage, surface, mesh, options.up),
+      compute,
+    ],
+    script: {
+      kind: "choosing",
+      choosing,
+      screen: (vertex: number) => choosing.screen(vertex),
+      get handles() {
+        return choosing.choice.handles.map(({ name, vertices }) => ({ name, vertices: [...vertices] }));
+      },
+      get selected() {
+        return [...choosing.selected];
+      },
+    },
+    dispose: () => {
+      stop.abort();
+      stage.beforeFrame = () => {};
+      overlay.element.remove();
+      handles.floating.remove();
+      surface.object.removeFromParent();
+      surface.dispose();
+    },
+  };
+}
+
+function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis): HTMLElement {
+  const ups = choice<Axis>(
+    "Up",
+    [
+      ["x", "x up"],
+      ["y", "y up"],
+      ["z", "z up"],
+    ],
+    up,
+    (axis) => stage.place(mesh.shape, axis),
+  );
+  const wires = toggle("Wireframe", "W", false, (on) => {
+    surface.wireframe = on;
+    stage.draw();
+  });
+  wires.id = "wires";
+  const reset = { type: "button", title: "F", id: "frame", onclick: () => stage.look() };
+  const frame = h("button", reset, "Reset view");
+  return section("Look", ups.element, h("div", { className: "row" }, wires, frame));
+}

@@ -1,0 +1,147 @@
+import type { Model, Progress, Saved } from "../engine/messages.ts";
+import { h, section } from "./dom.ts";
+
+const STAGES: Record<string, string> = {
+  waiting: "Waiting for another computation",
+  reading: "Reading the mesh",
+  filling: "Filling the surface with tets",
+  snapshots: "Solving samples",
+  subspace: "Finding the subspace",
+  energy: "Reducing the energy",
+};
+
+export interface ComputeActs {
+  compute(): void;
+  cancel(): void;
+  save(): void;
+  choose(): void;
+  pose(): void;
+}
+
+/** Compute, its progress, and what came of it. One for all views: it goes along from choosing to posing. */
+export class ComputePanel {
+  readonly element: HTMLElement;
+  readonly #compute: HTMLButtonElement;
+  readonly #cancel: HTMLButtonElement;
+  readonly #save: HTMLButtonElement;
+  readonly #choose: HTMLButtonElement;
+  readonly #pose: HTMLButtonElement;
+  readonly #bar = new ProgressBar();
+  readonly #model = h("p", { className: "model", role: "status", hidden: true });
+  readonly #told = h("p", { className: "saved", role: "status", hidden: true });
+  readonly #fault = h("p", { className: "fault", role: "alert", hidden: true });
+
+  constructor(acts: ComputeActs) {
+    const button = (label: string, act: () => void, className = "") =>
+      h("button", { type: "button", className, onclick: act }, label);
+    this.#compute = button("Compute", acts.compute, "primary");
+    this.#compute.setAttribute("aria-describedby", "lacking");
+    this.#cancel = button("Cancel", acts.cancel);
+    this.#save = button("Save", acts.save);
+    this.#choose = button("Choose handles", acts.choose);
+    this.#pose = button("Pose", acts.pose);
+    this.element = section(
+      "Model",
+      this.#bar.element,
+      this.#model,
+      this.#fault,
+      this.#told,
+      h("div", { className: "row acts" }, this.#compute, this.#cancel, this.#choose, this.#pose, this.#save),
+    );
+  }
+
+  /** What can be done now. */
+  update(now: { isChoosing: boolean; lacking: string; isRunning: boolean; hasModel: boolean }): void {
+    this.#compute.hidden = !now.isChoosing || now.isRunning;
+    this.#compute.disabled = now.lacking !== "";
+    this.#cancel.hidden = !now.isRunning;
+    this.#choose.hidden = now.isChoosing;
+    this.#pose.hidden = !now.isChoosing || !now.hasModel;
+    this.element.classList.toggle("stays", now.isChoosing);
+    this.#compute.title = now.lacking;
+    this.#save.textContent = now.hasModel ? "Save" : "Save handles";
+    this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !now.hasModel);
+    if (!now.isRunning) this.#bar.element.hidden = true;
+  }
+
+  /** Whether all numbers in the panel can be taken; shows the first one that cannot. */
+  isValid(): boolean {
+    const wrong = this.element.parentElement?.querySelector<HTMLInputElement>("input:invalid");
+    const folded = wrong?.closest("details");
+    if (folded) folded.open = true;
+    return wrong?.reportValidity() ?? true;
+  }
+
+  /** Nothing is told any more. */
+  clear(): void {
+    for (const text of [this.#model, this.#told, this.#fault]) text.hidden = true;
+  }
+
+  progress(progress: Progress): void {
+    this.#bar.show(progress);
+  }
+
+  model({ samples, dimension, error, final, seconds }: Model): void {
+    const parts = [`${samples} samples`, `${dimension} dimensions`];
+    if (error !== null) parts.push(`error ${percent(error)}`);
+    const head = final ? `Done in ${duration(seconds)}` : "Ready to pose, and improving";
+    this.#model.textContent = `${head}: ${parts.join(", ")}.`;
+    this.#model.hidden = false;
+  }
+
+  saved({ problem, model, mesh }: Saved, folder: string): void {
+    const names = [problem, model, mesh]
+      .filter((path) => path !== null)
+      .map((path) => path.replace(/^.*[\\/]/, ""));
+    this.#told.textContent = `Saved ${names.join(", ")} in ${folder}.`;
+    this.#told.hidden = false;
+  }
+
+  fault(text: string): void {
+    this.#fault.textContent = text;
+    this.#fault.hidden = text === "";
+  }
+}
+
+/** How far work is, with words below. */
+export class ProgressBar {
+  readonly element: HTMLElement;
+  readonly #bar = h("progress", { "aria-label": "Progress" });
+  readonly #stage = h("span", {});
+  readonly #figures = h("span", { className: "told" });
+
+  constructor() {
+    const words = h("p", { className: "progress-words" }, this.#stage, this.#figures);
+    this.element = h("div", { className: "progress", hidden: true }, this.#bar, words);
+  }
+
+  show({
+    stage,
+    done,
+    total,
+    eta,
+    error,
+  }: Pick<Progress, "stage" | "done" | "total" | "eta" | "error">): void {
+    this.element.hidden = false;
+    if (total > 0) {
+      this.#bar.max = total;
+      this.#bar.value = done;
+    } else this.#bar.removeAttribute("value");
+    const text = STAGES[stage] ?? stage;
+    if (this.#stage.textContent !== text) this.#stage.textContent = text;
+    const parts = [];
+    if (total > 0) parts.push(`${done.toLocaleString("en")} of ${total.toLocaleString("en")}`);
+    if (eta !== null) parts.push(`${duration(eta)} left`);
+    if (error !== null) parts.push(`error ${percent(error)}`);
+    this.#figures.textContent = parts.join(" · ");
+  }
+}
+
+function percent(share: number): string {
+  return `${Number((100 * share).toPrecision(2))} %`;
+}
+
+function duration(seconds: number): string {
+  if (seconds < 90) return `${seconds < 10 ? seconds.toFixed(1) : Math.round(seconds)} s`;
+  return seconds < 5400 ? `${Math.round(seconds / 60)} min` : `${(seconds / 3600).toFixed(1)} h`;
+}

@@ -1,0 +1,107 @@
+import {
+  DataArrayTexture,
+  FloatType,
+  RGBAFormat,
+  type RawShaderMaterial,
+  type Texture,
+  type WebGLRenderer,
+  type WebGLRenderTarget,
+} from "three";
+
+import type { Membrane } from "../engine/index.ts";
+import { asTexels } from "./deformer.ts";
+import { disposePass, floatTarget, pass, run, type Pass } from "./gpu_pass.ts";
+
+/** As web/engine/membrane_energy.ts, a vertex at a time. */
+const ENERGIES = `
+precision highp float;
+precision highp sampler2D;
+precision highp sampler2DArray;
+precision highp isampler2D;
+uniform sampler2D positions;
+uniform isampler2D ranges;
+uniform isampler2D pairs;
+uniform sampler2DArray rests;
+uniform float weights[MOST_RESTS];
+uniform int count;
+uniform float ratio;
+out vec4 result;
+ivec2 cell(int vertex) {
+  int width = textureSize(positions, 0).x;
+  return ivec2(vertex % width, vertex / width);
+}
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 own = texelFetch(positions, at, 0).xyz;
+  ivec2 range = texelFetch(ranges, at, 0).xy;
+  int width = textureSize(pairs, 0).x;
+  vec2 sums = vec2(0.0);
+  for (int i = range.x; i < range.x + range.y; i++) {
+    ivec2 pair = texelFetch(pairs, ivec2(i % width, i / width), 0).xy;
+    ivec2 b = cell(pair.x), c = cell(pair.y);
+    vec3 p = texelFetch(positions, b, 0).xyz - own, q = texelFetch(positions, c, 0).xyz - own;
+    for (int k = 0; k < count; k++) {
+      vec3 o = texelFetch(rests, ivec3(at, k), 0).xyz;
+      vec3 u = texelFetch(rests, ivec3(b, k), 0).xyz - o, v = texelFetch(rests, ivec3(c, k), 0).xyz - o;
+      float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), determinant = uu * vv - uv * uv;
+      if (determinant <= 1e-6 * uu * vv) continue;
+      float duu = dot(p - u, p + u), dvv = dot(q - v, q + v), duv = dot(p - u, q) + dot(u, q - v);
+      vec4 m = vec4(vv * duu - uv * duv, vv * duv - uv * dvv, uu * duv - uv * duu, uu * dvv - uv * duv);
+      m *= 0.5 / determinant;
+      float trace = m.x + m.w, area = weights[k] * sqrt(determinant);
+      sums += area * vec2(m.x * m.x + m.w * m.w + 2.0 * m.y * m.z + ratio * trace * trace, 1.0);
+    }
+  }
+  result = vec4(sums.y > 0.0 ? sums.x / sums.y : 0.0, 0.0, 0.0, 1.0);
+}`;
+
+type Places = RawShaderMaterial["uniforms"];
+
+/** Strain energy densities of a surface, over mu, on the graphics processor; in the red of each texel. */
+export class GpuEnergies {
+  readonly target: WebGLRenderTarget;
+  readonly #renderer: WebGLRenderer;
+  readonly #pass: Pass;
+  readonly #rests: DataArrayTexture;
+  #isOn = false;
+
+  /** `places` has positions, ranges and pairs of a deformer. */
+  constructor(renderer: WebGLRenderer, membrane: Membrane, width: number, height: number, places: Places) {
+    const count = membrane.rests.length;
+    const texels = new Float32Array(4 * width * height * count);
+    membrane.rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
+    this.#renderer = renderer;
+    this.#rests = new DataArrayTexture(texels, width, height, count);
+    this.#rests.format = RGBAFormat;
+    this.#rests.type = FloatType;
+    this.#rests.needsUpdate = true;
+    this.target = floatTarget(width, height);
+    this.#pass = pass(ENERGIES.replace("MOST_RESTS", String(count)), {
+      ...places,
+      rests: { value: this.#rests },
+      weights: { value: new Float32Array(count) },
+      count: { value: count },
+      ratio: { value: membrane.ratio },
+    });
+  }
+
+  get texture(): Texture {
+    return this.target.texture;
+  }
+
+  /** Weights of the shapes at rest, or null while nothing is asked for. */
+  weigh(weights: readonly number[] | null): void {
+    this.#isOn = weights !== null;
+    if (weights) this.#pass.material.uniforms.weights.value.set(weights);
+  }
+
+  update(): void {
+    if (this.#isOn) run(this.#renderer, [[this.#pass, this.target]]);
+  }
+
+  dispose(): void {
+    this.target.dispose();
+    this.#rests.dispose();
+    disposePass(this.#pass);
+  }
+}

@@ -1,0 +1,114 @@
+import { UnreadableModel } from "../engine/index.ts";
+import { coreBytes } from "./core_bytes.ts";
+import { h } from "./dom.ts";
+import { Stage, type Axis } from "./stage.ts";
+import { followTheme } from "./theme.ts";
+import type { View, ViewOptions } from "./view.ts";
+
+/** The page's places: the stage, the panel, and the message before them. One view is in it at a time. */
+export class Room {
+  readonly #place = document.getElementById("stage")!;
+  readonly #panel = document.getElementById("panel")!;
+  readonly #message = document.getElementById("message")!;
+  readonly #query = new URLSearchParams(location.search);
+  #isDark = false;
+  #stage: Stage | null = null;
+  #module: Promise<WebAssembly.Module> | null = null;
+  #view: View | null = null;
+
+  constructor() {
+    followTheme((dark) => {
+      this.#isDark = dark;
+      if (this.#stage) this.#stage.dark = dark;
+    });
+  }
+
+  /** UnreadableModel where the browser cannot draw. */
+  get stage(): Stage {
+    if (!this.#stage) {
+      this.#stage = newStage();
+      this.#stage.dark = this.#isDark;
+    }
+    return this.#stage;
+  }
+
+  /** The core, compiled. */
+  get module(): Promise<WebAssembly.Module> {
+    this.#module ??= WebAssembly.compile(coreBytes());
+    return this.#module;
+  }
+
+  /** What the page's address asks for. */
+  options(up: Axis | undefined): ViewOptions {
+    return {
+      up: (this.#query.get("up") ?? up ?? "z") as Axis,
+      forceCpu: this.#query.get("deform") === "cpu",
+    };
+  }
+
+  /** Takes away what is shown, before something else is made. */
+  clear(): void {
+    this.#view?.dispose();
+    this.#view = null;
+    this.#panel.querySelectorAll("section").forEach((part) => part.remove());
+    this.#place.querySelectorAll(".hud, .notice").forEach((part) => part.remove());
+  }
+
+  /** Takes away what is shown, and nothing comes in its place. */
+  empty(): void {
+    this.clear();
+    this.#panel.hidden = true;
+  }
+
+  show(view: View, title: string, script: Record<string, unknown> = {}): void {
+    this.#view = view;
+    document.getElementById("fold")!.after(...view.panel);
+    this.#place.append(view.hud.element, view.hud.notice);
+    this.quiet();
+    this.#panel.hidden = false;
+    this.#panel.scrollTop = 0;
+    document.title = title || "Snapspace";
+    this.stage.renderer.render(this.stage.scene, this.stage.camera);
+    this.stage.draw();
+    // what the view tells may change while it is shown: it is inherited, not copied
+    window.snapspace = Object.assign(Object.create(view.script), {
+      ready: true,
+      stage: this.stage,
+      ...script,
+    });
+  }
+
+  /** Takes the message away. */
+  quiet(): void {
+    this.#message.hidden = true;
+  }
+
+  /** A message before everything, with something to do about it. */
+  tell(text: string, isError: boolean, ...below: HTMLElement[]): void {
+    const words = h("p", { role: isError ? "alert" : "status" }, text);
+    const row = h("div", { className: "row" }, ...below);
+    if (isError && this.#view)
+      row.append(h("button", { type: "button", onclick: () => this.quiet() }, "Close"));
+    this.#message.replaceChildren(words, row);
+    this.#message.classList.toggle("error", isError);
+    this.#message.hidden = false;
+    window.snapspace["message"] = text;
+  }
+}
+
+function newStage(): Stage {
+  try {
+    return new Stage(document.querySelector("canvas")!);
+  } catch {
+    throw new UnreadableModel("This browser has no WebGL 2, which the page needs to draw.");
+  }
+}
+
+/** What the user should read about an error. */
+export function readable(error: unknown): string {
+  if (error instanceof UnreadableModel) return error.message;
+  if (error instanceof WebAssembly.CompileError)
+    return "This browser is too old: it lacks WebAssembly with SIMD.";
+  console.error(error);
+  return `The page has a fault: ${String(error)}`;
+}

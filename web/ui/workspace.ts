@@ -1,0 +1,224 @@
+import { choiceOf, lacking, messageOf, type Choice } from "../engine/choice.ts";
+import { readModel, type PosingModel } from "../engine/index.ts";
+import type { Failed, Model, Progress, Workspace as Given } from "../engine/messages.ts";
+import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
+import { samplingOf, type Sampling } from "./choosing_sampling.ts";
+import { choosingView } from "./choosing_view.ts";
+import { ComputePanel } from "./compute_panel.ts";
+import { polishAt } from "./polishing.ts";
+import { posingView, type PosingView } from "./posing_view.ts";
+import { readable, type Room } from "./room.ts";
+import { Refused, type Server } from "./server.ts";
+import { ReadingBox } from "./workspace_reading.ts";
+
+/** Work with a server: a mesh, its handles, models that become better while they are posed. */
+export class Workspace {
+  readonly #room: Room;
+  readonly #server: Server;
+  readonly #panel: ComputePanel;
+  readonly #reading: ReadingBox;
+  #given: Given | null = null;
+  #mesh: RestMesh | null = null;
+  #choice: Choice = choiceOf([]);
+  #sampling: Sampling | null = null;
+  /** The newest model of the computation that was started last. */
+  #model: { told: Model; content: PosingModel } | null = null;
+  #posing: PosingView | null = null;
+  /** Number of the request that computes, or 0. */
+  #job = 0;
+  #isRunning = false;
+  /** Whether a lost connection came back, until its mesh is there. */
+  #isBack = false;
+  /** Models are taken one after the other. */
+  #queue: Promise<void> = Promise.resolve();
+
+  constructor(room: Room, server: Server) {
+    this.#room = room;
+    this.#server = server;
+    this.#reading = new ReadingBox(room, server);
+    this.#panel = new ComputePanel({
+      compute: () => void this.#try(() => this.#compute()),
+      cancel: () => void this.#try(() => this.#cancel()),
+      save: () => void this.#try(() => this.#save()),
+      choose: () => void this.#try(() => this.#choosing()),
+      pose: () => void this.#try(() => this.#pose()),
+    });
+    server.on("workspace", (given) => void this.#try(() => this.#enter(given)));
+    server.on("progress", (progress) => this.#progress(progress));
+    server.on("model", (model) => this.#take(model));
+    server.on("failed", (failed) => this.#failed(failed));
+    server.onConnection = (isOpen) => this.#connection(isOpen);
+  }
+
+  /** Another mesh, from a file. */
+  upload(file: File): void {
+    if (this.#given) void this.#reading.upload(file, this.#given);
+  }
+
+  async #enter(given: Given): Promise<void> {
+    const before = this.#given;
+    this.#given = given;
+    if (given.kind === "model") return; // the page has shown it
+    if (this.#mesh && before?.id !== given.id) {
+      this.#isBack = true; // the connection was lost; what was chosen here stays
+      if (given.kind === "empty") this.#panel.fault("The server has forgotten the mesh: drop it here again.");
+    }
+    if (given.kind !== "mesh" || given.mesh === null) {
+      if (!this.#isBack) this.#await(given);
+      return;
+    }
+    const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
+    if (this.#isBack && isSame) {
+      this.#isBack = false;
+      return;
+    }
+    this.#isBack = false;
+    this.#mesh = readMesh(await this.#server.fetched(given.mesh));
+    this.#choice = choiceOf(given.handles);
+    this.#sampling = samplingOf(given);
+    [this.#model, this.#job, this.#isRunning] = [null, 0, false];
+    this.#panel.clear();
+    this.#choosing(true);
+  }
+
+  /** Without a mesh: asks for one, or waits for it. */
+  #await(given: Given): void {
+    [this.#mesh, this.#posing] = [null, null];
+    this.#room.empty();
+    if (given.kind === "empty") this.#reading.ask(given);
+    else this.#reading.wait(given);
+  }
+
+  /** The view in which handles are chosen. */
+  #choosing(isNew = false): void {
+    const { stage } = this.#room;
+    const mesh = this.#mesh!;
+    this.#leave();
+    const { element } = this.#panel;
+    const onChoice = (choice: Choice) => {
+      if (choice.handles !== this.#choice.handles) this.#panel.clear();
+      this.#choice = choice;
+      this.#update();
+    };
+    const up = isNew ? this.#room.options(mesh.up).up : stage.up;
+    const options = { up, forceCpu: true, keepView: !isNew };
+    this.#room.show(
+      choosingView(stage, mesh, this.#choice, this.#sampling!, element, onChoice, options),
+      mesh.name,
+    );
+    this.#update();
+  }
+
+  /** The view in which the newest model is posed. */
+  async #pose(): Promise<void> {
+    const { stage, module } = this.#room;
+    const { content } = this.#model!;
+    this.#leave();
+    const polish = polishAt(this.#server, () => this.#model!.told.number);
+    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true, polish };
+    const view = await posingView(stage, await module, content, options);
+    this.#posing = view;
+    this.#room.show({ ...view, panel: [this.#panel.element, ...view.panel] }, content.name);
+    this.#update();
+  }
+
+  #leave(): void {
+    this.#posing = null;
+    this.#room.clear();
+  }
+
+  async #compute(): Promise<void> {
+    if (!this.#panel.isValid()) return;
+    await this.#tellChoice();
+    const { samples, dimension, seed, stiffness, poisson } = this.#sampling!;
+    this.#panel.clear();
+    this.#model = null;
+    this.#job = this.#server.send({ type: "compute", samples, dimension, seed, stiffness, poisson });
+    this.#isRunning = true;
+    this.#panel.progress({ type: "progress", request: this.#job, stage: "snapshots", ...NOT_YET });
+    this.#update();
+  }
+
+  async #tellChoice(): Promise<void> {
+    const { translation, angle } = this.#sampling!;
+    const handles = messageOf(this.#choice.handles);
+    await this.#server.ask({ type: "choose", handles, translation, angle }, "chosen");
+  }
+
+  async #cancel(): Promise<void> {
+    await this.#server.ask({ type: "cancel" }, "cancelled");
+    this.#isRunning = false;
+    this.#update();
+  }
+
+  async #save(): Promise<void> {
+    if (this.#posing === null) await this.#tellChoice();
+    const { message } = await this.#server.ask({ type: "save", name: null }, "saved");
+    this.#panel.saved(message, this.#given!.folder);
+  }
+
+  #progress(progress: Progress): void {
+    if (progress.request === 0) this.#reading.progress(progress);
+    else if (progress.request === this.#job && this.#isRunning) this.#panel.progress(progress);
+  }
+
+  #take(told: Model): void {
+    this.#queue = this.#queue.then(() => this.#try(() => this.#show(told)));
+  }
+
+  /** A better model, or the first: it is posed at once. */
+  async #show(told: Model): Promise<void> {
+    if (told.request !== this.#job) return;
+    const content = readModel(await this.#server.fetched(told.address), this.#mesh!.name) as PosingModel;
+    if (told.request !== this.#job) return;
+    const isFirst = this.#model === null;
+    this.#model = { told, content };
+    this.#isRunning &&= !told.final;
+    this.#panel.model(told);
+    if (this.#posing) await this.#posing.replace(content);
+    else if (isFirst) await this.#pose();
+    this.#update();
+  }
+
+  #failed({ request, message }: Failed): void {
+    if (request === 0) {
+      this.#reading.failed(message);
+      return;
+    }
+    if (request !== this.#job) return;
+    this.#isRunning = false;
+    this.#panel.fault(message);
+    this.#update();
+  }
+
+  #connection(isOpen: boolean): void {
+    if (isOpen) {
+      this.#panel.fault("");
+      return;
+    }
+    const lost = this.#isRunning ? " What was being computed is lost; compute again." : "";
+    this.#isRunning = false;
+    this.#panel.fault(`No connection to the server; it is tried again.${lost}`);
+    this.#update();
+  }
+
+  #update(): void {
+    this.#panel.update({
+      isChoosing: this.#posing === null,
+      lacking: lacking(this.#choice),
+      isRunning: this.#isRunning,
+      hasModel: this.#model !== null,
+    });
+  }
+
+  async #try(act: () => Promise<void> | void): Promise<void> {
+    try {
+      await act();
+    } catch (error) {
+      if (error instanceof Refused) this.#panel.fault(error.message);
+      else this.#room.tell(readable(error), true);
+    }
+  }
+}
+
+const NOT_YET = { done: 0, total: 0, seconds: 0, eta: null, error: null };

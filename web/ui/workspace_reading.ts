@@ -1,0 +1,102 @@
+import type { Progress, Workspace as Given } from "../engine/messages.ts";
+import { ProgressBar } from "./compute_panel.ts";
+import { filePicker, h } from "./dom.ts";
+import type { Room } from "./room.ts";
+import type { Server } from "./server.ts";
+import { sendFile } from "./upload.ts";
+
+const MEGABYTE = 2 ** 20;
+
+/** The box before everything: asks for a mesh, sends it, and waits until the server has read and filled it. */
+export class ReadingBox {
+  readonly #room: Room;
+  readonly #server: Server;
+  readonly #bar = new ProgressBar();
+  #given: Given | null = null;
+  #sending: AbortController | null = null;
+  #isShown = false;
+
+  constructor(room: Room, server: Server) {
+    this.#room = room;
+    this.#server = server;
+  }
+
+  /** Asks for a mesh. */
+  ask(given: Given): void {
+    this.#given = given;
+    this.#isShown = false;
+    const formats = h(
+      "p",
+      { className: "formats" },
+      "A closed surface (.obj .off .ply .stl), which is filled with tets, ",
+      "or tets (.mesh .msh .vtk .vtu .veg).",
+    );
+    this.#room.tell("Drop a mesh here", false, formats, this.#picker());
+  }
+
+  async upload(file: File, given: Given): Promise<void> {
+    this.#given = given;
+    if (file.size > given.upload_limit) {
+      const [size, most] = [file.size, given.upload_limit].map((bytes) => (bytes / MEGABYTE).toFixed(0));
+      this.failed(
+        `${file.name} has ${size} MB, and the server takes up to ${most} MB. ` +
+          "Start it with a larger --upload-limit, or with the mesh: `snapspace view MESH`.",
+      );
+      return;
+    }
+    this.#sending = new AbortController();
+    const address = this.#server.address("mesh", { workspace: given.id, name: file.name });
+    this.#show(`Sending ${file.name}`);
+    const onProgress = (done: number, total: number) =>
+      this.#bar.show({
+        stage: "Sent",
+        done: tenths(done),
+        total: tenths(total),
+        eta: null,
+        error: null,
+      });
+    try {
+      await sendFile(address, file, onProgress, this.#sending.signal);
+    } catch (error) {
+      this.failed((error as Error).message);
+    }
+  }
+
+  /** The server reads a mesh. */
+  wait(given: Given): void {
+    this.#given = given;
+    this.#show("The mesh is being read");
+  }
+
+  progress(progress: Progress): void {
+    if (this.#isShown) this.#bar.show(progress);
+  }
+
+  failed(message: string): void {
+    this.#isShown = false;
+    this.#room.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
+  }
+
+  #show(text: string): void {
+    this.#isShown = true;
+    this.#bar.element.hidden = true;
+    const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
+    this.#room.tell(text, false, this.#bar.element, cancel);
+  }
+
+  #cancel(): void {
+    this.#isShown = false;
+    this.#sending?.abort();
+    if (this.#server.isOpen) this.#server.send({ type: "cancel" });
+    if (this.#given) this.ask(this.#given);
+  }
+
+  #picker(): HTMLElement {
+    return filePicker("Open a mesh…", "", (file) => void this.upload(file, this.#given!));
+  }
+}
+
+/** Megabytes, to a tenth. */
+function tenths(bytes: number): number {
+  return Math.round((10 * bytes) / MEGABYTE) / 10;
+}
