@@ -62,6 +62,7 @@ void bind_cubature(nb::module_& m) {
       nb::arg("rows"), nb::arg("weights"), nb::arg("lam"), nb::arg("mu"), nb::arg("K"),
       nb::arg("L"), nb::arg("S"));
   bind_offsets(loop);
+  bind_anchor(loop);
   bind_loop(loop);
 }
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterable
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..certificate import Certificate, ResidualProbe, ResidualSample
 from ..reduction import ReducedModel
 from .certify import certify
 from .frame_report import FrameReport
+from .lowest_of import lowest_of
 from .polish import Polished, Polisher
 
 FloatArray = NDArray[np.float64]
@@ -113,6 +113,7 @@ class Session(ABC, Generic[Model]):
                 "model's"
             )
         self._loop.dimension = dimension
+        self._dimension_changed()
 
     @property
     def q(self) -> FloatArray:
@@ -242,16 +243,11 @@ class Session(ABC, Generic[Model]):
         tolerance resolves. The best sample is the training sample of the lowest energy. Costs some
         ten frames.
         """
-        begin = time.perf_counter()
-        best, shape = self.solve(), self.q
-        for start, q in self._known_starts().items():
-            self._loop.q = q
-            report = self.solve()
-            resolved = 10.0 * self.tolerance * (self.model.value_scale + abs(best.value))
-            if not best.value - resolved <= report.value:
-                best, shape = replace(report, start=start), self.q
-        self._loop.q = shape
-        return replace(best, seconds=time.perf_counter() - begin)
+        return self._lowest_of([("last frame", self.q), *self._known_starts().items()])
+
+    def _lowest_of(self, starts: Iterable[tuple[str, FloatArray]]) -> FrameReport:
+        resolved = 10.0 * self.tolerance
+        return lowest_of(self._loop, self.solve, starts, resolved, self.model.value_scale)
 
     @property
     @abstractmethod
@@ -268,6 +264,10 @@ class Session(ABC, Generic[Model]):
     @abstractmethod
     def reset(self) -> None:
         """Back to tau."""
+
+    def _dimension_changed(self) -> None:
+        """Called when another number of coordinates is solved for."""
+        return None
 
     def _known_starts(self) -> dict[str, FloatArray]:
         """tau, and the training sample of the lowest energy, as coordinates."""

@@ -60,6 +60,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "session": {
         "_core",
+        "blas",
         "certificate",
         "interruptible",
         "mesh",

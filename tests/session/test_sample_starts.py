@@ -8,11 +8,16 @@ import numpy as np
 import pytest
 
 from snapspace import PosingModel
+from snapspace.session.motion_space import MotionSpace
 from snapspace.session.sample_starts import SampleStarts
 
 
+def starts_of(model: PosingModel) -> SampleStarts:
+    return SampleStarts(MotionSpace(model), model.training_coordinates)
+
+
 def test_at_a_sample_the_start_is_the_sample(posing_model: PosingModel) -> None:
-    starts = SampleStarts(posing_model)
+    starts = starts_of(posing_model)
     for w, q in zip(
         posing_model.training_parameters, posing_model.training_coordinates, strict=True
     ):
@@ -27,18 +32,18 @@ def test_repeated_samples_do_no_harm(posing_model: PosingModel) -> None:
         training_coordinates=np.vstack([posing_model.training_coordinates] * 2),
     )
     offsets = posing_model.problem.offsets(0.4 * posing_model.problem.domain.half_widths)
-    once = SampleStarts(posing_model)(offsets)
-    assert SampleStarts(twice)(offsets) == pytest.approx(once, abs=1e-3 * np.abs(once).max())
+    once = starts_of(posing_model)(offsets)
+    assert starts_of(twice)(offsets) == pytest.approx(once, abs=1e-3 * np.abs(once).max())
 
 
 def test_distances_are_those_of_the_handles_energy(posing_model: PosingModel) -> None:
     problem = posing_model.problem
-    starts = SampleStarts(posing_model)
+    motions = MotionSpace(posing_model)
     w = np.zeros(problem.parameter_count)
     w[:3] = (0.3, -0.1, 0.2)
     offsets = problem.offsets(w)
     expected = np.sqrt(posing_model.handles.value(np.zeros(posing_model.dimension), offsets))
-    assert starts.distance(offsets, np.zeros_like(offsets)) == pytest.approx(expected, rel=1e-9)
+    assert motions.distance(offsets, np.zeros_like(offsets)) == pytest.approx(expected, rel=1e-9)
 
 
 def test_a_jump_to_a_sample_starts_there(posing_model: PosingModel) -> None:

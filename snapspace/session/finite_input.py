@@ -1,0 +1,22 @@
+"""finite: a user's numbers, checked."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+FloatArray = NDArray[np.float64]
+
+
+def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
+    """The values as an array; ValueError, with the entry, unless they are finite and of a shape."""
+    array = np.asarray(values, np.float64)
+    if array.shape != shape:
+        numbers = "three numbers" if shape == (3,) else f"a {shape} matrix"
+        raise ValueError(f"{name} needs {numbers}, got {values!r}".replace("\n", ""))
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        place = tuple(int(i) for i in bad[0])
+        entry = ", ".join(map(str, place))
+        raise ValueError(f"{name} has [{entry}] = {array[place]}, but it must be finite")
+    return array

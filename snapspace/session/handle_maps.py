@@ -1,0 +1,49 @@
+"""Maps of world positions that handles follow."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..problem import affine_offset
+from .finite_input import finite
+
+FloatArray = NDArray[np.float64]
+
+
+def world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
+    """The (3, 4) map of world positions that an offset [A - I | t] about a center stands for."""
+    linear = offset[:, :3] + np.eye(3)
+    return np.column_stack([linear, center + offset[:, 3] - linear @ center])
+
+
+def given_maps(
+    motions: Sequence[tuple[ArrayLike, ArrayLike]], names: Sequence[str], centers: FloatArray
+) -> dict[str, FloatArray]:
+    """Maps (3, 4) by handle, of rotations (3, 3) about the centers and translations (3,).
+
+    ValueError for another number of motions, or one that is not finite or no rigid motion.
+    """
+    if len(motions) != len(names):
+        raise ValueError(f"put: got {len(motions)} motions, but there are {len(names)} handles")
+    maps = {}
+    for name, center, (rotation, translation) in zip(names, centers, motions, strict=True):
+        turn = finite(rotation, (3, 3), f"put: the rotation of '{name}'")
+        shift = finite(translation, (3,), f"put: the translation of '{name}'")
+        if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
+            raise ValueError(f"put: the matrix of '{name}' is no rotation")
+        maps[name] = world_map(np.column_stack([turn - np.eye(3), shift]), center)
+    return maps
+
+
+def relative_offsets(maps: FloatArray, centers: FloatArray) -> FloatArray:
+    """Offsets (h, 3, 4) about the centers of maps (h, 3, 4) as seen from the first, a rigid one."""
+    back = maps[0, :, :3].T  # inverse rotation of the first handle
+    offsets = [np.zeros((3, 4))]
+    for target, center in zip(maps[1:], centers[1:], strict=True):
+        shift = target[:, 3] - maps[0, :, 3]
+        relative = np.column_stack([back @ target[:, :3], back @ shift])
+        offsets.append(affine_offset(relative, center))
+    return np.array(offsets)

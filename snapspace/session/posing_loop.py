@@ -1,0 +1,21 @@
+"""posing_loop: the compiled solver of a posing model."""
+
+from __future__ import annotations
+
+from .. import _core as core
+from ..reduction import Cubature, PosingModel
+
+
+def posing_loop(model: PosingModel, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
+    """The loop for the model's energy; ValueError for a cubature in single precision."""
+    elastic, handles = model.elastic, model.handles
+    if not isinstance(elastic, Cubature):
+        return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
+    if single:
+        raise ValueError(
+            "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
+        )
+    rows, weights, material = elastic.rows, elastic.weights, elastic.material
+    return core.CubatureLoop(
+        rows, weights, material.lam, material.mu, handles.K, handles.L, handles.S
+    )
