@@ -48,8 +48,9 @@ class Workspace:
         self._work: Job | None = None
         self._polishes = PolishJobs(emit, self._fail)
         self._bench: Bench | None = None
-        self._meshes = 0
+        self._meshes = 0  # that were opened; the last one counts
         self._models = Models()
+        self._closed = False
 
     def open(self) -> None:
         """Sends the first message, and begins to read or fill where the server has a mesh."""
@@ -75,7 +76,10 @@ class Workspace:
             return replace(body, file=None, folder=self._site.folder)
 
         with self._lock:
-            self._open(make, path.stem)
+            if self._closed:  # the page went while its file came
+                shutil.rmtree(path.parent, ignore_errors=True)
+            else:
+                self._open(make, path.stem)
 
     def receive(self, message: messages.PageMessage) -> None:
         """Answers a message, at once or by a job."""
@@ -100,6 +104,7 @@ class Workspace:
     def close(self) -> None:
         """Ends all work, and lets go of what it made."""
         with self._lock:
+            self._closed = True
             jobs = [job for job in (self._work, self._polishes.stop()) if job is not None]
             for job in jobs:
                 job.stop()
@@ -170,7 +175,8 @@ class Workspace:
         self._end_work()
         self._bench = None
         self._models.clear()
-        empty = self._empty()
+        self._meshes += 1
+        number, empty = self._meshes, self._empty()
         self._emit(replace(empty, kind="reading", name=name))
         report = Reporter(self._tell, 0)
 
@@ -179,11 +185,11 @@ class Workspace:
                 body = make(report.tell)
                 check_stop()
                 bench = Bench(body, self._models)
-                self._meshes += 1
                 self._bench = bench
-                self._emit(bench.begin(empty, mesh=self._address("mesh", self._meshes)))
+                self._emit(bench.begin(empty, mesh=self._address("mesh", number)))
             except BaseException:
-                self._emit(empty)
+                if number == self._meshes:  # else the page reads another one by now
+                    self._emit(empty)
                 raise
 
         self._work = Job(work, failed=lambda error: self._fail(0, error))

@@ -126,3 +126,44 @@ def test_an_empty_memory_is_told_with_its_cure(site: Site, monkeypatch: pytest.M
     workspace.close()
     (failed,) = (m for m in mailbox.messages if isinstance(m, Failed))
     assert "fewer samples or a coarser mesh" in failed.message
+
+
+def test_a_file_that_comes_after_its_page_has_gone_is_removed(site: Site, tmp_path: Path) -> None:
+    place = tmp_path / "upload" / "bar.obj"
+    place.parent.mkdir()
+    place.write_text("")
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.close()
+    workspace.upload(place)
+    assert not place.parent.exists() and mailbox.messages == []
+
+
+def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
+    site: Site, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    release = threading.Event()
+    problem = bar_problem()
+    body = Body(name="new", mesh=problem.mesh, file=None, folder=tmp_path)
+
+    def read(path: Path, **_: object) -> Body:
+        if path.stem == "slow":
+            assert release.wait(PATIENCE)
+            raise ValueError("too late")
+        return body
+
+    monkeypatch.setattr("snapspace.server.workspace.mesh_body", read)
+    monkeypatch.setattr("snapspace.server.workspace.STOP_SECONDS", 0.01)
+    mailbox = Mailbox()
+    workspace = Workspace(replace(site, body=None), mailbox.put)
+    workspace.upload(tmp_path / "a" / "slow.obj")
+    late = workspace._work
+    assert late is not None
+    workspace.upload(tmp_path / "b" / "new.obj")
+    mailbox.wait_for(Opened, kind="mesh", name="new")
+    release.set()
+    assert late.wait(PATIENCE)
+    kinds = [message.kind for message in mailbox.messages if isinstance(message, Opened)]
+    workspace.close()
+    assert kinds == ["reading", "reading", "mesh"]
+    assert not any(isinstance(message, Failed) for message in mailbox.messages)

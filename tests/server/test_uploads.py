@@ -1,0 +1,78 @@
+"""Meshes that are dropped on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace.generators import bar
+from snapspace.mesh import write_surface
+
+from .running import Running
+
+ORDER = {"samples": 40, "dimension": 8, "seed": 0, "stiffness": 1000.0}
+
+
+@pytest.fixture(scope="module")
+def empty() -> Iterator[Running]:
+    server = Running("--upload-limit", "1")
+    yield server
+    server.kill()
+
+
+def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) -> None:
+    thin = bar(16, 1, 1, width=0.25, height=0.25)  # few tets, soon filled
+    write_surface(tmp_path / "bar.ply", thin.vertices, thin.surface)
+    content = (tmp_path / "bar.ply").read_bytes()
+    with empty.page() as page:
+        told = page.take("workspace")
+        assert (told["kind"], told["mesh"], told["upload_limit"]) == ("empty", None, 2**20)
+        assert empty.upload(told["id"], "../b/drop me.ply", content) == (202, "")
+        told = page.workspace()
+        assert (told["kind"], told["name"]) == ("mesh", "drop me")
+        stages = [m["stage"] for m in page.seen if m["type"] == "progress"]
+        assert stages[-1] == "filling"
+        x = empty.fetch(told["mesh"])["vertices"][:, 0]
+        handles = [
+            {"name": "foot", "vertices": np.flatnonzero(x < 0.2).tolist(), "moving": False},
+            {"name": "head", "vertices": np.flatnonzero(x > 3.8).tolist()},
+        ]
+        ranges = {"translation": told["translation"], "angle": told["angle"]}
+        page.ask("choose", "chosen", handles=handles, **ranges)
+        page.send("compute", **{**ORDER, "stiffness": told["stiffness"], "poisson": 0.4})
+        assert page.take("model", "failed")["type"] == "model"
+
+
+def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: Path) -> None:
+    # the finest surface below the limit takes fTetWild many seconds
+    fine = bar(24, 12, 12)
+    write_surface(tmp_path / "fine.stl", fine.vertices, fine.surface)
+    with empty.page() as page:
+        told = page.take("workspace")
+        assert empty.upload(told["id"], "fine.stl", (tmp_path / "fine.stl").read_bytes())[0] == 202
+        while page.take("progress")["stage"] != "filling":
+            pass
+        page.send("compute", **ORDER)
+        assert "wait until it is read" in page.take("failed")["message"]
+        page.ask("cancel", "cancelled", request=3)
+        assert [m["kind"] for m in page.seen if m["type"] == "workspace"][-1] == "empty"
+
+
+def test_what_is_no_mesh_is_refused(empty: Running) -> None:
+    with empty.page() as page:
+        told = page.take("workspace")
+        status, text = empty.upload(told["id"], "x.obj", b"0" * (2**20 + 1))
+        assert status == 413 and "more than 1 MB; raise --upload-limit" in text
+        assert empty.upload(told["id"], "x.exe", b"0")[0] == 415
+        assert empty.upload("another", "x.obj", b"0")[0] == 404
+        assert empty.upload(told["id"], "x.obj", b"hello")[0] == 202
+        assert page.take("failed") == {
+            "type": "failed",
+            "request": 0,
+            "message": "x.obj: it has no faces (0 vertices)",
+        }
+        page.send("save", request=4)
+        assert "there is no mesh yet" in page.take("failed")["message"]
