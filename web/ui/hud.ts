@@ -20,6 +20,7 @@ export class Hud {
     fps: figure("fps", ""),
     error: figure("error", "estimated distance from the full solution, of the displacement"),
   };
+  readonly #remark = h("p", { role: "status" });
   readonly #certify: (() => Certificate | null) | null;
   #certifying = 0;
   readonly #solves: number[] = [];
@@ -36,6 +37,7 @@ export class Hud {
       h("h1", {}, title),
       h("p", {}, detail),
       h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes, ...(certify ? error.nodes : [])),
+      this.#remark,
     );
   }
 
@@ -62,6 +64,11 @@ export class Hud {
     if (seconds > 0.5) this.#frames.length = 0;
     else keep(this.#frames, seconds);
     this.#tell();
+  }
+
+  /** A remark on the shape that is shown, or an empty text. */
+  remark(text: string): void {
+    if (this.#remark.textContent !== text) this.#remark.textContent = text;
   }
 
   /** What must be known, or an empty text. */

@@ -4,10 +4,14 @@ import { Legend } from "./legend.ts";
 import type { Axis, Stage } from "./stage.ts";
 import type { Colors, Surface } from "./surface.ts";
 
-/** How many of the coordinates are solved for. */
-export function qualitySection(dimension: number, act: (dimension: number) => void): HTMLElement {
+/** How many of the coordinates are solved for, and what else belongs to it. */
+export function qualitySection(
+  dimension: number,
+  act: (dimension: number) => void,
+  ...others: HTMLElement[]
+): HTMLElement {
   const range = { min: Math.min(4, dimension), max: dimension, step: 1, value: dimension };
-  return section("Quality", slider("Dimensions", range, String, act).element);
+  return section("Quality", slider("Dimensions", range, String, act).element, ...others);
 }
 
 /** Colours, wires, what is up, and the first view again. */

@@ -1,6 +1,7 @@
 import { readModel } from "../engine/index.ts";
 import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
+import { polishAt } from "./polishing.ts";
 import { posingView } from "./posing_view.ts";
 import { readable, Room } from "./room.ts";
 import { Server } from "./server.ts";
@@ -38,7 +39,9 @@ async function open(source: () => Promise<Source | null>): Promise<void> {
     const module = await room.module;
     const { stage } = room;
     room.clear();
-    const options = room.options(model.up);
+    // the server knows its own model, as number 0, and no file that was dropped here
+    const polish = server && source === ownModel ? polishAt(server, () => 0) : undefined;
+    const options = { ...room.options(model.up), polish };
     const view =
       model.kind === "posing"
         ? await posingView(stage, module, model, options)

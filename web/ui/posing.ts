@@ -15,6 +15,8 @@ export class Posing {
   readonly stage: Stage;
   mode: Mode = "move";
   onSolved: (report: FrameReport) => void = () => {};
+  /** After the end of a drag. */
+  onReleased: () => void = () => {};
   /** After anything that controls show has changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
@@ -101,6 +103,7 @@ export class Posing {
     this.solveWishes();
     this.#history.push(this.#motions());
     this.onChange();
+    this.onReleased();
   }
 
   get canUndo(): boolean {

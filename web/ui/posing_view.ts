@@ -1,9 +1,10 @@
 import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
-import { choice, h, section } from "./dom.ts";
+import { choice, h, section, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import { Posing, type Mode } from "./posing.ts";
+import { Polishing } from "./polishing.ts";
 import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
@@ -67,7 +68,12 @@ export async function posingView(
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const figures = h("p", { className: "figures" });
 
-  posing.onSolved = (report) => hud.solved(report);
+  const polishing = options.polish && new Polishing(posing, options.polish, (text) => hud.remark(text));
+  posing.onSolved = (report) => {
+    hud.solved(report);
+    polishing?.cancel();
+  };
+  posing.onReleased = () => void polishing?.ask();
   posing.onChange = () => {
     list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
     modes.set(posing.mode);
@@ -86,15 +92,29 @@ export async function posingView(
   posing.onChange();
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
+    polishing?.advance();
     look.legend.look();
     hud.frame(seconds);
   };
 
+  const polish = toggle(
+    "Polish",
+    "When a handle is let go, a few iterations in the full space",
+    true,
+    (on) => {
+      if (polishing) polishing.isOn = on;
+    },
+  );
+  const others = polishing ? [h("div", { className: "row" }, polish)] : [];
   const qualityOf = (whole: number) =>
-    qualitySection(whole, (d) => {
-      posing.dimension = d;
-      hud.dimension(d, whole);
-    });
+    qualitySection(
+      whole,
+      (d) => {
+        posing.dimension = d;
+        hud.dimension(d, whole);
+      },
+      ...others,
+    );
   let quality = qualityOf(model.dimension);
   const replace = async (better: PosingModel) => {
     const session = await PosingSession.create(module, better);
@@ -142,6 +162,7 @@ export async function posingView(
     },
     dispose: () => {
       stop.abort();
+      polishing?.cancel();
       stage.beforeFrame = () => {};
       look.legend.dispose();
       hud.dispose();

@@ -43,6 +43,7 @@ export class Surface {
   readonly #idle: IdleShape;
   readonly #membrane: Membrane | null;
   #coefficients: ArrayLike<number> = [];
+  #share = 0;
   #weights: readonly number[] = [1];
   #scale: EnergyScale | null = null;
 
@@ -111,8 +112,20 @@ export class Surface {
   /** Takes the shape with these coefficients; the others are zero. */
   show(coefficients: ArrayLike<number>): void {
     this.#coefficients = coefficients;
+    this.#share = 0;
     this.#idle.show(coefficients);
     this.#deformer.update(coefficients);
+  }
+
+  /** Another shape, 3 numbers per vertex, to go to. */
+  set goal(positions: Float32Array) {
+    this.#deformer.goal = positions;
+  }
+
+  /** Goes a share of the way from the shape to the goal. */
+  blend(share: number): void {
+    this.#share = share;
+    this.#deformer.update(this.#coefficients, share);
   }
 
   /** The shape before its rigid motion, computed here: for picking. */
@@ -146,7 +159,7 @@ export class Surface {
   set colors(colors: Colors) {
     this.#uniforms.shownColors.value = COLORS.indexOf(colors);
     this.#deformer.weigh(colors === "energy" ? this.#weights : null);
-    this.#deformer.update(this.#coefficients);
+    this.#deformer.update(this.#coefficients, this.#share);
     this.#uniforms.shownEnergies.value = this.#deformer.energies ?? this.#deformer.normals;
   }
 

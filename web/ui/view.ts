@@ -1,4 +1,5 @@
 import type { Hud } from "./hud.ts";
+import type { Polish } from "./polishing.ts";
 import type { Axis } from "./stage.ts";
 
 /** What is on the stage and in the panel for one model. */
@@ -15,4 +16,6 @@ export interface ViewOptions {
   readonly forceCpu: boolean;
   /** Leaves the camera as it is, and what stands before it. */
   readonly keepView?: boolean;
+  /** Improves frames when a handle is let go. */
+  readonly polish?: Polish;
 }

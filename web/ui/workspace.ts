@@ -5,6 +5,7 @@ import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
+import { polishAt } from "./polishing.ts";
 import { posingView, type PosingView } from "./posing_view.ts";
 import { readable, type Room } from "./room.ts";
 import { Refused, type Server } from "./server.ts";
@@ -113,7 +114,8 @@ export class Workspace {
     const { stage, module } = this.#room;
     const { content } = this.#model!;
     this.#leave();
-    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true };
+    const polish = polishAt(this.#server, () => this.#model!.told.number);
+    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true, polish };
     const view = await posingView(stage, await module, content, options);
     this.#posing = view;
     this.#room.show({ ...view, panel: [this.#panel.element, ...view.panel] }, content.name);

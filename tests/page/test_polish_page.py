@@ -1,0 +1,63 @@
+"""A handle that is let go: the server improves the shape, and the next drag takes the live one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel
+
+from .pages import OpenPage, Page
+from .serving import served
+from .test_posing_page import assert_shown
+
+
+@pytest.fixture(scope="module")
+def address(
+    posing_model: PosingModel, tmp_path_factory: pytest.TempPathFactory, chromium: object
+) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("polish")
+    posing_model.save(folder / "bar.snapspace")
+    with served(folder / "bar.snapspace", cwd=folder) as address:
+        yield address
+
+
+def polished(page: Page, model: PosingModel) -> np.ndarray:
+    """What a session's polish makes of the page's frame, on the surface."""
+    session = model.session()
+    motions = [
+        (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
+        for handle, (_, shift) in page.motions().items()
+    ]
+    session.put(motions, page.run("[...snapspace.session.q]"))
+    found = session.polish(iterations=10)
+    assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")
+    shape: np.ndarray = found.vertices[model.problem.mesh.surface_vertices]
+    return shape
+
+
+def test_a_released_handle_is_polished(
+    address: str, posing_model: PosingModel, opened: OpenPage
+) -> None:
+    page = opened(address)
+    # the first handle carries the shape along
+    for handle, (dx, dy) in {1: (-40, -50), 0: (-20, 30)}.items():
+        page.drag(page.run(f"snapspace.handle({handle})"), dx, dy)
+        page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+        page.page.wait_for_timeout(200)
+        page.settle()
+        expected = polished(page, posing_model)
+        assert np.abs(page.shown() - expected).max() < 1e-4 * posing_model.problem.mesh.diagonal
+    x, y = page.run("snapspace.handle(1)")
+    page.page.mouse.move(x, y)
+    page.page.mouse.down()
+    page.page.mouse.move(x + 10, y + 6, steps=3)
+    page.wait("!document.querySelector('.hud').innerText.includes('polished')")
+    assert_shown(posing_model, page)
+    page.page.mouse.up()
+    page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+    page.page.get_by_role("button", name="Polish", exact=True).click()
+    assert "polished" not in page.text(".hud")
+    assert_shown(posing_model, page)

@@ -1,0 +1,103 @@
+import type { RigidMap } from "../engine/index.ts";
+import type { HandleMotion } from "../engine/messages.ts";
+import type { Posing } from "./posing.ts";
+import { Refused, type Server } from "./server.ts";
+
+/** A frame of a posing model. */
+interface Frame {
+  readonly handles: readonly HandleMotion[];
+  readonly q: readonly number[];
+}
+
+/** A frame after some iterations in the full space. */
+interface Improved {
+  /** Of the surface's vertices, where the handles are in the world. */
+  readonly positions: Float32Array;
+  /** Root mean square distance over the body, relative to the displacement from rest. */
+  readonly moved: number | null;
+}
+
+/** Improves a frame; Refused where that is not possible now. */
+export type Polish = (frame: Frame) => Promise<Improved>;
+
+const MILLISECONDS = 150; // from the live shape to the improved one
+
+/** At a server, for the model that has the number `model()` there by then. */
+export function polishAt(server: Server, model: () => number): Polish {
+  return async (frame) => {
+    const { message, bytes } = await server.ask({ type: "polish", model: model(), ...frame }, "polished");
+    if (!bytes) throw new Refused("The server sent no shape.");
+    return { positions: new Float32Array(bytes), moved: message.moved };
+  };
+}
+
+/** When a handle is let go: asks for a better shape and goes there; the next drag goes on with the live one. */
+export class Polishing {
+  readonly #posing: Posing;
+  readonly #polish: Polish;
+  readonly #tell: (text: string) => void;
+  #isOn = true;
+  #ticket = 0;
+  #begin: number | null = null;
+
+  constructor(posing: Posing, polish: Polish, tell: (text: string) => void) {
+    this.#posing = posing;
+    this.#polish = polish;
+    this.#tell = tell;
+  }
+
+  /** Whether it asks at all; off, the live shape is shown. */
+  set isOn(on: boolean) {
+    this.#isOn = on;
+    this.cancel();
+    if (on) void this.ask();
+    else this.#posing.surface.blend(0);
+    this.#posing.stage.draw();
+  }
+
+  /** Asks for the present frame; what comes after another frame is not shown. */
+  async ask(): Promise<void> {
+    if (!this.#isOn) return;
+    const ticket = ++this.#ticket;
+    const { session, surface, stage } = this.#posing;
+    const handles = session.model.handles.map((_, handle) => session.motion(handle) as HandleMotion);
+    try {
+      const { positions, moved } = await this.#polish({ handles, q: [...session.q] });
+      if (ticket !== this.#ticket || positions.length !== 3 * surface.space.vertices) return;
+      surface.goal = carriedBack(positions, session.carriedBy);
+      this.#begin = performance.now();
+      this.#tell(moved === null ? "polished" : `polished, moved ${Number((100 * moved).toPrecision(2))} %`);
+      stage.draw();
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+    }
+  }
+
+  /** Another frame: the live shape again, which is shown already. */
+  cancel(): void {
+    this.#ticket++;
+    this.#begin = null;
+    this.#tell("");
+  }
+
+  /** Before a picture: on the way to the improved shape. */
+  advance(): void {
+    if (this.#begin === null) return;
+    const time = Math.min((performance.now() - this.#begin) / MILLISECONDS, 1);
+    this.#posing.surface.blend(time * time * (3 - 2 * time));
+    if (time < 1) this.#posing.stage.draw();
+    else this.#begin = null;
+  }
+}
+
+/** Positions before a rigid motion x -> R x + t. */
+function carriedBack(positions: Float32Array, { rotation: R, shift }: RigidMap): Float32Array {
+  const back = new Float32Array(positions.length);
+  for (let i = 0; i < back.length; i += 3) {
+    const x = positions[i] - shift[0];
+    const y = positions[i + 1] - shift[1];
+    const z = positions[i + 2] - shift[2];
+    for (let a = 0; a < 3; a++) back[i + a] = R[a] * x + R[3 + a] * y + R[6 + a] * z;
+  }
+  return back;
+}
