@@ -37,5 +37,6 @@ def test_every_picture_that_is_made_is_in_the_docs(monkeypatch: pytest.MonkeyPat
     monkeypatch.syspath_prepend(ROOT / "docs")
     script = runpy.run_path(str(ROOT / "docs" / "make_pictures.py"))
     made = {f"{name}.png" for name in script["PICTURES"]}
-    made |= {"page-posing.png", "page-blending.png"}  # by make_page_pictures.py, in a browser
+    # by make_page_pictures.py, in a browser
+    made |= {"page-posing.png", "page-blending.png", "page-choosing.png"}
     assert made == {path.name for path in (ROOT / "docs" / "pictures").iterdir()}

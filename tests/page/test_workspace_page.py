@@ -158,6 +158,7 @@ def test_a_problem_shows_its_handles(folder: Path, opened: OpenPage) -> None:
         assert page.page.get_by_label("Handles' stiffness").input_value() == "200"
         assert page.page.get_by_label("Turn, plus or minus").last.input_value() == "20"
         assert page.page.get_by_role("button", name="Compute").is_enabled()
+        page.close()  # before its server, which it would miss
 
 
 def test_a_mesh_is_uploaded(empty: str, folder: Path, opened: OpenPage) -> None:

@@ -9,6 +9,7 @@ import { fromFile, ownModel, type Source } from "./source.ts";
 import { Workspace } from "./workspace.ts";
 import "./panel.css";
 import "./style.css";
+import "./workspace.css";
 import "./choosing.css";
 
 /** For scripts and tests: what the view shows, and a promise that is kept when a model is. */

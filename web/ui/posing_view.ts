@@ -118,6 +118,7 @@ export async function posingView(
   let quality = qualityOf(model.dimension);
   const replace = async (better: PosingModel) => {
     const session = await PosingSession.create(module, better);
+    if (stop.signal.aborted) return; // the view was left meanwhile
     const [before] = surfaces;
     surfaces[0] = surfaceOf(better);
     surfaces[0].lookAs(before);

@@ -172,11 +172,12 @@ export class Workspace {
     const content = readModel(await this.#server.fetched(told.address), this.#mesh!.name) as PosingModel;
     if (told.request !== this.#job) return;
     const isFirst = this.#model === null;
+    // the newest model is that which is posed: polishing takes its number
+    await this.#posing?.replace(content);
     this.#model = { told, content };
     this.#isRunning &&= !told.final;
     this.#panel.model(told);
-    if (this.#posing) await this.#posing.replace(content);
-    else if (isFirst) await this.#pose();
+    if (isFirst) await this.#pose();
     this.#update();
   }
 
