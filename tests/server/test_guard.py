@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import socket
 from collections.abc import Container
 from typing import Any
@@ -36,7 +35,9 @@ def answer(
     async def receive() -> Any:
         return {"type": f"{kind}.connect"}
 
-    asyncio.run(Guard(app, token="secret", hosts=hosts)(scope, receive, send))
+    answering = Guard(app, token="secret", hosts=hosts)(scope, receive, send)
+    with pytest.raises(StopIteration):  # nothing is waited for, so no event loop is needed
+        answering.send(None)
     return str(sent[0]["type"])
 
 

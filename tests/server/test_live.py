@@ -244,8 +244,13 @@ def test_strangers_get_no_websocket(server: Running, stranger: dict[str, str]) -
         pass
 
 
-def test_ctrl_c_ends_computations_and_pages(folder: Path) -> None:
-    server = Running(folder / "mesh.msh", "--port", "0")
+@pytest.fixture
+def short_lived(folder: Path) -> Iterator[Running]:
+    yield from running(folder / "mesh.msh", "--port", "0")
+
+
+def test_ctrl_c_ends_computations_and_pages(short_lived: Running) -> None:
+    server = short_lived
     with server.page() as page:
         told = page.workspace()
         assert told["handles"] == [] and told["kind"] == "mesh"
