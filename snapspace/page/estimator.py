@@ -6,10 +6,10 @@ import numpy as np
 
 from ..certificate import BlendingProbe, PosingProbe, ResidualProbe
 from ..model_file.container import Arrays
-from ..reduction import PosingModel, ReducedModel
+from ..reduction import InterpolationModel, PosingModel
 
 
-def estimator_arrays(model: ReducedModel) -> Arrays:
+def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     """The tets around the sampled vertices with their modes, and the calibration; none without one.
 
     Modes are in single precision: 16-bit integers would drown small residuals in their rounding.
@@ -17,7 +17,7 @@ def estimator_arrays(model: ReducedModel) -> Arrays:
     estimator = model.error_estimator
     if estimator is None:
         return {}
-    problem, subspace, sample = model.problem, model.subspace, estimator.sample
+    subspace, sample = model.subspace, estimator.sample
     arrays: Arrays = {}
     probe: ResidualProbe
     if isinstance(model, PosingModel):
@@ -29,8 +29,9 @@ def estimator_arrays(model: ReducedModel) -> Arrays:
             "estimator_pin_pulls": pins.pulls[:, 0],
         }
     else:
-        probe = BlendingProbe(problem, subspace, sample)
-        rests = problem.pose_shapes.reshape(len(problem.pose_shapes), -1, 3)
+        probe = BlendingProbe(model.problem, subspace, sample)
+        poses = model.problem.pose_shapes
+        rests = poses.reshape(len(poses), -1, 3)
     modes = subspace.basis.T.reshape(model.dimension, -1, 3)[:, probe.corners]
     return arrays | {
         "estimator_mass": np.array([estimator.mass]),

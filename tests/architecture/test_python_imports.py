@@ -79,7 +79,7 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "validation",
     },
-    "page": {"mesh", "model_file", "reduction"},
+    "page": {"certificate", "mesh", "model_file", "reduction"},
     "server": {
         "energy",
         "filling",
