@@ -251,7 +251,7 @@ def main() -> None:
     )
     parser.add_argument("--part", choices=PARTS, default="speed")
     parser.add_argument("--problem", default="dragon")
-    parser.add_argument("--samples", type=int, help="default: 300; growth 32; problems 64")
+    parser.add_argument("--samples", type=int, help="default: 300; growth 100; problems 64")
     parser.add_argument("--newton", type=int, default=10, help="samples for Newton's method")
     parser.add_argument("--tight", action="store_true", help="speed: also compare the subspaces")
     parser.add_argument(
@@ -261,7 +261,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     if args.samples is None:
-        args.samples = {"growth": 32, "problems": 64}.get(args.part, 300)
+        args.samples = {"growth": 100, "problems": 64}.get(args.part, 300)
     result, rows = PARTS[args.part](args)
     title = (
         f"{args.part}: {args.problem}" if args.part in ("speed", "first", "limits") else args.part

@@ -92,14 +92,12 @@ class PosingProblem:
         handles : Handles
             For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
             `fixing`.
-        domain : HandleBox, optional
-            Default: the bounds of this problem, see `HandleBox.renamed`.
+        domain : HandleBox, default that of this problem, see `HandleBox.renamed`
 
         Returns
         -------
         PosingProblem
-            A new one; it shares the mesh and the compiled energy with this one, which stays as it
-            is.
+            A new one that shares the mesh and the compiled energy.
 
         Raises
         ------
@@ -123,10 +121,7 @@ class PosingProblem:
 
     @property
     def snapshot_settling(self) -> float:
-        """A fifth of what a subspace of 40 dimensions usually misses.
-
-        Fine meshes buckle on their own scale, which goes on long after the shape has settled.
-        """
+        """A fifth of what a subspace of 40 dimensions usually misses."""
         return 2e-3
 
     @property
@@ -281,8 +276,7 @@ class PosingProblem:
         """How far the pinned vertices are from where the offsets want them, (p, 3)."""
         moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
-        misses: FloatArray = moved - wanted
-        return misses
+        return np.asarray(moved - wanted)
 
     def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[Any, ...]]:
         # what defines it travels; the compiled system and other caches are made again where needed
@@ -303,5 +297,6 @@ def _posing_problem(
     stiffness: float,
 ) -> PosingProblem:
     """The problem out of a pickle, checked again and with read-only arrays."""
-    handles = Handles(regions, names=names)
-    return PosingProblem(mesh, handles, domain=domain, material=material, stiffness=stiffness)
+    return PosingProblem(
+        mesh, Handles(regions, names=names), domain=domain, material=material, stiffness=stiffness
+    )
