@@ -39,8 +39,7 @@ class PosingProblem:
         The first one stays at rest while sampling, as do those whose bounds are zero.
     material : StVK, default StVK(lam=1, mu=1)
     stiffness : float, default 1000
-        Weight of the handles, > 0, in energy per volume and squared length (mu of eq. 2 in the
-        paper).
+        Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
     domain : HandleBox
         Bounds of the motions; `moving` is set to the number of handles less one.
 
@@ -90,8 +89,7 @@ class PosingProblem:
         Parameters
         ----------
         handles : Handles
-            For example `problem.handles.adding("tail", vertices)`, or `replacing`, `without`,
-            `fixing`.
+            For example `problem.handles.adding("tail", vertices)`, `without` or `fixing`.
         domain : HandleBox, default that of this problem, see `HandleBox.renamed`
 
         Returns
