@@ -2,29 +2,86 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import html
+import warnings
 
 from ..reduction import ReducedModel
 from .export import page_with_model
+
+#: Jupyter's gateway clients end a connection at a longer message (10 MiB, with its headers).
+MOST_BYTES = 10_000_000
+
+# A block: names would outlive document.open, and with them the packed bytes.
+_OPENER = """<!doctype html><meta charset="utf-8"><body><script>{{
+const unpacked = async () => {{
+  const packed = Uint8Array.from(atob("{content}"), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).text();
+}};
+unpacked().then(
+  (page) => {{ document.open(); document.write(page); document.close(); }},
+  (error) => {{ document.body.textContent = "This page cannot be unpacked: " + error; }},
+);
+}}</script>"""
 
 
 class NotebookPage:
     """A page that notebooks display: the value of `model.show()` at the end of a cell.
 
-    The page is part of the cell's output and needs no server, so it works on remote kernels, and in
-    notebooks that are saved and opened elsewhere.
+    The page is part of the cell's output, compressed, and asks for nothing: it works on remote
+    kernels, and in notebooks that are saved and opened elsewhere. It cannot reach the notebook.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    title : str
+        Heading of the page.
+    up : "x", "y" or "z"
+        Axis that points up at first.
+    height : int
+        In pixels, 100 or more.
+
+    Raises
+    ------
+    ValueError
+        For a lower height, another axis, or if the package was made without its page.
+
+    Warns
+    -----
+    UserWarning
+        If the output has more than 10 MB: not every way to a remote kernel carries it.
     """
 
     def __init__(self, model: ReducedModel, *, title: str, up: str, height: int) -> None:
         if height < 100:
             raise ValueError(f"show: height is {height} pixels, but the page needs 100 or more")
-        self._page = page_with_model(model, title=title, up=up)
         self._title, self._height = title, height
+        self._output = self._framed(page_with_model(model, title=title, up=up))
+        if len(self._output) > MOST_BYTES:
+            warnings.warn(
+                f"show: the output has {len(self._output) / 1e6:.1f} MB, and Jupyter's gateways "
+                f"to remote kernels carry {MOST_BYTES / 1e6:.0f} MB; where nothing appears, show "
+                f"fewer of {model.dimension} dimensions, `model.leading(d).show()`, or export_html",
+                stacklevel=3,
+            )
+
+    def _framed(self, page: str) -> str:
+        """The page in a frame; text inside of it is what notebooks leave that are not trusted."""
+        # mtime: the same output for the same model
+        packed = gzip.compress(page.encode(), compresslevel=6, mtime=0)
+        opener = html.escape(_OPENER.format(content=base64.b64encode(packed).decode("ascii")))
+        title = html.escape(self._title)
+        style = f"width: 100%; height: {self._height}px; border: 0; border-radius: 8px"
+        return (
+            f'<iframe sandbox="allow-scripts" srcdoc="{opener}" title="{title}" style="{style}">'
+            "The page of this model appears when the notebook is trusted, or the cell is run again."
+            "</iframe>"
+        )
 
     def _repr_html_(self) -> str:
-        page, title = html.escape(self._page), html.escape(self._title)
-        style = f"width: 100%; height: {self._height}px; border: 0; border-radius: 8px"
-        return f'<iframe srcdoc="{page}" title="{title}" style="{style}"></iframe>'
+        return self._output
 
     def __repr__(self) -> str:
         return f"NotebookPage({self._title!r}); notebooks display it, `export_html` writes a file"

@@ -81,6 +81,11 @@ class ReducedModel(ABC):
             Axis that points up at first.
         height : int, default 600
             In pixels; 100 or more, else ValueError.
+
+        Warns
+        -----
+        UserWarning
+            If the output has more than 10 MB: not every way to a remote kernel carries it.
         """
         from ..page import NotebookPage
 

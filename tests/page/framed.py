@@ -1,0 +1,41 @@
+"""A page in a frame of another one, as in notebooks."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+import numpy as np
+
+from .pages import SECONDS
+
+STATE = "window.snapspace ? snapspace.message || (snapspace.ready ? 'ready' : '') : ''"
+
+
+def ready(frame: Any) -> Any:
+    """The frame, once its model is shown."""
+    end = time.monotonic() + SECONDS
+    while not (state := frame.evaluate(STATE)):
+        assert time.monotonic() < end, "the page in the frame is not ready"
+        frame.page.wait_for_timeout(50)
+    assert state == "ready"
+    return frame
+
+
+def dragged(page: Any, frame: Any, handle: int, dx: float, dy: float) -> float:
+    """How far the shape went, at most, when a handle was dragged by the pointer."""
+    element = frame.frame_element()
+    element.scroll_into_view_if_needed()
+    page.wait_for_timeout(200)  # notebooks scroll a little more by themselves
+    box = element.bounding_box()
+    x, y = frame.evaluate(f"snapspace.handle({handle})")
+    x, y = x + box["x"], y + box["y"]
+    before = np.array(frame.evaluate("[...snapspace.shown()]"))
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 6):
+        page.mouse.move(x + dx * step / 5, y + dy * step / 5)
+        page.wait_for_timeout(50)
+    page.mouse.up()
+    page.wait_for_timeout(300)
+    return float(np.abs(np.array(frame.evaluate("[...snapspace.shown()]")) - before).max())
