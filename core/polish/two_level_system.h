@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "polish/coarse_space.h"
+#include "simd/lanes.h"
 
 namespace snapspace {
 
@@ -60,13 +61,16 @@ class TwoLevelObjective {
     return value;
   }
 
-  /// `vector` and `result` may be the same array; the other lanes hold nothing.
+  /// `vector` and `result` may be the same array; the other lanes hold nothing. Returns
+  /// vector . result.
   template <class Any>
-  void precondition(const Any* vector, Any* result) {
+  Sum<Any> precondition(const Any* vector, Any* result) {
     for (int i = 0; i < size(); ++i) vector_[i] = static_cast<float>(vector[i][0]);
     two_level_.coarse.solve(two_level_.inverse, vector_, correction_);
-    objective_.precondition(vector, result);
+    Sum<Any> product = objective_.precondition(vector, result);
     for (int i = 0; i < size(); ++i) result[i].set(0, result[i][0] + correction_[i]);
+    product.set(0, product[0] + vector_.cast<double>().dot(correction_.cast<double>()));
+    return product;
   }
 
  private:

@@ -132,8 +132,8 @@ class InterpolationObjective {
   }
 
   template <class Any>
-  void precondition(const Any* vector, Any* result) const {
-    system_.factor.solve(vector, result);
+  Sum<Any> precondition(const Any* vector, Any* result) const {
+    return system_.factor.solve(vector, result);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const {

@@ -24,6 +24,7 @@ struct Lane {
   int shortenings = 0;
   double value = 0.0;
   double norm = 0.0;   // of the gradient
+  double scale = 1.0;  // A^-1 is applied to the next gradient over this
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
   double decreases[kWindow] = {};   // of the last accepted steps
@@ -41,6 +42,14 @@ struct Lane {
     directions[iterations % kWindow] = direction;
     displacement = length;
     ++iterations;
+  }
+
+  /// Scales are powers of two near the norm: gradients in any unit are within the range of single
+  /// precision then, and their digits do not change.
+  void accept_norm(double gradient_norm) {
+    norm = gradient_norm;
+    if (norm > 0.0 && std::isfinite(norm))
+      scale = std::ldexp(1.0, std::clamp(std::ilogb(norm), -100, 100));
   }
 
   /// A step says how far the solution may still be. Short steps along long directions are no sign

@@ -26,7 +26,7 @@
 namespace snapspace {
 
 /// @tparam System  has an Objective<Real> with size(), negligible(), load(lane, input),
-///                 value_and_gradient(u, g) and precondition(v, result)
+///                 value_and_gradient(u, g) and precondition(v, result), which returns v . result
 /// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
 ///                 in double precision anyway
 template <class System, class Real>
@@ -44,7 +44,7 @@ class LaneLbfgs {
         vectors_(system.masses()),
         trial_(size_, Real(0)),
         gradient_(size_, Real(0)),
-        work_(size_, 0.0f) {}
+        work_(std::is_same_v<Single, Real> ? 0 : size_, 0.0f) {}
 
   /// Solves samples until there are no more.
   ///
@@ -77,10 +77,12 @@ class LaneLbfgs {
   /// has the same bits.
   using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
+  static constexpr int kPairs = PairProducts::kPairs;
   static constexpr int kMaxShortenings = 30;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
+  using Single = SingleLanes<kWidth>;
   using Products = typename LbfgsVectors<Real>::Products;
   /// On a lane's trial: its point is where the sample begins, or has moved to, or neither.
   enum class Verdict { refused, started, moved };
@@ -149,27 +151,31 @@ class LaneLbfgs {
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
     const Total value = objective_.value_and_gradient(trial_.data(), gradient_.data());
-    const Products products = vectors_.products(gradient_.data());
-    Total scale(1.0), inverse(1.0);
+    Total scale, shrink;
     for (int lane = 0; lane < kWidth; ++lane) {
-      const double norm = std::sqrt(products.itself[lane]);
+      scale.set(lane, lanes_[lane].scale);
+      shrink.set(lane, 1.0 / lanes_[lane].scale);
+    }
+    const Products products = vectors_.products(gradient_.data(), shrink, single_gradient());
+    if (control.cancelled) return false;
+    const Total itself = objective_.precondition(single_gradient(), single_gradient());
+    if (control.cancelled) return false;
+    for (int lane = 0; lane < kWidth; ++lane) {
       verdicts_[lane] = judge(lane, value[lane], products.direction[lane]);
       if (verdicts_[lane] == Verdict::refused) continue;
-      lanes_[lane].norm = norm;
-      if (!(norm > 0.0)) continue;
-      scale.set(lane, norm);
-      inverse.set(lane, 1.0 / norm);
+      lanes_[lane].accept_norm(std::sqrt(products.itself[lane]));
     }
-    if (control.cancelled) return false;
-    const Real shrink = cast<typename Real::Scalar>(inverse);
-    for (int i = 0; i < size_; ++i) work_[i] = cast<float>(gradient_[i] * shrink);
-    objective_.precondition(work_.data(), work_.data());
-    if (control.cancelled) return false;
-    Total itself(0.0);
-    for (int i = 0; i < size_; ++i) itself += widened(work_[i]) * widened(gradient_[i]);
-    turn(products, scale * itself);
+    turn(products, scale * scale * itself);
     combine(scale);
     return true;
+  }
+
+  /// Where A^-1 is applied to the gradient; in its own place, if that is in single precision.
+  Single* single_gradient() {
+    if constexpr (std::is_same_v<Single, Real>)
+      return gradient_.data();
+    else
+      return work_.data();
   }
 
   /// New directions of the lanes that accept their trial; or the end of their samples.
@@ -177,12 +183,10 @@ class LaneLbfgs {
     for (int lane = 0; lane < kWidth; ++lane) {
       if (verdicts_[lane] == Verdict::refused) continue;
       typename PairProducts::Trial trial{products.direction[lane], {}, {}, itself[lane]};
-      for (int k = 0; k < PairProducts::kPairs; ++k) {
-        trial.steps[k] = products.steps[k][lane];
-        trial.images[k] = products.images[k][lane];
-      }
+      for (int k = 0; k < kPairs; ++k) trial.images[k] = products.images[k][lane];
+      for (int k = 0; k < kPairs - 1; ++k) trial.steps[k] = products.steps[k][lane];
       if (verdicts_[lane] == Verdict::moved)
-        pairs_[lane].move(trial, steps_[lane], vectors_.slot());
+        pairs_[lane].move(trial, steps_[lane]);
       else
         pairs_[lane].start(trial);
       const double slope = pairs_[lane].turn();
@@ -202,11 +206,10 @@ class LaneLbfgs {
     outcome.scale = scale;
     for (int lane = 0; lane < kWidth; ++lane) {
       outcome.accepted.set(lane, verdicts_[lane] != Verdict::refused ? 1 : 0);
-      outcome.moved.set(lane, verdicts_[lane] == Verdict::moved ? 1 : 0);
       if (lanes_[lane].running() && !lanes_[lane].fresh)
         outcome.next_length.set(lane, lanes_[lane].step);
     }
-    lengths_ = vectors_.combine(outcome, work_.data(), pairs_, trial_.data());
+    lengths_ = vectors_.combine(outcome, single_gradient(), pairs_, trial_.data());
     steps_ = outcome.next_length;
   }
 
@@ -290,7 +293,7 @@ class LaneLbfgs {
   Total steps_ = 0.0;  // that lead to the trials, as shares of the directions
   typename LbfgsVectors<Real>::Lengths lengths_;  // of these directions, and of the trials
   StreamedVector<Real> trial_, gradient_;         // and the gradient there
-  StreamedVector<SingleLanes<kWidth>> work_;
+  StreamedVector<Single> work_;                   // of the gradients in double precision
 };
 
 }  // namespace snapspace

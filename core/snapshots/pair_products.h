@@ -1,17 +1,16 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace snapspace {
 
 /// The recursion of L-BFGS of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
 ///
-/// The seed is a fixed inverse A^-1. With z = A^-1 g for the gradient, and p_k = A^-1 y_k beside
-/// the step s_k for every change y_k of the gradient, all that the two loops (Nocedal & Wright
-/// 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
+/// The seed is a fixed inverse A^-1. With z = A^-1 g for the gradient at every point, and
+/// p_k = A^-1 y_k, the difference of two z, beside the step s_k, all that the two loops (Nocedal &
+/// Wright 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
 ///   direction = -z + sum_k (image[k] p_k + step[k] s_k).
-/// Which is why no y_k is kept, and one pass over the vectors gives all products that are new.
+/// Which is why z and s_k are all that is kept, and one pass over them gives all products that are
+/// new. Pairs and vectors are numbered from the newest.
 class PairProducts {
  public:
   /// On 32 samples of the Dragon 2 and 3 pairs need 121 and 126 evaluations, on a creature of
@@ -20,73 +19,65 @@ class PairProducts {
 
   /// Of the gradient at a trial.
   struct Trial {
-    double direction;       // with the direction that led there
-    double steps[kPairs];   // with s_k
-    double images[kPairs];  // with p_k
-    double itself;          // z . g, with the z of the trial
+    double direction;          // with the direction that led there
+    double images[kPairs];     // with the z of the point where it began, and those before
+    double steps[kPairs - 1];  // with s_k
+    double itself;             // with the z of the trial
   };
 
   double step[kPairs] = {};   ///< coefficients of the direction
   double image[kPairs] = {};  ///< the same
-
-  PairProducts() { std::iota(newest_first_, newest_first_ + kPairs, 0); }
 
   void forget() { *this = {}; }
 
   /// The first point, or the first after `forget`: there is no step that led to it.
   void start(const Trial& trial) { gradient_image_ = trial.itself; }
 
-  /// The sample moves by `length` times its direction; the pair of differences takes a slot.
-  void move(const Trial& trial, double length, int slot) {
-    double image_of_old = -trial.direction;  // z . new gradient, z = -direction + ...
-    double change[kPairs];                   // y_j . direction
-    for (int a = 0; a < kPairs; ++a) {
-      const int j = newest_first_[a];
-      image_of_old += image[j] * trial.images[j] + step[j] * trial.steps[j];
+  /// The sample moves by `length` times its direction; the oldest pair makes room for a new one.
+  void move(const Trial& trial, double length) {
+    double change[kPairs];  // y_j . direction
+    for (int j = 0; j < kPairs; ++j) {
       change[j] = -gradient_images_[j];
-      for (const int k : newest_first_)
+      for (int k = 0; k < kPairs; ++k)
         change[j] += image[k] * images_[k][j] + step[k] * steps_[k][j];
     }
-    for (int j = 0; j < kPairs; ++j) {
-      steps_[slot][j] = length * change[j];
-      steps_[j][slot] = trial.steps[j] - gradient_steps_[j];
-      images_[slot][j] = images_[j][slot] = trial.images[j] - gradient_images_[j];
-      gradient_steps_[j] = trial.steps[j];
-      gradient_images_[j] = trial.images[j];
+    age();
+    for (int j = 1; j < kPairs; ++j) {
+      const double gradient_image = trial.images[j - 1] - trial.images[j];
+      steps_[0][j] = length * change[j - 1];
+      steps_[j][0] = trial.steps[j - 1] - gradient_steps_[j];
+      images_[0][j] = images_[j][0] = gradient_image - gradient_images_[j];
+      gradient_steps_[j] = trial.steps[j - 1];
+      gradient_images_[j] = gradient_image;
     }
     const double bend = trial.direction - slope_;
-    steps_[slot][slot] = length * bend;
-    images_[slot][slot] = trial.itself - 2.0 * image_of_old + gradient_image_;
-    gradient_steps_[slot] = length * trial.direction;
-    gradient_images_[slot] = trial.itself - image_of_old;
+    steps_[0][0] = length * bend;
+    images_[0][0] = trial.itself - 2.0 * trial.images[0] + gradient_image_;
+    gradient_steps_[0] = length * trial.direction;
+    gradient_images_[0] = trial.itself - trial.images[0];
     gradient_image_ = trial.itself;
     // Pairs of negative or vanishing curvature would make the inverse indefinite.
-    const bool usable = bend > kFlat * std::abs(slope_) && images_[slot][slot] > 0.0;
-    curvature_[slot] = usable ? 1.0 / steps_[slot][slot] : 0.0;
-    int* place = std::find(newest_first_, newest_first_ + kPairs, slot);
-    std::rotate(newest_first_, place, place + 1);
+    const bool usable = bend > kFlat * std::abs(slope_) && images_[0][0] > 0.0;
+    curvature_[0] = usable ? 1.0 / steps_[0][0] : 0.0;
   }
 
   /// Sets the coefficients of the next direction; returns gradient . direction.
   double turn() {
-    double first[kPairs], second[kPairs];
-    for (int a = 0; a < kPairs; ++a) {
-      const int k = newest_first_[a];
+    double first[kPairs];
+    for (int k = 0; k < kPairs; ++k) {
       double product = gradient_steps_[k];
-      for (int newer = 0; newer < a; ++newer)
-        product -= first[newest_first_[newer]] * steps_[k][newest_first_[newer]];
+      for (int newer = 0; newer < k; ++newer) product -= first[newer] * steps_[k][newer];
       first[k] = curvature_[k] * product;
     }
-    for (int a = kPairs - 1; a >= 0; --a) {
-      const int k = newest_first_[a];
+    double second[kPairs];
+    for (int k = kPairs - 1; k >= 0; --k) {
       double product = gradient_images_[k];
-      for (const int j : newest_first_) product -= first[j] * images_[k][j];
-      for (int older = a + 1; older < kPairs; ++older)
-        product += second[newest_first_[older]] * steps_[newest_first_[older]][k];
+      for (int j = 0; j < kPairs; ++j) product -= first[j] * images_[k][j];
+      for (int older = k + 1; older < kPairs; ++older) product += second[older] * steps_[older][k];
       second[k] = first[k] - curvature_[k] * product;
     }
     slope_ = -gradient_image_;
-    for (const int k : newest_first_) {
+    for (int k = 0; k < kPairs; ++k) {
       image[k] = first[k];
       step[k] = -second[k];
       slope_ += image[k] * gradient_images_[k] + step[k] * gradient_steps_[k];
@@ -98,6 +89,19 @@ class PairProducts {
   /// Least change of the slope that is no rounding, as a share of it.
   static constexpr double kFlat = 1e-6;
 
+  /// Every pair becomes the next older one.
+  void age() {
+    for (int k = kPairs - 1; k > 0; --k) {
+      curvature_[k] = curvature_[k - 1];
+      gradient_steps_[k] = gradient_steps_[k - 1];
+      gradient_images_[k] = gradient_images_[k - 1];
+      for (int j = kPairs - 1; j > 0; --j) {
+        steps_[k][j] = steps_[k - 1][j - 1];
+        images_[k][j] = images_[k - 1][j - 1];
+      }
+    }
+  }
+
   double curvature_[kPairs] = {};        // 1 / s_k . y_k, zero where there is no pair
   double steps_[kPairs][kPairs] = {};    // s_k . y_j
   double images_[kPairs][kPairs] = {};   // p_k . y_j
@@ -105,7 +109,6 @@ class PairProducts {
   double gradient_images_[kPairs] = {};  // p_k . g
   double gradient_image_ = 0.0;          // z . g
   double slope_ = 0.0;                   // g . direction
-  int newest_first_[kPairs];             // slots; sums go in this order wherever the ring stands
 };
 
 }  // namespace snapspace

@@ -96,10 +96,10 @@ class PosingObjective {
   }
 
   /// result = A^{-1} vector with the scalar matrix A of the system; both 3n and of any precision,
-  /// and they may be the same array.
+  /// and they may be the same array. Returns vector . result.
   template <class Any>
-  void precondition(const Any* vector, Any* result) const {
-    system_.factor.solve(vector, result);
+  Sum<Any> precondition(const Any* vector, Any* result) const {
+    return system_.factor.solve(vector, result);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const { return BlockHessian(system_.energy.rest); }

@@ -33,8 +33,9 @@ class ScalarFactor {
   [[nodiscard]] std::size_t nonzeros() const { return values_.size(); }
 
   /// solution = (A (x) I3)^{-1} right_hand_side, both 3n; they may be the same array.
+  /// @return  right_hand_side . solution
   template <class Real>
-  void solve(const Real* right_hand_side, Real* solution) const;
+  Sum<Real> solve(const Real* right_hand_side, Real* solution) const;
 
  private:
   template <class Real>
@@ -56,13 +57,14 @@ class ScalarFactor {
 
   void add_panel(const Eigen::MatrixXd& panel);
 
-  /// One block's part of the solve with L, and of that with D and L^T; `all` is 3n.
+  /// One block's part of the solve with L, and of that with D and L^T; `all` is 3n. The second
+  /// returns the block's part of w . D^-1 w with the w that it finds.
   template <int Columns, class Real>
   static void forward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
                       Real* all);
   template <int Columns, class Real>
-  static void backward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
-                       Real* all);
+  static Sum<Real> backward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
+                            Real* all);
 
   /// Calls visit with the number of columns as a constant.
   template <int Most = kColumnBlock, class Visit>
@@ -108,12 +110,16 @@ void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std:
 }
 
 template <int Columns, class Real>
-void ScalarFactor::backward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
-                            Real* all) {
+Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
+                                 const std::int32_t* vertices, Real* all) {
   Real x[Columns][3];
+  Sum<Real> product(0.0);
   for (int j = 0; j < Columns; ++j)
-    for (int c = 0; c < 3; ++c)
-      x[j][c] = Real(l[j]) * all[3 * static_cast<std::size_t>(vertices[j]) + c];
+    for (int c = 0; c < 3; ++c) {
+      const Real w = all[3 * static_cast<std::size_t>(vertices[j]) + c];
+      x[j][c] = Real(l[j]) * w;
+      product += widened(w) * widened(x[j][c]);
+    }
   l += Columns * (Columns + 1) / 2;
   const Scalar<Real>* entries = l;
   for (int row = 0; row < block.below; ++row, entries += Columns) {
@@ -133,10 +139,11 @@ void ScalarFactor::backward(const Block& block, const Scalar<Real>* l, const std
   }
   for (int j = 0; j < Columns; ++j)
     for (int c = 0; c < 3; ++c) all[3 * static_cast<std::size_t>(vertices[j]) + c] = x[j][c];
+  return product;
 }
 
 template <class Real>
-void ScalarFactor::solve(const Real* right_hand_side, Real* solution) const {
+Sum<Real> ScalarFactor::solve(const Real* right_hand_side, Real* solution) const {
   if (solution != right_hand_side) std::copy_n(right_hand_side, 3 * size_, solution);
   const Scalar<Real>* values = entries<Real>();
   for (auto block = blocks_.begin(); block != blocks_.end(); ++block)
@@ -144,11 +151,13 @@ void ScalarFactor::solve(const Real* right_hand_side, Real* solution) const {
       forward<columns()>(*block, values + block->values, vertices_.data() + block->vertices,
                          solution);
     });
+  Sum<Real> product(0.0);
   for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block)
     with_columns(block->columns, [&](auto columns) {
-      backward<columns()>(*block, values + block->values, vertices_.data() + block->vertices,
-                          solution);
+      product += backward<columns()>(*block, values + block->values,
+                                     vertices_.data() + block->vertices, solution);
     });
+  return product;
 }
 
 }  // namespace snapspace
