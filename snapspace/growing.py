@@ -24,8 +24,6 @@ MIDDLE_DIMENSION = 24
 #: Times the tolerance, for the first model's samples; they are solved to the end afterwards. On the
 #: Dragon 100 takes half a second longer than 400, for an error of 0.092 instead of 0.097.
 FIRST_SLACK = 400.0
-#: Times the settling, where that decides. With 25 the Dragon's first error is 0.113, not 0.093.
-SETTLING_SLACK = 10.0
 
 
 @dataclass(frozen=True)
@@ -120,10 +118,9 @@ def growing_models(
 def _loosened(
     options: SolverOptions, problem: PosingProblem | InterpolationProblem
 ) -> SolverOptions:
-    resolved = options.resolved(problem)
-    if resolved.settling > 0:
-        return replace(options, settling=SETTLING_SLACK * resolved.settling)
-    return replace(options, tolerance=FIRST_SLACK * resolved.tolerance)
+    """By the energy: loose samples are far from settling, and what counts is how far."""
+    tolerance = options.tolerance or problem.snapshot_tolerance
+    return replace(options, tolerance=FIRST_SLACK * tolerance, settling=None)
 
 
 @dataclass(frozen=True)
