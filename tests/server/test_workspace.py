@@ -93,13 +93,13 @@ def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: S
     assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
 
 
-def test_a_fault_is_an_answer_and_leaves_a_trace(
-    site: Site, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
-    def broken(*_: object, **__: object) -> None:
-        raise KeyError("a fault of ours")
+def refusal(site: Site, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
+    """What a page is told when a computation raises an error."""
 
-    monkeypatch.setattr("snapspace.server.computation.growing_models", broken)
+    def raises(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("snapspace.server.computation.growing_models", raises)
     mailbox = Mailbox()
     workspace = Workspace(site, mailbox.put)
     workspace.open()
@@ -108,23 +108,19 @@ def test_a_fault_is_an_answer_and_leaves_a_trace(
     mailbox.wait_for(Failed, request=1)
     workspace.close()
     (failed,) = (m for m in mailbox.messages if isinstance(m, Failed))
+    return failed
+
+
+def test_a_fault_is_an_answer_and_leaves_a_trace(
+    site: Site, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    failed = refusal(site, monkeypatch, KeyError("a fault of ours"))
     assert failed.message.startswith("the server has a fault") and "\n" not in failed.message
     assert "a fault of ours" in caplog.text and caplog.records[0].exc_info
 
 
 def test_an_empty_memory_is_told_with_its_cure(site: Site, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(*_: object, **__: object) -> None:
-        raise MemoryError
-
-    monkeypatch.setattr("snapspace.server.computation.growing_models", full)
-    mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
-    workspace.open()
-    mailbox.wait_for(Opened, kind="mesh")
-    workspace.receive(ORDER)
-    mailbox.wait_for(Failed, request=1)
-    workspace.close()
-    (failed,) = (m for m in mailbox.messages if isinstance(m, Failed))
+    failed = refusal(site, monkeypatch, MemoryError())
     assert "fewer samples or a coarser mesh" in failed.message
 
 

@@ -82,7 +82,7 @@ def test_the_reduced_hessian_in_the_seed_brings_shapes_nearer(session: Session) 
     problem, subspace = session.model.problem, session.model.subspace
     coarse = core.CoarseSpace(problem.system, np.ascontiguousarray(subspace.basis.T))
     ratios = []
-    for w in unseen(session, 16):
+    for w in unseen(session, 48):
         q = framed(session, w).q
         inverse = np.linalg.inv(session._loop.hessian(q))
         solutions = [
@@ -103,7 +103,7 @@ def test_the_reduced_hessian_in_the_seed_brings_shapes_nearer(session: Session) 
         ratios.append(mass_norm(subspace.mass, two - full) / mass_norm(subspace.mass, one - full))
     # a bar between handles is stiff: there it makes no difference
     bound = 1.05 if isinstance(problem, PosingProblem) else 0.8
-    assert np.exp(np.log(ratios).mean()) < bound
+    assert np.median(ratios) < bound
 
 
 def test_the_session_stays_as_it_is(session: Session) -> None:

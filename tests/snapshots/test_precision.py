@@ -45,16 +45,18 @@ def values(snapshots: Snapshots) -> FloatArray:
     return np.array([report.value for report in snapshots.reports])
 
 
-def assert_single_is_good_enough(problem: PosingProblem, samples: FloatArray) -> None:
+def assert_single_is_good_enough(
+    problem: PosingProblem, samples: FloatArray, *, share: float = 1.0
+) -> None:
     """A hundredth of what the tolerance leaves of shapes, a tenth of it in F, on the same way.
 
-    A sample whose line search decides by a hair may differ by more, in any precision.
+    The first holds for a share of the samples.
     """
     single, double = (solved(problem, samples, p) for p in ("single", "double"))  # type: ignore[arg-type]
     limit = solved(problem, samples, "double", tolerance=1e-12)
     assert single.converged.all() and double.converged.all() and limit.converged.all()
     left = distances(double, limit)
-    assert np.quantile(distances(single, double), 0.9) < 0.01 * left.mean()
+    assert np.quantile(distances(single, double), share) < 0.01 * left.mean()
     assert np.abs(values(single) / values(double) - 1.0).max() < 1e-6
     for ours, theirs in zip(single.reports, double.reports, strict=True):
         assert abs(ours.iterations - theirs.iterations) <= 1
@@ -89,7 +91,8 @@ def bar_with_a_flat_tet(height: float) -> PosingProblem:
 def test_slivers(height: float) -> None:
     """Edge vectors of a flat tet have their digits, but its inverse is large."""
     problem = bar_with_a_flat_tet(height)
-    assert_single_is_good_enough(problem, parameters(problem, 12))
+    # a line search that is decided by a hair leaves one in twelve further apart, in any precision
+    assert_single_is_good_enough(problem, parameters(problem, 12), share=0.9)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-7, 1e-10])
