@@ -61,8 +61,7 @@ class BlendedEnergy {
       S[2][0] = S[0][2];
       S[2][1] = S[1][2];
       first_stress(G, S, P);
-      set_zero(forces);
-      add_vertex_forces(tet, Real(1.0), P, forces);
+      vertex_forces(tet, P, forces);
       scatter_forces(tet, forces, gradient);
     }
     return energy;

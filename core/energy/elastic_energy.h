@@ -14,13 +14,22 @@ struct ElasticEnergy {
   RestShape rest;
   StVK material;
 
-  /// Energy at u; `gradient` (3n) is overwritten.
-  template <class Real>
-  Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
-    std::fill_n(gradient, 3 * rest.vertex_count, Real(0.0));
+  /// Energy at u; `gradient` (3n) is overwritten. What the visitor does with a vertex before it is
+  /// needed comes before u is read and the gradient written there.
+  template <class Real, class Visitor = NoVisitor>
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient, Visitor&& visitor = {}) const {
     Sum<Real> energy(0.0);
-    for (const auto& tet : rest.tets_in<typename ScalarOf<Real>::type>())
-      energy += widened(stvk_energy_and_gradient(material, tet, u, gradient));
+    const auto* tet = rest.tets_in<typename ScalarOf<Real>::type>().data();
+    const auto* const first = tet;
+    SweepStop last{0, 0, 0};
+    for (const SweepStop& stop : rest.stops) {
+      visitor.before(last.reached, stop.reached);
+      std::fill(gradient + 3 * last.reached, gradient + 3 * stop.reached, Real(0.0));
+      for (; tet != first + stop.tets; ++tet)
+        energy += widened(stvk_energy_and_gradient(material, *tet, u, gradient));
+      visitor.after(last.complete, stop.complete);
+      last = stop;
+    }
     return energy;
   }
 

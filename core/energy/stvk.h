@@ -33,19 +33,15 @@ inline void displacement_gradient(const RestTetOf<T>& tet, const Real* u, Real G
   gradient_of_edges(tet, D, G);
 }
 
-/// Adds volume * P * inverse_edges^T to `forces`, whose columns belong to vertices 1, 2, 3: P :
-/// grad(phi_j) over the tet. With the first Piola-Kirchhoff stress P that is the energy's gradient,
-/// with its differential a Hessian-vector product.
+/// P * inverse_edges^T, whose columns belong to vertices 1, 2, 3: P : grad(phi_j). With the first
+/// Piola-Kirchhoff stress times volume that is the energy's gradient, with its differential a
+/// Hessian-vector product.
 template <class Real, class T>
-inline void add_vertex_forces(const RestTetOf<T>& tet, Real volume, const Real P[3][3],
-                              Real forces[3][3]) {
+inline void vertex_forces(const RestTetOf<T>& tet, const Real P[3][3], Real forces[3][3]) {
   const T(*B)[3] = tet.inverse_edges;
-  for (int r = 0; r < 3; ++r) {
-    const Real p0 = P[r][0] * volume;
-    const Real p1 = P[r][1] * volume;
-    const Real p2 = P[r][2] * volume;
-    for (int j = 0; j < 3; ++j) forces[r][j] += p0 * B[j][0] + p1 * B[j][1] + p2 * B[j][2];
-  }
+  for (int r = 0; r < 3; ++r)
+    for (int j = 0; j < 3; ++j)
+      forces[r][j] = P[r][0] * B[j][0] + P[r][1] * B[j][1] + P[r][2] * B[j][2];
 }
 
 /// Adds the forces of a tet's vertices 1, 2, 3, and their negative sum at vertex 0, to a gradient.
@@ -63,12 +59,11 @@ inline void scatter_forces(const RestTetOf<T>& tet, const Real forces[3][3], Rea
   }
 }
 
+/// The same for a first stress that is times volume already.
 template <class Real, class T>
 inline void scatter_stress(const RestTetOf<T>& tet, const Real P[3][3], Real* gradient) {
   Real forces[3][3];
-  for (auto& row : forces)
-    for (Real& force : row) force = Real(0.0);
-  add_vertex_forces(tet, Real(tet.volume), P, forces);
+  vertex_forces(tet, P, forces);
   scatter_forces(tet, forces, gradient);
 }
 
@@ -78,10 +73,11 @@ inline Real stvk_energy_and_gradient(const StVK& material, const RestTetOf<T>& t
                                      Real* gradient) {
   Real G[3][3], S[3][3], P[3][3];
   displacement_gradient(tet, u, G);
-  const Real density = stress(material, G, S);
+  const Real energy = volume_stress(Real(static_cast<T>(material.lam) * tet.volume),
+                                    Real(static_cast<T>(material.mu) * tet.volume), G, S);
   first_stress(G, S, P);
   scatter_stress(tet, P, gradient);
-  return density * Real(tet.volume);
+  return energy;
 }
 
 /// Adds H v of one element at displacements u to `product`.
@@ -93,6 +89,8 @@ inline void stvk_hessian_product(const StVK& material, const RestTetOf<T>& tet, 
   displacement_gradient(tet, v, dF);
   stress(material, G, S);
   stress_differential(material, G, S, dF, dP);
+  for (auto& row : dP)
+    for (Real& entry : row) entry *= Real(tet.volume);
   scatter_stress(tet, dP, product);
 }
 

@@ -73,10 +73,10 @@ double symmetric_dirichlet(const RestShape& rest, const double* u, const Distort
     // written so that NaN is refused as well
     if (!(det > 0.0 && distortions[t] <= limits[t])) return std::numeric_limits<double>::infinity();
     value += tet.volume * 0.25 * (distortions[t] - 6.0);
-    // P = (F - F^-T F^-1 F^-T) / 2, and F^-T = C / det.
+    // P = (F - F^-T F^-1 F^-T) / 2, and F^-T = C / det; times volume.
     double P[3][3];
     Eigen::Map<Matrix3> stress(&P[0][0]);
-    stress = 0.5 * (F - C * (C.transpose() * C) / (det * det * det));
+    stress = 0.5 * tet.volume * (F - C * (C.transpose() * C) / (det * det * det));
     scatter_stress(tet, P, gradient);
   }
   return value;

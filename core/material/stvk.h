@@ -47,6 +47,24 @@ inline Real stress(const StVK& material, const Real G[3][3], Real S[3][3]) {
   return stress_of_strain(material, E, S);
 }
 
+/// The same at G, both times the volume whose products with lambda and mu are given: a pass over a
+/// mesh does little else, so it has its own arithmetic with a sixth fewer operations.
+template <class Real>
+inline Real volume_stress(Real lam, Real mu, const Real G[3][3], Real S[3][3]) {
+  Real E2[3][3];  // 2 E
+  for (int r = 0; r < 3; ++r)
+    for (int c = r; c < 3; ++c)
+      E2[r][c] = G[r][c] + G[c][r] + G[0][r] * G[0][c] + G[1][r] * G[1][c] + G[2][r] * G[2][c];
+  const Real pressure = (E2[0][0] + E2[1][1] + E2[2][2]) * (lam * Real(0.5));
+  for (int r = 0; r < 3; ++r) {
+    S[r][r] = E2[r][r] * mu + pressure;
+    for (int c = r + 1; c < 3; ++c) S[r][c] = S[c][r] = E2[r][c] * mu;
+  }
+  const Real diagonal = S[0][0] * E2[0][0] + S[1][1] * E2[1][1] + S[2][2] * E2[2][2];
+  const Real others = S[0][1] * E2[0][1] + S[0][2] * E2[0][2] + S[1][2] * E2[1][2];
+  return diagonal * Real(0.25) + others * Real(0.5);
+}
+
 /// First Piola-Kirchhoff stress P = F S at G with second stress S.
 template <class Real>
 inline void first_stress(const Real G[3][3], const Real S[3][3], Real P[3][3]) {

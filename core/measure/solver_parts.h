@@ -17,9 +17,9 @@ struct PartTimes {
 };
 
 /// Sums and products of an element's energy and gradient for one sample: differences of nodal
-/// values 9, their gradient 45, strain 48, stress and density 30, first stress 54, forces 63,
+/// values 9, their gradient 45, strain 42, stress and energy 25, first stress 54, forces 45,
 /// scattering 18.
-inline constexpr double kKernelFlopsPerTet = 267.0;
+inline constexpr double kKernelFlopsPerTet = 238.0;
 
 /// @tparam Real  a pack   @param shape  3n displacements in the system's numbering, in all lanes
 template <class Real>

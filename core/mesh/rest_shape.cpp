@@ -7,7 +7,7 @@
 namespace snapspace {
 
 RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
-    : tets(m), single_tets(m), vertex_count(n) {
+    : tets(m), single_tets(m), stops(sweep_stops(t, m, n)), vertex_count(n) {
   for (int i = 0; i < m; ++i) {
     RestTet& tet = tets[i];
     std::copy_n(t + 4 * i, 4, tet.vertices);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "memory/streamed_vector.h"
+#include "mesh/sweep.h"
 
 namespace snapspace {
 
@@ -22,6 +23,7 @@ using RestTet = RestTetOf<double>;
 struct RestShape {
   StreamedVector<RestTet> tets;
   StreamedVector<RestTetOf<float>> single_tets;  ///< the same, for packs in single precision
+  std::vector<SweepStop> stops;                  ///< of a pass over the tets
   int vertex_count = 0;
 
   /// @param vertices  n x 3, row-major   @param tets  m x 4, row-major, none without volume

@@ -49,8 +49,9 @@ class TwoLevelObjective {
   [[nodiscard]] double negligible() const { return objective_.negligible(); }
   void load(int lane, const double* input) { objective_.load(lane, input); }
 
-  auto value_and_gradient(const Real* u, Real* gradient) {
-    const auto value = objective_.value_and_gradient(u, gradient);
+  template <class Visitor>
+  auto value_and_gradient(const Real* u, Real* gradient, Visitor&& visitor) {
+    const auto value = objective_.value_and_gradient(u, gradient, visitor);
     LowestShape& lowest = two_level_.lowest;
     ++lowest.evaluations;
     if (value[0] < lowest.value) {

@@ -7,6 +7,7 @@
 #include "energy/blended_energy.h"
 #include "energy/block_hessian.h"
 #include "energy/scalar_hessian.h"
+#include "mesh/sweep.h"
 #include "simd/lanes.h"
 #include "snapshots/numbering.h"
 #include "snapshots/scalar_factor.h"
@@ -115,10 +116,13 @@ class InterpolationObjective {
     for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
   }
 
-  /// F at u (3n); its gradient overwrites `gradient`. Few samples are a pack or two, which would
-  /// leave threads idle: the tets are gone through in two halves, whatever the number of threads
-  /// and the width of the pack, because sums of other parts would round differently.
-  Sum<Real> value_and_gradient(const Real* u, Real* gradient) {
+  /// F at u (3n); its gradient overwrites `gradient`, and the visitor sees it whole. Few samples
+  /// are a pack or two, which would leave threads idle: the tets are gone through in two halves,
+  /// whatever the number of threads and the width of the pack, because sums of other parts would
+  /// round differently.
+  template <class Visitor = NoVisitor>
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient, Visitor&& visitor = {}) {
+    visitor.before(0, size() / 3);
     const int tets = system_.energy->tets();
     Sum<Real> values[2];
     parallel_for(2, threads_, [&](int half) {
@@ -128,6 +132,7 @@ class InterpolationObjective {
           half == 0 ? tets / 2 : tets);
     });
     for (int i = 0; i < size(); ++i) gradient[i] += second_half_[i];
+    visitor.after(0, size() / 3);
     return values[0] + values[1];
   }
 

@@ -19,14 +19,14 @@
 #include "simd/lanes.h"
 #include "snapshots/lane.h"
 #include "snapshots/lbfgs_vectors.h"
-#include "snapshots/line_search.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
 /// @tparam System  has an Objective<Real> with size(), negligible(), load(lane, input),
-///                 value_and_gradient(u, g) and precondition(v, result), which returns v . result
+///                 value_and_gradient(u, g, visitor) (see mesh/sweep.h), and
+///                 precondition(v, result), which returns v . result
 /// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
 ///                 in double precision anyway
 template <class System, class Real>
@@ -56,6 +56,7 @@ class LaneLbfgs {
     while (const int busy = fill(exchange)) {
       if constexpr (kWidth > 2)
         if (2 * busy <= kWidth && exchange.exhausted()) {
+          apply();
           Half(*this).run(exchange, control);
           return;
         }
@@ -78,14 +79,13 @@ class LaneLbfgs {
   using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
   static constexpr int kPairs = PairProducts::kPairs;
-  static constexpr int kMaxShortenings = 30;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
   using Products = typename LbfgsVectors<Real>::Products;
-  /// On a lane's trial: its point is where the sample begins, or has moved to, or neither.
-  enum class Verdict { refused, started, moved };
+  using Outcome = typename LbfgsVectors<Real>::Outcome;
+  using Verdict = Lane::Verdict;
 
   /// Takes over the samples of a wider pack that has at most kWidth.
   template <class Wide>
@@ -121,11 +121,16 @@ class LaneLbfgs {
     return busy;
   }
 
+  /// Where a lane is, although the vectors are not told yet.
+  [[nodiscard]] double at(int lane, int i) const {
+    return verdicts_[lane] == Verdict::refused ? vectors_.at(lane, i) : trial_[i][lane];
+  }
+
   template <class Exchange>
   void hand_over(int lane, Exchange& exchange) {
     std::vector<double> shape(size_);
-    for (int i = 0; i < size_; ++i) shape[i] = vectors_.at(lane, i);
-    exchange.finish(lanes_[lane].id(), report(lane), shape.data());
+    for (int i = 0; i < size_; ++i) shape[i] = at(lane, i);
+    exchange.finish(lanes_[lane].id(), lanes_[lane].report(), shape.data());
     lanes_[lane].sample.reset();
   }
 
@@ -135,12 +140,12 @@ class LaneLbfgs {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
-    steps_.set(index, 0.0);
+    verdicts_[index] = Verdict::refused;
     pairs_[index].forget();
     objective_.load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
       vectors_.place(index, i, sample.start[i]);
-      set_lane(trial_[i], index, sample.start[i]);
+      if (!pending_) set_lane(trial_[i], index, sample.start[i]);  // otherwise the next pass does
     }
     sample.start = {};
     lane.sample = std::move(sample);
@@ -150,24 +155,57 @@ class LaneLbfgs {
   /// asked between the parts, which take a while on large meshes.
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
-    const Total value = objective_.value_and_gradient(trial_.data(), gradient_.data());
-    Total scale, shrink;
-    for (int lane = 0; lane < kWidth; ++lane) {
-      scale.set(lane, lanes_[lane].scale);
-      shrink.set(lane, 1.0 / lanes_[lane].scale);
-    }
-    const Products products = vectors_.products(gradient_.data(), shrink, single_gradient());
+    Pass pass(*this);
+    const Total value = objective_.value_and_gradient(trial_.data(), gradient_.data(), pass);
+    const Products& products = pass.products;
     if (control.cancelled) return false;
     const Total itself = objective_.precondition(single_gradient(), single_gradient());
     if (control.cancelled) return false;
     for (int lane = 0; lane < kWidth; ++lane) {
-      verdicts_[lane] = judge(lane, value[lane], products.direction[lane]);
+      verdicts_[lane] =
+          lanes_[lane].judge(value[lane], products.direction[lane], lengths_.direction[lane],
+                             lengths_.trial[lane], kRounding);
       if (verdicts_[lane] == Verdict::refused) continue;
       lanes_[lane].accept_norm(std::sqrt(products.itself[lane]));
     }
-    turn(products, scale * scale * itself);
-    combine(scale);
+    scale_ = pass.scale;
+    turn(products, scale_ * scale_ * itself);
+    pending_ = true;
     return true;
+  }
+
+  /// What a step does with the vectors, while the objective passes by: first what the step before
+  /// has decided, and when a gradient is complete its products.
+  struct Pass {
+    LaneLbfgs& solver;
+    Outcome outcome;
+    Products products;
+    Total scale, shrink;
+
+    explicit Pass(LaneLbfgs& lbfgs) : solver(lbfgs) {
+      for (int lane = 0; lane < kWidth; ++lane) {
+        scale.set(lane, solver.lanes_[lane].scale);
+        shrink.set(lane, 1.0 / solver.lanes_[lane].scale);
+      }
+      if (!solver.pending_) return;
+      outcome = solver.decided();
+      solver.lengths_ = {};
+    }
+    void before(int begin, int end) {
+      if (solver.pending_)
+        solver.vectors_.combine(begin, end, outcome, solver.single_gradient(), solver.trial_.data(),
+                                solver.lengths_);
+    }
+    void after(int begin, int end) {
+      solver.vectors_.add_products(begin, end, solver.gradient_.data(), shrink,
+                                   solver.single_gradient(), products);
+    }
+  };
+
+  /// Does at once what the next step would begin with.
+  void apply() {
+    Pass(*this).before(0, vectors_.vertices());
+    pending_ = false;
   }
 
   /// Where A^-1 is applied to the gradient; in its own place, if that is in single precision.
@@ -192,7 +230,7 @@ class LaneLbfgs {
       const double slope = pairs_[lane].turn();
       if (!std::isfinite(slope)) {  // nothing of this trial may get into the vectors
         verdicts_[lane] = Verdict::refused;
-        finish(lanes_[lane], SolveStatus::not_finite);
+        lanes_[lane].finish(SolveStatus::not_finite);
         pairs_[lane].forget();
         continue;
       }
@@ -201,51 +239,17 @@ class LaneLbfgs {
   }
 
   /// What the lanes' verdicts mean for the vectors, and the next trials.
-  void combine(Total scale) {
-    typename LbfgsVectors<Real>::Outcome outcome;
-    outcome.scale = scale;
+  Outcome decided() {
+    Outcome outcome;
+    outcome.scale = scale_;
     for (int lane = 0; lane < kWidth; ++lane) {
       outcome.accepted.set(lane, verdicts_[lane] != Verdict::refused ? 1 : 0);
       if (lanes_[lane].running() && !lanes_[lane].fresh)
         outcome.next_length.set(lane, lanes_[lane].step);
+      outcome.weigh(lane, pairs_[lane]);
     }
-    lengths_ = vectors_.combine(outcome, single_gradient(), pairs_, trial_.data());
     steps_ = outcome.next_length;
-  }
-
-  /// Accepts or refuses the lane's trial, and chooses a shorter step where it is refused.
-  Verdict judge(int index, double value, double slope) {
-    Lane& lane = lanes_[index];
-    if (!lane.running()) return Verdict::refused;
-    ++lane.evaluations;
-    if (lane.fresh) {
-      lane.fresh = false;
-      lane.value = value;
-      lane.step = 1.0;
-      if (std::isfinite(value)) return Verdict::started;
-      finish(lane, SolveStatus::not_finite);
-      return Verdict::refused;
-    }
-    if (sufficient_decrease(lane.value, lane.slope, lane.step, value, slope, kRounding)) {
-      lane.record(lane.value - value, std::sqrt(lengths_.direction[index]),
-                  std::sqrt(lengths_.trial[index]));
-      lane.restarted = false;
-      lane.value = value;
-      lane.shortenings = 0;
-      // Far from the minimum the material stiffens along every direction, and for a while steps of
-      // a tenth are the rule. Searches begin near the last accepted length: on the Dragon that
-      // takes 155 evaluations instead of 250, and growth by 1.4 a tenth fewer than growth by 2.
-      lane.step = std::min(1.0, 1.4 * lane.step);
-      return Verdict::moved;
-    }
-    lane.step = shorter_step(lane.value, lane.slope, lane.step, value, slope);
-    if (++lane.shortenings > kMaxShortenings) finish(lane, SolveStatus::line_search_failed);
-    return Verdict::refused;
-  }
-
-  static void finish(Lane& lane, SolveStatus status) {
-    lane.status = status;
-    lane.done = true;
+    return outcome;
   }
 
   void test_convergence(int index, double slope) {
@@ -254,31 +258,17 @@ class LaneLbfgs {
     if (slope > 0.0) return restart(index);
     if (lane.converged(options_.tolerance, objective_.negligible()) ||
         lane.settled(options_.settling))
-      return finish(lane, SolveStatus::converged);
-    if (lane.iterations >= options_.max_iterations) finish(lane, SolveStatus::max_iterations);
+      return lane.finish(SolveStatus::converged);
+    if (lane.iterations >= options_.max_iterations) lane.finish(SolveStatus::max_iterations);
   }
 
   /// Rounding made an ascent direction: forget the memory and go on along the preconditioned
   /// gradient. If that ascends as well, the gradient is noise.
   void restart(int index) {
-    if (lanes_[index].restarted) return finish(lanes_[index], SolveStatus::line_search_failed);
+    if (lanes_[index].restarted) return lanes_[index].finish(SolveStatus::line_search_failed);
     lanes_[index].restarted = true;
     pairs_[index].forget();
     lanes_[index].fresh = true;
-  }
-
-  SolveReport report(int index) const {
-    const Lane& lane = lanes_[index];
-    SolveReport result;
-    result.status = lane.status;
-    result.iterations = lane.iterations;
-    result.evaluations = lane.evaluations;
-    result.value = lane.value;
-    result.gradient_norm = lane.norm;
-    result.decrement = -lane.slope;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - lane.begin).count();
-    return result;
   }
 
   const System& system_;
@@ -289,8 +279,10 @@ class LaneLbfgs {
   LbfgsVectors<Real> vectors_;
   PairProducts pairs_[kWidth];
   Lane lanes_[kWidth];
-  Verdict verdicts_[kWidth];
-  Total steps_ = 0.0;  // that lead to the trials, as shares of the directions
+  Verdict verdicts_[kWidth];  // on the last trials
+  bool pending_ = false;      // the vectors are not told of these verdicts yet
+  Total scale_ = 1.0;         // A^-1 gradient = scale_ * single_gradient() in the last trials
+  Total steps_ = 0.0;         // that lead to the trials, as shares of the directions
   typename LbfgsVectors<Real>::Lengths lengths_;  // of these directions, and of the trials
   StreamedVector<Real> trial_, gradient_;         // and the gradient there
   StreamedVector<Single> work_;                   // of the gradients in double precision

@@ -12,10 +12,12 @@ namespace snapspace {
 /// The vectors of L-BFGS for all lanes, of which PairProducts knows the inner products.
 ///
 /// The solver is bound by the time it takes to stream them. So they lie interleaved, entry by
-/// entry, and a step has two passes over them: one for the products, one for all combinations. All
-/// but the points are kept in single precision, which perturbs the approximation of the inverse
-/// Hessian by 1e-7 and the result of the solve not at all. The steps are those that the points have
-/// made, with their rounding: that is what stiff handles answer.
+/// entry, and a step touches them twice: for all combinations, and for the products. Both are
+/// functions of a range of vertices, called where the objective's pass over the mesh is: most of
+/// the second finds what the first has left in a cache. All but the points are kept in single
+/// precision, which perturbs the approximation of the inverse Hessian by 1e-7 and the result of the
+/// solve not at all. The steps are those that the points have made, with their rounding: that is
+/// what stiff handles answer.
 template <class Real>
 class LbfgsVectors {
  public:
@@ -26,7 +28,11 @@ class LbfgsVectors {
 
   /// Inner products with the gradient of a trial.
   struct Products {
-    Total itself, direction, steps[kPairs - 1], images[kPairs];
+    Total itself{0.0}, direction{0.0}, steps[kPairs - 1], images[kPairs];
+    Products() {
+      for (Total& sum : steps) sum = 0.0;
+      for (Total& sum : images) sum = 0.0;
+    }
   };
 
   /// What a step did in each lane.
@@ -34,12 +40,23 @@ class LbfgsVectors {
     Real accepted{0};  ///< not zero: the lane is at its trial now
     Total next_length{0.0};
     Total scale{1.0};  ///< A^-1 gradient = scale * image
+
+    /// Coefficients of the new directions.
+    Real step_weights[kPairs]{}, image_weights[kPairs]{};
+    void weigh(int lane, const PairProducts& pairs) {
+      for (int k = 0; k < kPairs; ++k) {
+        set_lane(step_weights[k], lane, pairs.step[k]);
+        set_lane(image_weights[k], lane, pairs.image[k]);
+      }
+    }
   };
 
   /// Squares of lengths in the norm of the masses: of the directions, and of the trials.
   struct Lengths {
     Total direction{0.0}, trial{0.0};
   };
+
+  [[nodiscard]] int vertices() const { return static_cast<int>(masses_.size()); }
 
   /// @param masses  one per vertex, which has three entries
   explicit LbfgsVectors(std::vector<float> masses)
@@ -66,17 +83,17 @@ class LbfgsVectors {
   void place(int lane, int i, double value) { set_lane(entries_[i].u, lane, value); }
   [[nodiscard]] double at(int lane, int i) const { return entries_[i].u[lane]; }
 
-  /// Products of a trial's gradient with itself and the vectors.
-  /// @param scaled  becomes shrink * gradient; may be the same array
-  Products products(const Real* gradient, Total shrink, Single* scaled) const;
+  /// Adds a range's part of the products of a trial's gradient with itself and the vectors.
+  /// @param scaled  becomes shrink * gradient there; may be the same array
+  void add_products(int begin, int end, const Real* gradient, Total shrink, Single* scaled,
+                    Products& sums) const;
 
-  /// After a step: new points and directions, and for all lanes
+  /// After a step, in a range: new points and directions, and for all lanes
   ///   trial = u + next_length * direction.
-  /// @param image  A^-1 gradient / scale of the trial
-  /// @param pairs  have the coefficients of the new directions, one per lane
-  /// @return       of what is new now
-  Lengths combine(const Outcome& outcome, const Single* image, const PairProducts* pairs,
-                  Real* trial);
+  /// @param image    A^-1 gradient / scale of the trial
+  /// @param lengths  get the range's part of what is new now
+  void combine(int begin, int end, const Outcome& outcome, const Single* image, Real* trial,
+               Lengths& lengths);
 
  private:
   template <class>
@@ -100,35 +117,37 @@ class LbfgsVectors {
 };
 
 template <class Real>
-auto LbfgsVectors<Real>::products(const Real* gradient, Total shrink, Single* scaled) const
-    -> Products {
+void LbfgsVectors<Real>::add_products(int begin, int end, const Real* gradient, Total shrink,
+                                      Single* scaled, Products& all) const {
   const Real factor = narrowed(shrink);
-  Products sums;
-  sums.itself = sums.direction = 0.0;
-  for (Total& sum : sums.images) sum = 0.0;
-  for (Total& sum : sums.steps) sum = 0.0;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Total g = widened(gradient[i]);
-    sums.itself += g * g;
-    sums.direction += g * widened(entries_[i].direction);
-    for (int k = 0; k < kPairs; ++k) sums.images[k] += g * widened(entries_[i].images[k]);
-    for (int k = 0; k < kPairs - 1; ++k) sums.steps[k] += g * widened(entries_[i].steps[k]);
-    scaled[i] = cast<float>(gradient[i] * factor);
+  Products sums = all;  // in registers
+  for (std::size_t vertex = begin; vertex < std::size_t(end); ++vertex) {
+    // The products are energies, of one vertex here: they may be added in the precision of shapes.
+    Real direction(0), images[kPairs], steps[kPairs - 1];
+    for (Real& image : images) image = Real(0);
+    for (Real& step : steps) step = Real(0);
+    for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
+      const Entry& entry = entries_[i];
+      const Real g = gradient[i];
+      direction += g * narrowed(entry.direction);
+      for (int k = 0; k < kPairs; ++k) images[k] += g * narrowed(entry.images[k]);
+      for (int k = 0; k < kPairs - 1; ++k) steps[k] += g * narrowed(entry.steps[k]);
+      sums.itself += widened(g) * widened(g);
+      scaled[i] = cast<float>(g * factor);
+    }
+    sums.direction += widened(direction);
+    for (int k = 0; k < kPairs; ++k) sums.images[k] += widened(images[k]);
+    for (int k = 0; k < kPairs - 1; ++k) sums.steps[k] += widened(steps[k]);
   }
-  return sums;
+  all = sums;
 }
 
 template <class Real>
-auto LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
-                                 const PairProducts* pairs, Real* trial) -> Lengths {
-  Real step_weights[kPairs], image_weights[kPairs];
-  for (int k = 0; k < kPairs; ++k)
-    for (int lane = 0; lane < kWidth; ++lane) {
-      set_lane(step_weights[k], lane, pairs[lane].step[k]);
-      set_lane(image_weights[k], lane, pairs[lane].image[k]);
-    }
-  const Real scale = narrowed(outcome.scale), accepted = outcome.accepted;
-  const Real next_length = narrowed(outcome.next_length);
+void LbfgsVectors<Real>::combine(int begin, int end, const Outcome& outcome, const Single* image,
+                                 Real* trial, Lengths& all) {
+  const Outcome now = outcome;  // which no store can change
+  const Real scale = narrowed(now.scale), accepted = now.accepted;
+  const Real next_length = narrowed(now.next_length);
   const auto turn = [&](std::size_t i) {
     Entry& entry = entries_[i];
     const Real z = scale * narrowed(image[i]), s = trial[i] - entry.u;
@@ -136,7 +155,7 @@ auto LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
     for (int k = 0; k < kPairs; ++k) {
       const Real older = narrowed(entry.images[k]);
       const Real step = k == 0 ? s : narrowed(entry.steps[k - 1]);
-      direction += image_weights[k] * (newer - older) + step_weights[k] * step;
+      direction += now.image_weights[k] * (newer - older) + now.step_weights[k] * step;
       newer = older;
     }
     const auto accept = [&](Single& held, Real fresh) {
@@ -150,18 +169,19 @@ auto LbfgsVectors<Real>::combine(const Outcome& outcome, const Single* image,
     entry.u = select(accepted, trial[i], entry.u);
     trial[i] = entry.u + next_length * narrowed(entry.direction);
   };
-  Lengths lengths;
-  for (std::size_t vertex = 0; vertex < masses_.size(); ++vertex) {
-    const Total mass(masses_[vertex]);
+  Lengths lengths = all;
+  for (std::size_t vertex = begin; vertex < std::size_t(end); ++vertex) {
+    Real direction(0), displacement(0);
     for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
       turn(i);
-      const Total direction = widened(entries_[i].direction);
-      const Total displacement = widened(trial[i]);
-      lengths.direction += mass * direction * direction;
-      lengths.trial += mass * displacement * displacement;
+      direction += narrowed(entries_[i].direction) * narrowed(entries_[i].direction);
+      displacement += trial[i] * trial[i];
     }
+    const Total mass(masses_[vertex]);
+    lengths.direction += mass * widened(direction);
+    lengths.trial += mass * widened(displacement);
   }
-  return lengths;
+  all = lengths;
 }
 
 }  // namespace snapspace

@@ -9,7 +9,7 @@
 namespace snapspace {
 
 /// Copies shape vectors (3n) between the caller's numbering of the vertices and the internal one,
-/// which follows a space-filling curve.
+/// of LocalMesh.
 class Numbering {
  public:
   explicit Numbering(std::vector<std::int32_t> order) : order_(std::move(order)) {}

@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -24,6 +27,7 @@ struct PosingSystem {
   ElasticEnergy energy;
   std::vector<std::int32_t> pinned;  ///< vertices of the handles, internal
   std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
+  std::vector<std::int32_t> pins;    ///< of which pinned[k], weights[k]: by their vertices
   ScalarFactor factor;               ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
 
   PosingSystem(const LocalMesh& mesh, StVK material, std::vector<std::int32_t> pinned_vertices,
@@ -34,7 +38,12 @@ struct PosingSystem {
                material},
         pinned(renumbered(std::move(pinned_vertices), mesh.places)),
         weights(std::move(pin_weights)),
-        factor(scalar_matrix()) {}
+        pins(pinned.size()),
+        factor(scalar_matrix()) {
+    std::iota(pins.begin(), pins.end(), 0);
+    std::sort(pins.begin(), pins.end(),
+              [&](std::int32_t a, std::int32_t b) { return pinned[a] < pinned[b]; });
+  }
 
   [[nodiscard]] int size() const { return 3 * energy.rest.vertex_count; }
   /// Of the displacements that one sample asks of the pinned vertices.
@@ -79,20 +88,12 @@ class PosingObjective {
     for (std::size_t k = 0; k < targets_.size(); ++k) set_lane(targets_[k], lane, target[k]);
   }
 
-  /// F at u (3n); its gradient overwrites `gradient`.
-  Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
-    Sum<Real> value = system_.energy.value_and_gradient(u, gradient);
-    for (std::size_t k = 0; k < system_.pinned.size(); ++k) {
-      const std::size_t at = 3 * static_cast<std::size_t>(system_.pinned[k]);
-      const Real weight(system_.weights[k]);
-      for (int c = 0; c < 3; ++c) {
-        const Real offset = u[at + c] - targets_[3 * k + c];
-        const Real force = weight * offset;
-        value += widened(force * offset);
-        gradient[at + c] += force + force;
-      }
-    }
-    return value;
+  /// F at u (3n); its gradient overwrites `gradient`, and the visitor sees it whole.
+  template <class Visitor = NoVisitor>
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient, Visitor&& visitor = {}) const {
+    Pinning<std::remove_reference_t<Visitor>> pinning{*this, visitor, u, gradient};
+    const Sum<Real> elastic = system_.energy.value_and_gradient(u, gradient, pinning);
+    return elastic + pinning.value;
   }
 
   /// result = A^{-1} vector with the scalar matrix A of the system; both 3n and of any precision,
@@ -113,6 +114,35 @@ class PosingObjective {
   }
 
  private:
+  /// Adds the handles' part to vertices that are complete.
+  template <class Visitor>
+  struct Pinning {
+    const PosingObjective& objective;
+    Visitor& visitor;
+    const Real* u;
+    Real* gradient;
+    Sum<Real> value{0.0};
+    std::size_t next = 0;  // of the pins
+
+    void before(int begin, int end) { visitor.before(begin, end); }
+    void after(int begin, int end) {
+      const PosingSystem& system = objective.system_;
+      for (; next < system.pins.size() && system.pinned[system.pins[next]] < end; ++next)
+        add(system.pins[next]);
+      visitor.after(begin, end);
+    }
+    void add(std::size_t k) {
+      const std::size_t at = 3 * static_cast<std::size_t>(objective.system_.pinned[k]);
+      const Real weight(objective.system_.weights[k]);
+      for (int c = 0; c < 3; ++c) {
+        const Real offset = u[at + c] - objective.targets_[3 * k + c];
+        const Real force = weight * offset;
+        value += widened(force * offset);
+        gradient[at + c] += force + force;
+      }
+    }
+  };
+
   const PosingSystem& system_;
   std::vector<Real> targets_;
   double negligible_ = system_.negligible();

@@ -66,6 +66,18 @@ class ScalarFactor {
   static Sum<Real> backward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
                             Real* all);
 
+  /// Rows below a block lie anywhere in a large vector: they are asked for a few rows early.
+  static constexpr int kRowsAhead = 6;
+  template <class Real>
+  static void ask_for(const Real* all, const std::int32_t* rows, int row, int count) {
+#if defined(__GNUC__)
+    if (row + kRowsAhead >= count) return;
+    const auto* at = reinterpret_cast<const char*>(all + 3 * std::size_t(rows[row + kRowsAhead]));
+    for (std::size_t byte = 0; byte < 3 * sizeof(Real); byte += 64)
+      __builtin_prefetch(at + byte, 1);
+#endif
+  }
+
   /// Calls visit with the number of columns as a constant.
   template <int Most = kColumnBlock, class Visit>
   static void with_columns(int columns, Visit visit) {
@@ -95,6 +107,7 @@ void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std:
     for (int c = 0; c < 3; ++c) all[3 * static_cast<std::size_t>(vertices[j]) + c] = x[j][c];
   vertices += Columns;
   for (int row = 0; row < block.below; ++row, l += Columns) {
+    ask_for(all, vertices, row, block.below);
     Real* y = all + 3 * static_cast<std::size_t>(vertices[row]);
     Real y0 = y[0], y1 = y[1], y2 = y[2];
     for (int j = 0; j < Columns; ++j) {
@@ -123,6 +136,7 @@ Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
   l += Columns * (Columns + 1) / 2;
   const Scalar<Real>* entries = l;
   for (int row = 0; row < block.below; ++row, entries += Columns) {
+    ask_for(all, vertices + Columns, row, block.below);
     const Real* y = all + 3 * static_cast<std::size_t>(vertices[Columns + row]);
     const Real y0 = y[0], y1 = y[1], y2 = y[2];
     for (int j = 0; j < Columns; ++j) {
