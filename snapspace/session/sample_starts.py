@@ -55,7 +55,7 @@ class SampleStarts:
         """Coordinates (d,) to solve from: interpolated ones, and those of the nearest samples.
 
         A solve from a blend of two minima may end in a third one that is higher. Of four solves the
-        lowest is on unseen poses (d = 120) 0.032 from the full solutions of the Dragon in the mean,
+        lowest is on unseen poses (d = 120) 0.027 from the full solutions of the Dragon in the mean,
         and 0.040 from the lowest ones known of the Elephant; the first alone 0.035 and 0.060.
         """
         yield self(offsets)
