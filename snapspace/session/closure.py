@@ -106,13 +106,14 @@ class Closure:
         away = q - self._target
         return self._strength * float(away @ (0.5 * self._stiffness @ away - self._force))
 
-    def starts(self, offsets: FloatArray) -> Iterator[FloatArray]:
-        """Coordinates (d,) to start from after a jump to the offsets of the last `pull`.
+    def starts(self, offsets: FloatArray) -> Iterator[tuple[str, FloatArray]]:
+        """Names and coordinates (d,) to start from after a jump to the offsets of the last `pull`.
 
         Those that are expected, or tau where nothing is, and those of the nearest samples.
         """
-        yield self._target
-        yield from self._samples[self._motions.nearest(offsets, NEIGHBOURS)]
+        yield "sample", self._target
+        for k in self._motions.nearest(offsets, NEIGHBOURS):
+            yield "sample", self._samples[k]
 
 
 def _nugget(count: int, nugget: float) -> FloatArray:

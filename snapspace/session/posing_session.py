@@ -259,15 +259,14 @@ class PosingSession(Session[PosingModel]):
         return self._lowest_of(self._after_jump())
 
     def _after_jump(self) -> Iterator[tuple[str, FloatArray]]:
-        """Starts for the present handles; a last frame may be lower than what is interpolated."""
         if self._closure is not None:
-            yield from (("sample", q) for q in self._closure.starts(self._offsets))
-            return
-        first, *nearest = (q[: self.dimension] for q in self._starts.after_jump(self._offsets))
-        present, known = (self._loop.value_and_gradient(q)[0] for q in (self.q, first))
-        lower = not present <= known and np.isfinite(known)
-        yield ("sample", first) if lower else ("last frame", self.q)
-        yield from (("sample", q) for q in nearest if np.isfinite(q).all())
+            return self._closure.starts(self._offsets)
+        return self._starts.after_jump(self._offsets, self._loop)
+
+    def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
+        yield from super()._known_starts()
+        if len(self.model.training_parameters) > 1:
+            yield from self._after_jump()
 
     @cached_property
     def _motions(self) -> MotionSpace:
