@@ -12,6 +12,7 @@ from ..blas import single_threaded_blas
 from ..reduction import PosingModel
 from .kriging import Kriging
 from .motion_space import MotionSpace
+from .sample_starts import NEIGHBOURS
 
 FloatArray = NDArray[np.float64]
 
@@ -23,8 +24,6 @@ STIFFNESS, COORDINATES_NUGGET, FORCES_NUGGET = 0.05, 1e-4, 1e-2
 _EXACT = 1e-10
 #: Spacings from the nearest sample up to which all of it holds, and beyond which nothing does.
 NEAR, FAR = 2.0, 4.0
-#: Solves after a jump: from the expected coordinates, and from the nearest samples.
-STARTS = 4
 #: Samples that are used at most; the time of the first frame grows with their third power.
 MOST_SAMPLES = 2000
 
@@ -107,14 +106,14 @@ class Closure:
         away = q - self._target
         return self._strength * float(away @ (0.5 * self._stiffness @ away - self._force))
 
-    def starts(self, offsets: FloatArray) -> Iterator[FloatArray]:
-        """Coordinates (d,) to start from after a jump to the offsets of the last `pull`.
+    def starts(self, offsets: FloatArray) -> Iterator[tuple[str, FloatArray]]:
+        """Names and coordinates (d,) to start from after a jump to the offsets of the last `pull`.
 
         Those that are expected, or tau where nothing is, and those of the nearest samples.
         """
-        yield self._target
-        for k in np.argsort(self._motions.to_samples(offsets), kind="stable")[: STARTS - 1]:
-            yield self._samples[k]
+        yield "sample", self._target
+        for k in self._motions.nearest(offsets, NEIGHBOURS):
+            yield "sample", self._samples[k]
 
 
 def _nugget(count: int, nugget: float) -> FloatArray:

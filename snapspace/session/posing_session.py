@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -37,19 +37,16 @@ class PosingSession(Session[PosingModel]):
     Parameters and errors as for `Session`, and
 
     closure : bool, default False
-        Also use what the training samples say about the solution, see `Closure`: in slow drags the
-        mean errors of the Dragon and the Elephant (d = 120) are then lower by a fifth to a half,
-        for about 0.2 ms a frame. Frames are no minima of the reduced energy any more, though
-        `FrameReport.value` is that energy. Needs 2 (12 m + 1) training samples for m moving
-        handles; with 1000 the session takes half a second to make.
+        Also use what the training samples say about the solution, see `Closure`: mean errors in
+        slow drags (d = 120) are then lower by a fifth to a half, for about 0.2 ms a frame. Frames
+        are no minima of the reduced energy any more, though `FrameReport.value` is that energy.
+        Needs 2 (12 m + 1) training samples for m moving handles; with 1000 half a second to make.
 
     Notes
     -----
-    A drag goes on from the last frame's shape. After a jump, a motion farther than the samples that
-    the model was trained with lie apart, a shape interpolated between these is the start if its
-    energy is lower: from afar the solve could end in another minimum. With a closure a jump is
-    solved from there and from the three nearest samples, each within the bounds on the work of a
-    frame, and the lowest energy wins.
+    A drag goes on from the last frame's shape. A jump, farther than the training samples lie apart,
+    is solved from a shape interpolated between these (or the last frame's, if that is lower) and
+    from the three nearest, each within a frame's bounds, and the lowest energy wins.
 
     Examples
     --------
@@ -259,15 +256,17 @@ class PosingSession(Session[PosingModel]):
             jump = self._motions.distance(self._offsets, before)
         if not self._motions.spacing < jump < FARTHEST * self._motions.spacing:
             return self.solve()
+        return self._lowest_of(self._after_jump())
+
+    def _after_jump(self) -> Iterator[tuple[str, FloatArray]]:
         if self._closure is not None:
-            starts = [("sample", q) for q in self._closure.starts(self._offsets)]
-            return self._lowest_of(starts)
-        candidate = self._starts(self._offsets)[: self.dimension]
-        present, _ = self._loop.value_and_gradient(self._loop.q)
-        known, _ = self._loop.value_and_gradient(candidate)
-        if not present <= known and np.isfinite(known):
-            self._loop.q = candidate
-        return self.solve()
+            return self._closure.starts(self._offsets)
+        return self._starts.after_jump(self._offsets, self._loop)
+
+    def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
+        yield from super()._known_starts()
+        if len(self.model.training_parameters) > 1:
+            yield from self._after_jump()
 
     @cached_property
     def _motions(self) -> MotionSpace:

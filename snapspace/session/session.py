@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Generic, TypeVar
 
 import numpy as np
@@ -235,15 +235,15 @@ class Session(ABC, Generic[Model]):
         return self._probe[1].norm(self.q, self._state())
 
     def solve_anew(self) -> FrameReport:
-        """Solves for what is set from the current shape, from tau, and from the best sample.
+        """Solves for what is set from the current shape, from tau, and from the best samples.
 
         A drag follows one minimum; far from rest there may be others. This takes the lowest of
-        those that the three starts lead to, and the report's `start` tells which it was: "last
-        frame" if no other is lower than the one that the drag was in, by ten times what the
-        tolerance resolves. The best sample is the training sample of the lowest energy. Costs some
-        ten frames.
+        those that the starts lead to, and the report's `start` tells which it was: "last frame" if
+        no other is lower than the one that the drag was in, by ten times what the tolerance
+        resolves. The best samples are the one of the lowest energy, and for posing the starts that
+        a jump has. Costs some ten to fifty frames.
         """
-        return self._lowest_of([("last frame", self.q), *self._known_starts().items()])
+        return self._lowest_of([("last frame", self.q), *self._known_starts()])
 
     def _lowest_of(self, starts: Iterable[tuple[str, FloatArray]]) -> FrameReport:
         resolved = 10.0 * self.tolerance
@@ -269,14 +269,13 @@ class Session(ABC, Generic[Model]):
         """Called when another number of coordinates is solved for."""
         return None
 
-    def _known_starts(self) -> dict[str, FloatArray]:
+    def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
         """tau, and the training sample of the lowest energy, as coordinates."""
-        starts = {"tau": np.zeros(self.dimension)}
+        yield "tau", np.zeros(self.dimension)
         samples = self.model.training_coordinates[:, : self.dimension]
         if len(samples):
             values = [self._loop.value_and_gradient(q)[0] for q in samples]
-            starts["sample"] = samples[np.nanargmin(values)]
-        return starts
+            yield "sample", samples[np.nanargmin(values)]
 
     @abstractmethod
     def _state(self) -> FloatArray:

@@ -166,9 +166,20 @@ def test_a_jump_takes_the_lowest_of_its_starts(model: PosingModel) -> None:
     session, w = model.session(closure=True), inside(model, 1.0, seed=3)
     report = session.pose(w)
     assert report.start == "sample"
-    for q in session._closures[8].starts(session._offsets):
+    for _, q in session._closures[8].starts(session._offsets):
         session._loop.q = q
         assert session.solve().value >= report.value * (1.0 - 1e-5)
+
+
+def test_anew_after_a_drag_is_no_higher_than_a_jump_there(model: PosingModel) -> None:
+    dragged, jumped, w = (
+        model.session(closure=True),
+        model.session(closure=True),
+        inside(model, 1.0),
+    )
+    for share in np.linspace(0.1, 1.0, 10):
+        dragged.pose(share * w)
+    assert dragged.solve_anew().value <= jumped.pose(w).value * (1.0 + 1e-5)
 
 
 @given(

@@ -9,7 +9,7 @@ import pytest
 
 from snapspace import PosingModel
 from snapspace.session.motion_space import MotionSpace
-from snapspace.session.sample_starts import SampleStarts
+from snapspace.session.sample_starts import NEIGHBOURS, SampleStarts
 
 
 def starts_of(model: PosingModel) -> SampleStarts:
@@ -58,6 +58,29 @@ def test_a_jump_to_a_sample_starts_there(posing_model: PosingModel) -> None:
     assert near.converged
     assert near.evaluations <= far.evaluations
     assert near.value <= far.value * (1 + 1e-6)
+
+
+def test_a_jump_ends_no_higher_than_from_any_neighbour(posing_model: PosingModel) -> None:
+    session, alone = posing_model.session(), posing_model.session()
+    half_widths = posing_model.problem.domain.half_widths
+    for w in np.random.default_rng(3).uniform(-1.5, 1.5, (10, len(half_widths))) * half_widths:
+        session.reset()
+        report = session.pose(w)
+        alone.pose(w)
+        nearest = MotionSpace(posing_model).nearest(posing_model.problem.offsets(w), NEIGHBOURS)
+        for q in posing_model.training_coordinates[nearest]:
+            alone._loop.q = q
+            assert report.value <= alone.solve().value * (1 + 1e-5)
+
+
+def test_the_nearest_are_in_order(posing_model: PosingModel) -> None:
+    motions = MotionSpace(posing_model)
+    offsets = posing_model.problem.offsets(posing_model.training_parameters[4])
+    nearest = motions.nearest(offsets, 5)
+    assert nearest[0] == 4
+    rest = np.delete(motions.to_samples(offsets), nearest)
+    assert (np.diff(motions.to_samples(offsets)[nearest]) >= 0).all()
+    assert motions.to_samples(offsets)[nearest].max() <= rest.min()
 
 
 def test_a_drag_never_asks_the_samples(posing_model: PosingModel) -> None:
