@@ -5,6 +5,7 @@ const STAGES: Record<string, string> = {
   waiting: "Waiting for another computation",
   reading: "Reading the mesh",
   filling: "Filling the surface with tets",
+  "filling exactly": "Filling the surface exactly: some minutes",
   snapshots: "Solving samples",
   subspace: "Finding the subspace",
   energy: "Reducing the energy",
