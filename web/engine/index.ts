@@ -8,4 +8,5 @@ export type { BlendingModel, Model, PosingModel } from "./model.ts";
 export { rotationOfEuler, type RigidMap } from "./motion.ts";
 export { PosingSession, type Motion } from "./posing_session.ts";
 export { readModel } from "./read_model.ts";
+export { ShapePicker, type Hit } from "./shape_picker.ts";
 export { reconstruct, type ShapeSpace } from "./shape_space.ts";

@@ -8,20 +8,25 @@ import type { Surface } from "./surface.ts";
 
 export type Mode = "move" | "turn";
 
+const WHITE = new Color("#ffffff");
+
 /** The state of posing: what is asked of the handles, what is selected, and what was before.
  *
  * Wishes are collected and solved once before the next picture. */
 export class Posing {
   readonly stage: Stage;
   mode: Mode = "move";
+  /** After each solve, many times a second in a drag. */
   onSolved: (report: FrameReport) => void = () => {};
   /** After the end of a drag. */
   onReleased: () => void = () => {};
-  /** After anything that controls show has changed. */
+  /** After selection, mode or history have changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
   #surface: Surface;
   #selected = -1;
+  /** Of each handle. */
+  #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
   readonly #history: History<Motion[]>;
 
@@ -59,6 +64,7 @@ export class Posing {
         ),
       );
     this.#solved(report);
+    this.onChange();
   }
 
   get selected(): number {
@@ -67,8 +73,10 @@ export class Posing {
 
   select(handle: number): void {
     if (handle === this.#selected) return;
+    const before = this.#selected;
     this.#selected = handle;
-    this.#paint();
+    for (const changed of [before, handle])
+      if (changed >= 0) this.#surface.paintSome(this.#vertices[changed], this.#colorOf(changed));
     this.onChange();
     this.stage.draw();
   }
@@ -127,6 +135,7 @@ export class Posing {
     this.session.reset();
     this.#history.push(this.#motions());
     this.#solved(this.session.solve());
+    this.onChange();
   }
 
   set dimension(dimension: number) {
@@ -138,6 +147,7 @@ export class Posing {
     if (!motions) return;
     this.#wishes.clear();
     this.#solved(this.session.moveAll(new Map(motions.entries())));
+    this.onChange();
   }
 
   #motions(): Motion[] {
@@ -147,7 +157,6 @@ export class Posing {
   #solved(report: FrameReport): void {
     this.#show();
     this.onSolved(report);
-    this.onChange();
     this.stage.draw();
   }
 
@@ -160,14 +169,18 @@ export class Posing {
     this.surface.object.matrixWorldNeedsUpdate = true;
   }
 
+  /** Colours all of a new surface. */
   #paint(): void {
-    const white = new Color("#ffffff");
-    const colors = this.session.model.handles.map((_, handle) => {
-      const color = new Color(handleColor(handle));
-      return handle === this.#selected ? color.lerp(white, 0.1) : color;
-    });
-    const { handleOfVertex } = this.session.model;
+    const { handles, handleOfVertex } = this.session.model;
+    const colors = handles.map((_, handle) => this.#colorOf(handle));
+    this.#vertices = handles.map(() => []);
+    handleOfVertex.forEach((handle, vertex) => this.#vertices[handle]?.push(vertex));
     this.surface.paint((vertex) => (handleOfVertex[vertex] < 0 ? CLAY : colors[handleOfVertex[vertex]]));
+  }
+
+  #colorOf(handle: number): Color {
+    const color = new Color(handleColor(handle));
+    return handle === this.#selected ? color.lerp(WHITE, 0.1) : color;
   }
 }
 

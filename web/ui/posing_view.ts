@@ -9,6 +9,7 @@ import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
 import { Marks } from "./posing_marks.ts";
+import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import type { View, ViewOptions } from "./view.ts";
@@ -35,11 +36,14 @@ export async function posingView(
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
-  const posing = new Posing(stage, await PosingSession.create(module, model), surfaces[0]);
+  const session = await PosingSession.create(module, model);
+  session.warmUp();
+  const posing = new Posing(stage, session, surfaces[0]);
   const stop = new AbortController();
   const gizmo = new Gizmo(posing);
   let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
+  drag.warmUp();
   listenToKeys(posing, stop.signal);
 
   const hud = new Hud(
@@ -72,9 +76,12 @@ export async function posingView(
   posing.onSolved = (report) => {
     hud.solved(report);
     polishing?.cancel();
+    gizmo.update();
+    marks.update();
+    readout.ask();
   };
   posing.onReleased = () => void polishing?.ask();
-  posing.onChange = () => {
+  const readout = new Readout(() => {
     list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
     modes.set(posing.mode);
     undo.disabled = !posing.canUndo;
@@ -86,8 +93,11 @@ export async function posingView(
         ? ""
         : `Beyond what was sampled: ${outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`).join("; ")}`,
     );
+  });
+  posing.onChange = () => {
     gizmo.update();
     marks.update();
+    readout.now();
   };
   posing.onChange();
   stage.beforeFrame = (seconds) => {
@@ -95,6 +105,9 @@ export async function posingView(
     polishing?.advance();
     look.legend.look();
     hud.frame(seconds);
+  };
+  stage.afterFrame = () => {
+    if (polishing?.isOnTheWay) stage.draw();
   };
 
   const polish = toggle(
@@ -125,6 +138,7 @@ export async function posingView(
     stage.root.add(surfaces[0].object);
     marks.dispose();
     posing.replace(session, surfaces[0]);
+    drag.warmUp();
     marks = new Marks(posing);
     before.object.removeFromParent();
     before.dispose();
@@ -164,7 +178,9 @@ export async function posingView(
     dispose: () => {
       stop.abort();
       polishing?.cancel();
+      readout.dispose();
       stage.beforeFrame = () => {};
+      stage.afterFrame = () => {};
       look.legend.dispose();
       hud.dispose();
       gizmo.dispose();
