@@ -14,9 +14,9 @@ from ..mesh.tet_search import closest_boundary_faces
 from .closed_input import check_share, closed_input
 
 # Vertices of the surface that are farther from the tets, in edge lengths, belong to a lost part.
-_LOST = 0.75
-# Of the edge length, if the first lattice is unlucky at a thin part.
-_SCALES = (1.0, 0.93, 0.87)
+_LOST = 1.0
+# Of the edge length, where parts are too thin.
+_SCALES = (1.0, 0.8, 0.6)
 
 
 def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float = 0.025) -> TetMesh:
@@ -29,7 +29,7 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
         Closed and oriented alike, outward or inward; without self-intersections.
     edge_length : float, default 0.025
         Of the longest edges inside, as a share of the diagonal of the surface's bounding box. Where
-        the surface is thinner than about twice that, up to 0.87 of it are tried.
+        parts are too thin for that, 0.8 and 0.6 of it are tried.
 
     Returns
     -------

@@ -5,7 +5,7 @@ export { EnergyScale } from "./energy_scale.ts";
 export { UnreadableModel } from "./errors.ts";
 export { planeStressRatio, vertexDensities, type Membrane } from "./membrane_energy.ts";
 export type { BlendingModel, Model, PosingModel } from "./model.ts";
-export { rotationOfEuler, type RigidMap } from "./motion.ts";
+export { eulerOfRotation, rotationOfEuler, type RigidMap } from "./motion.ts";
 export { PosingSession, type Motion } from "./posing_session.ts";
 export { readModel } from "./read_model.ts";
 export { ShapePicker, type Hit } from "./shape_picker.ts";

@@ -139,7 +139,7 @@ export class ProgressBar {
 }
 
 function percent(share: number): string {
-  return `${Number((100 * share).toPrecision(2))} %`;
+  return `${Number((100 * share).toPrecision(2))}\u00a0%`;
 }
 
 function duration(seconds: number): string {

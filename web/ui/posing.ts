@@ -1,6 +1,12 @@
 import { Color, Matrix4 } from "three";
 
-import { rotationOfEuler, type FrameReport, type Motion, type PosingSession } from "../engine/index.ts";
+import {
+  eulerOfRotation,
+  rotationOfEuler,
+  type FrameReport,
+  type Motion,
+  type PosingSession,
+} from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
@@ -28,13 +34,13 @@ export class Posing {
   /** Of each handle. */
   #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
-  readonly #history: History<Motion[]>;
+  #history: History<Motion[]>;
 
   constructor(stage: Stage, session: PosingSession, surface: Surface) {
     this.stage = stage;
     this.#session = session;
     this.#surface = surface;
-    this.#history = new History(this.#motions());
+    this.#history = new History(this.motions);
     this.#paint();
     this.#show();
   }
@@ -49,22 +55,23 @@ export class Posing {
 
   /** Goes on with another model of the same handles: their motions, the selection and what was before stay. */
   replace(session: PosingSession, surface: Surface): void {
-    const before = this.#session;
+    const motions = this.motions;
     [this.#session, this.#surface] = [session, surface];
     this.#paint();
-    let report = session.solve();
-    // in steps, as a drag comes there: one large one may end in another minimum
-    for (const share of [0.25, 0.5, 0.75, 1])
-      report = session.moveAll(
-        new Map(
-          before.model.handles.map((_, handle) => [
-            handle,
-            share < 1 ? partOf(before, handle, share) : before.motion(handle),
-          ]),
-        ),
-      );
-    this.#solved(report);
+    this.#approach(motions);
     this.onChange();
+  }
+
+  /** Begins with the handles at motions, as they were left in another view. */
+  begin(motions: readonly Motion[]): void {
+    this.#approach(motions);
+    this.#history = new History(this.motions);
+    this.onChange();
+  }
+
+  /** Of all handles, from rest. */
+  get motions(): Motion[] {
+    return this.session.model.handles.map((_, handle) => this.session.motion(handle));
   }
 
   get selected(): number {
@@ -109,7 +116,7 @@ export class Posing {
   /** The end of a drag: a step of undo. */
   commit(): void {
     this.solveWishes();
-    this.#history.push(this.#motions());
+    this.#history.push(this.motions);
     this.onChange();
     this.onReleased();
   }
@@ -133,7 +140,7 @@ export class Posing {
   reset(): void {
     this.#wishes.clear();
     this.session.reset();
-    this.#history.push(this.#motions());
+    this.#history.push(this.motions);
     this.#solved(this.session.solve());
     this.onChange();
   }
@@ -150,8 +157,14 @@ export class Posing {
     this.onChange();
   }
 
-  #motions(): Motion[] {
-    return this.session.model.handles.map((_, handle) => this.session.motion(handle));
+  /** From rest to motions, in steps as a drag comes there: one large one may end in another minimum. */
+  #approach(motions: readonly Motion[]): void {
+    let report = this.session.solve();
+    for (const share of [0.25, 0.5, 0.75, 1])
+      report = this.session.moveAll(
+        new Map(motions.map((motion, handle) => [handle, partOf(motion, share)])),
+      );
+    this.#solved(report);
   }
 
   #solved(report: FrameReport): void {
@@ -184,9 +197,10 @@ export class Posing {
   }
 }
 
-function partOf(session: PosingSession, handle: number, share: number): Motion {
-  const [a, b, c] = session.euler(handle);
-  const [x, y, z] = session.motion(handle).translation;
+function partOf(motion: Motion, share: number): Motion {
+  if (share === 1) return motion;
+  const [a, b, c] = eulerOfRotation(motion.rotation);
+  const [x, y, z] = motion.translation;
   return {
     rotation: rotationOfEuler([share * a, share * b, share * c]),
     translation: [share * x, share * y, share * z],

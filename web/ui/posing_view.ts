@@ -12,13 +12,15 @@ import { Marks } from "./posing_marks.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
-import type { View, ViewOptions } from "./view.ts";
+import type { Motions, View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
 
 /** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
 export interface PosingView extends View {
   replace(model: PosingModel): Promise<void>;
+  /** Where the handles are, by name. */
+  readonly motions: Motions;
 }
 
 /** Posing: handles on the stage, controls in the panel. */
@@ -100,6 +102,8 @@ export async function posingView(
     readout.now();
   };
   posing.onChange();
+  const start = model.handles.map(({ name }) => options.motions?.get(name));
+  if (start.every((motion) => motion !== undefined)) posing.begin(start);
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
     polishing?.advance();
@@ -165,6 +169,9 @@ export async function posingView(
     hud,
     panel,
     replace,
+    get motions() {
+      return new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion]));
+    },
     script: {
       kind: "posing",
       get session() {

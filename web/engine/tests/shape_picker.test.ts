@@ -9,7 +9,7 @@ import { quantised, reconstruct } from "../shape_space.ts";
 /** Numbers in [-1, 1), the same every time. */
 function numbers(seed: number): () => number {
   let state = seed;
-  return () => ((state = (1664525 * state + 1013904223) % 2 ** 32) / 2 ** 31) - 1;
+  return () => (state = (1664525 * state + 1013904223) % 2 ** 32) / 2 ** 31 - 1;
 }
 
 /** A bumpy ball of many triangles, with smooth modes and rough ones. */
@@ -58,9 +58,9 @@ test("what a ray hits is what it hits among all triangles, in every shape", () =
     picker.show(coefficients, trial > 0 ? share : 0);
     for (let ray = 0; ray < 5; ray++) {
       const origin: Vector = [3 * random(), 3 * random(), 3];
-      const aim = [random() - origin[0], random() - origin[1], random() - origin[2]];
-      const length = Math.hypot(...aim);
-      const direction = aim.map((x) => x / length) as Vector;
+      const [x, y, z] = [random() - origin[0], random() - origin[1], random() - origin[2]];
+      const length = Math.hypot(x, y, z);
+      const direction: Vector = [x / length, y / length, z / length];
       const found = picker.pick(origin, direction);
       const expected = first(shape, faces, origin, direction);
       assert.equal(found === null, expected === Infinity);
