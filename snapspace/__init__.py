@@ -6,7 +6,7 @@ from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
 from .cubature import CubatureErrors, hyper_reduce
 from .energy import ElasticEnergy, StVK
-from .filling import fill_surface
+from .filling import fill_surface, stuff_surface
 from .fitting import PoseFit, PoseFits, fit_poses
 from .greedy import greedy_snapshots
 from .growing import Growth, growing_models
@@ -138,6 +138,7 @@ __all__ = [
     "save_model",
     "snapshot_pca",
     "solve_snapshots",
+    "stuff_surface",
     "validate",
     "write_surface",
     "write_tets",

@@ -12,7 +12,15 @@ import click
 from ..mesh import TET_SUFFIXES
 from ..mesh.input_path import existing_file
 from ..model_file import SUFFIX
-from ..server import MESH_SUFFIXES, PROBLEM_SUFFIX, SharedBody, mesh_body, problem_body, serve
+from ..server import (
+    MESH_SUFFIXES,
+    PROBLEM_SUFFIX,
+    SharedBody,
+    SurfaceFilling,
+    mesh_body,
+    problem_body,
+    serve,
+)
 from ..server.serve import HOST
 from ..server.site import UPLOAD_LIMIT
 from .console import notice
@@ -38,6 +46,17 @@ from .options import FILE, leading_option, up_option
     metavar="MB",
     help="Of meshes that are dropped on the page.",
 )
+@click.option(
+    "--edge-length",
+    type=click.FloatRange(min=0, max=0.5, min_open=True),
+    metavar="SHARE",
+    help="Of the tets that fill a surface, of its diagonal [default: 0.025; exact: 0.02].",
+)
+@click.option(
+    "--exact",
+    is_flag=True,
+    help="Fill surfaces with fTetWild, which keeps sharp edges: minutes, not seconds.",
+)
 @leading_option
 @up_option
 def view(
@@ -46,13 +65,16 @@ def view(
     port: int,
     no_browser: bool,
     upload_limit: float,
+    edge_length: float | None,
+    exact: bool,
     dimension: int | None,
     up: str,
 ) -> None:
     """Pose or blend a model in the browser, or make one there.
 
     FILE is a model; or a problem, tets or a closed surface, on which handles are chosen and models
-    computed; or nothing: then a mesh is dropped on the page. A surface is filled with tets first.
+    computed; or nothing: then a mesh is dropped on the page. A surface is filled with tets first,
+    in seconds; where it is too thin for quick tets fTetWild does it, which takes minutes.
 
     Opens the page, or prints its address where there is no browser; Ctrl-C ends it. Shapes are
     solved in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` and
@@ -66,12 +88,13 @@ def view(
       snapspace view bunny.obj
     """
     model = body = None
+    filling = SurfaceFilling(edge_length=edge_length, exact=exact)
     if file is not None:
         existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
         if file.suffix.lower() == SUFFIX:
             model = load_leading(file, dimension)
         else:
-            body = _body(file)
+            body = _body(file, filling)
     if model is None and dimension is not None:
         raise ValueError("--dimension is for models; the page asks for it before it computes one")
 
@@ -86,6 +109,7 @@ def view(
         title="Snapspace" if file is None else file.stem,
         up=up,
         upload_limit=int(upload_limit * 2**20),
+        filling=filling,
         host=host,
         port=port,
         ready=ready,
@@ -93,7 +117,7 @@ def view(
     notice("stopped")
 
 
-def _body(file: Path) -> SharedBody:
+def _body(file: Path, filling: SurfaceFilling) -> SharedBody:
     """What the page begins with; a problem or tets are read now, so that errors show here."""
     suffix = file.suffix.lower()
     if suffix == PROBLEM_SUFFIX:
@@ -101,7 +125,7 @@ def _body(file: Path) -> SharedBody:
     elif suffix in TET_SUFFIXES:
         body = mesh_body(file, stage=lambda stage: None)
     else:
-        return SharedBody(lambda stage: mesh_body(file, stage=stage))
+        return SharedBody(lambda stage: mesh_body(file, stage=stage, filling=filling))
     return SharedBody(lambda stage: body)
 
 

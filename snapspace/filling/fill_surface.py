@@ -5,11 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh import TetMesh, compact_surface, repair_tets, tet_volumes
-from ..mesh.arrays import as_indices, as_points
-from ..mesh.closed_surface import check_closed, enclosed_volume
+from ..mesh import TetMesh, repair_tets, tet_volumes
 from ..mesh.components import tet_components
-from ..mesh.validation import check_indices, check_points
+from .closed_input import check_share, closed_input
 from .ftetwild import ftetwild
 
 # Solids with less than this share of the volume are crumbs, which are dropped.
@@ -59,38 +57,20 @@ def fill_surface(
     **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
     and offers no seed, so two runs differ in some tets. Write the mesh to a file to work with the
     same one again.
+
+    See Also
+    --------
+    stuff_surface : seconds instead of minutes, for surfaces without very thin parts.
     """
-    points = as_points(vertices, who="fill_surface")
-    triangles = as_indices(faces, corners=3, who="fill_surface", what="faces")
-    check_points(points, who="fill_surface")
-    check_indices(triangles, len(points), who="fill_surface", what="face")
-    check_closed(triangles, who="fill_surface")
-    _check_share(edge_length, "edge_length", largest=1.0)
-    _check_share(tolerance, "tolerance", largest=0.1)
-    points, triangles = compact_surface(points, triangles)
-    center = (points.min(axis=0) + points.max(axis=0)) / 2.0
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    # fTetWild has absolute thresholds: in its unit of length all surfaces have the same size
-    scaled = (points - center) / (diagonal or 1.0)
-    volume = enclosed_volume(scaled, triangles)
-    if abs(volume) < np.finfo(np.float64).eps:
-        raise ValueError(
-            f"fill_surface: the surface encloses no volume ({len(triangles)} faces): a solid is "
-            "needed; check that the surface is neither flat nor doubly covered"
-        )
-    outward = triangles if volume > 0 else np.ascontiguousarray(triangles[:, ::-1])
-    tet_vertices, tets = ftetwild(scaled, outward, edge_length=edge_length, tolerance=tolerance)
+    surface = closed_input(vertices, faces, who="fill_surface")
+    check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")
+    check_share(tolerance, "tolerance", largest=0.1, who="fill_surface")
+    tet_vertices, tets = ftetwild(
+        surface.vertices, surface.faces, edge_length=edge_length, tolerance=tolerance
+    )
     _check_one_solid(tet_vertices, tets)
-    mesh, _ = repair_tets(tet_vertices * diagonal + center, tets)
+    mesh, _ = repair_tets(tet_vertices * surface.diagonal + surface.center, tets)
     return mesh
-
-
-def _check_share(value: float, name: str, *, largest: float) -> None:
-    if not 0 < value <= largest:
-        raise ValueError(
-            f"fill_surface: {name} is {value}, but must be positive and at most {largest}: it is "
-            "a share of the diagonal"
-        )
 
 
 def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> None:

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..filling import fill_surface
 from ..interruptible import check_stop
 from ..mesh import SURFACE_SUFFIXES, TET_SUFFIXES, TetMesh, read_surface, read_tets
 from ..mesh.input_path import existing_file
 from ..problem import PosingProblem, read_problem
+from .surface_filling import SurfaceFilling
 
 PROBLEM_SUFFIX = ".json"
 MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
@@ -47,14 +47,18 @@ def problem_body(path: Path) -> Body:
     )
 
 
-def mesh_body(path: Path, *, stage: Callable[[str], None]) -> Body:
+def mesh_body(
+    path: Path, *, stage: Callable[[str], None], filling: SurfaceFilling | None = None
+) -> Body:
     """Tets out of a file, or made inside of its surface.
 
     Parameters
     ----------
     path : Path
     stage : callable
-        Gets "reading" and, for a surface, "filling" before these parts of the work.
+        Gets "reading" and, for a surface, what `SurfaceFilling.fill` tells, before these parts of
+        the work.
+    filling : SurfaceFilling, default quick tets
 
     Raises
     ------
@@ -67,10 +71,9 @@ def mesh_body(path: Path, *, stage: Callable[[str], None]) -> Body:
     if path.suffix.lower() in TET_SUFFIXES:
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
     vertices, faces = read_surface(path)
-    stage("filling")
     check_stop()
     try:
-        mesh = fill_surface(vertices, faces)
+        mesh = (filling or SurfaceFilling()).fill(vertices, faces, stage=stage)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
     return Body(name=path.stem, mesh=mesh, file=None, folder=folder)

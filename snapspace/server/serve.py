@@ -20,6 +20,7 @@ from .listener import listening
 from .live import LARGEST_MESSAGE
 from .shared_body import SharedBody
 from .site import UPLOAD_LIMIT, Site
+from .surface_filling import SurfaceFilling
 
 HOST = "127.0.0.1"
 #: How long the end of connections is waited for at Ctrl-C.
@@ -36,6 +37,7 @@ def serve(
     up: str = "z",
     folder: Path = Path(),
     upload_limit: int = UPLOAD_LIMIT,
+    filling: SurfaceFilling | None = None,
     host: str = HOST,
     port: int = 0,
     ready: Callable[[str], None] = print,
@@ -58,6 +60,8 @@ def serve(
         Where what is made of uploaded meshes is saved.
     upload_limit : int, default 256 MB
         Bytes of a mesh that is dropped on the page.
+    filling : SurfaceFilling, default quick tets
+        Of surfaces that are dropped on the page.
     host : str, default "127.0.0.1"
         Address to listen at. Another one than this machine's own lets other machines in, who need
         the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then name any
@@ -85,6 +89,7 @@ def serve(
                 body=body,
                 model=model,
                 upload_limit=upload_limit,
+                filling=filling or SurfaceFilling(),
             )
             address = f"http://{shown_host(host)}:{listener.getsockname()[1]}/?token={token}"
             config = uvicorn.Config(

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..reduction import ReducedModel
 from .shared_body import SharedBody
+from .surface_filling import SurfaceFilling
 from .turns import Turns
 
 #: 256 MB.
@@ -25,6 +26,7 @@ class Site:
     body : SharedBody that pages begin with; None if they ask for a mesh
     model : to pose or blend, instead of a body; or None
     upload_limit : bytes
+    filling : of surfaces that are dropped on a page
     """
 
     title: str
@@ -35,4 +37,5 @@ class Site:
     body: SharedBody | None = None
     model: ReducedModel | None = None
     upload_limit: int = UPLOAD_LIMIT
+    filling: SurfaceFilling = field(default_factory=SurfaceFilling)
     turns: Turns = field(default_factory=Turns)

@@ -68,7 +68,7 @@ class Workspace:
 
         def make(stage: Stage) -> Body:
             try:
-                body = mesh_body(path, stage=stage)
+                body = mesh_body(path, stage=stage, filling=self._site.filling)
             except ValueError as error:
                 raise ValueError(str(error).replace(str(path), path.name)) from None
             finally:

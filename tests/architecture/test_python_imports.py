@@ -19,7 +19,7 @@ ALLOWED: dict[str, set[str]] = {
     "registration": {"blas"},
     "sampling": set(),
     "pictures": set(),
-    "filling": {"interruptible", "mesh"},
+    "filling": {"generators", "interruptible", "mesh"},
     "fitting": {"_core", "blas", "interruptible", "mesh", "registration"},
     "generators": {"mesh"},
     "energy": {"_core", "mesh"},

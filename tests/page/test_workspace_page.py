@@ -93,10 +93,13 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     press(page, "Polish")  # off: the live shape
     assert_shown(model, page)
 
+    before = page.motions()[1]
     press(page, "Choose handles")
     assert handles(page) == chosen
     press(page, "Pose")
     page.wait("snapspace.kind === 'posing'")
+    for again, left in zip(page.motions()[1], before, strict=True):
+        assert again == pytest.approx(left, abs=1e-9), "it goes on where it was left"
 
 
 def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:

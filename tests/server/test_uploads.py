@@ -47,7 +47,7 @@ def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) ->
 
 
 def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: Path) -> None:
-    # the finest surface below the limit takes fTetWild many seconds
+    # the finest surface below the limit takes seconds
     fine = bar(24, 12, 12)
     write_surface(tmp_path / "fine.stl", fine.vertices, fine.surface)
     with empty.page() as page:

@@ -16,6 +16,9 @@ import {
 } from "./motion.ts";
 import { beyondBox } from "./sampled_box.ts";
 
+const WARMING = 8; // solves
+const WARMING_SHARE = 0.05; // of the diagonal
+
 /** A motion of a handle from rest, about its centroid. */
 export interface Motion {
   readonly rotation: Rotation;
@@ -110,6 +113,20 @@ export class PosingSession {
   reset(): void {
     this.#set(this.model.handles.map(() => IDENTITY));
     this.#core.q = new Float64Array(this.dimension);
+  }
+
+  /** Solves small motions and forgets them, at rest: the browser makes fast code of what has run some times, which the
+   * first drag should not wait for. */
+  warmUp(): void {
+    const { handles, diagonal } = this.model;
+    for (let step = 1; step <= WARMING; step++) {
+      const shift = (WARMING_SHARE * step * diagonal) / WARMING;
+      this.moveAll(
+        new Map([[handles.length - 1, { rotation: IDENTITY.rotation, translation: [shift, 0, 0] }]]),
+      );
+    }
+    this.reset();
+    this.dimension = this.dimension; // nothing of it stays in the core
   }
 
   /** The handles outside of the box of motions that was sampled, and how. */

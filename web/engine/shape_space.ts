@@ -31,21 +31,14 @@ export function quantised(base: Float64Array, modes: Float64Array): ShapeSpace {
   return { vertices: size / 3, base: Float32Array.from(base), modes: integers, scales };
 }
 
-/** Writes base + sum_i c_i modes_i, with the first coefficients if there are fewer than modes; of the
- * 3 * vertices numbers those from `begin` to `end`. */
-export function reconstruct(
-  space: ShapeSpace,
-  coefficients: ArrayLike<number>,
-  shape: Float32Array,
-  begin = 0,
-  end = space.base.length,
-): void {
+/** Writes base + sum_i c_i modes_i, with the first coefficients if there are fewer than modes. */
+export function reconstruct(space: ShapeSpace, coefficients: ArrayLike<number>, shape: Float32Array): void {
   const { base, modes, scales } = space;
-  shape.set(base.subarray(begin, end), begin);
+  shape.set(base);
   for (let mode = 0; mode < coefficients.length; mode++) {
     const factor = coefficients[mode] * scales[mode];
     if (factor === 0) continue;
     const start = mode * base.length;
-    for (let i = begin; i < end; i++) shape[i] += factor * modes[start + i];
+    for (let i = 0; i < base.length; i++) shape[i] += factor * modes[start + i];
   }
 }

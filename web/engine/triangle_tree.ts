@@ -1,5 +1,6 @@
 import type { Vector } from "./motion.ts";
 import { distanceAlong } from "./ray_triangle.ts";
+import { splitInMiddle, triangleCenters } from "./triangle_split.ts";
 
 const LEAF = 4;
 
@@ -79,7 +80,7 @@ export class TriangleTree {
   }
 
   #build(count: number): void {
-    const centers = this.#centers();
+    const centers = triangleCenters(this.#shape, this.#faces);
     const waiting: [node: number, start: number, end: number][] = [[0, 0, count]];
     let nodes = 1;
     for (let job = waiting.pop(); job; job = waiting.pop()) {
@@ -88,23 +89,12 @@ export class TriangleTree {
         this.#ranges.set([start, end], 2 * node);
         continue;
       }
-      const [middle, axis] = this.#split(centers, start, end);
+      const [middle, axis] = splitInMiddle(this.#order, centers, start, end);
       this.#ranges.set([nodes, -1 - axis], 2 * node);
       waiting.push([nodes, start, middle], [nodes + 1, middle, end]);
       nodes += 2;
     }
     for (let node = nodes - 1; node >= 0; node--) this.#enclose(node); // children have the higher numbers
-  }
-
-  #centers(): Float32Array {
-    const shape = this.#shape;
-    const faces = this.#faces;
-    const centers = new Float32Array(faces.length);
-    for (let f = 0; f < faces.length; f += 3)
-      for (let axis = 0; axis < 3; axis++)
-        centers[f + axis] =
-          (shape[3 * faces[f] + axis] + shape[3 * faces[f + 1] + axis] + shape[3 * faces[f + 2] + axis]) / 3;
-    return centers;
   }
 
   #enclose(node: number): void {
@@ -129,29 +119,5 @@ export class TriangleTree {
           if (x > boxes[b + axis + 3]) boxes[b + axis + 3] = x;
         }
       }
-  }
-
-  /** Brings the triangles of a range into two sides, along the axis in which their centres spread most. */
-  #split(centers: Float32Array, start: number, end: number): [middle: number, axis: number] {
-    const order = this.#order;
-    let axis = 0;
-    let [widest, middle] = [-1, 0];
-    for (let candidate = 0; candidate < 3; candidate++) {
-      let [low, high] = [Infinity, -Infinity];
-      for (let i = start; i < end; i++) {
-        const x = centers[3 * order[i] + candidate];
-        if (x < low) low = x;
-        if (x > high) high = x;
-      }
-      if (high - low > widest) [widest, middle, axis] = [high - low, (low + high) / 2, candidate];
-    }
-    let left = start;
-    for (let i = start; i < end; i++) {
-      const triangle = order[i];
-      if (centers[3 * triangle + axis] >= middle) continue;
-      order[i] = order[left];
-      order[left++] = triangle;
-    }
-    return [left === start || left === end ? (start + end) >> 1 : left, axis];
   }
 }

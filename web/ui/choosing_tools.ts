@@ -2,6 +2,7 @@ import { MOUSE, TOUCH } from "three";
 
 import { NOTHING } from "../engine/choice.ts";
 import { union, type Place } from "../engine/selecting.ts";
+import { listenToPointers } from "./canvas_pointers.ts";
 import type { Choosing } from "./choosing.ts";
 import type { ToolOverlay } from "./choosing_overlay.ts";
 
@@ -38,14 +39,15 @@ export class ChoosingTools {
       controls.touches = before.touches;
       this.#canvas.style.cursor = "";
     });
-    const room = this.#canvas.parentElement!; // hears before the camera's controls do
-    const listen = (name: string, act: (event: PointerEvent) => void) =>
-      room.addEventListener(name, act as EventListener, { capture: true, signal });
-    listen("pointerdown", (event) => this.#down(event));
-    listen("pointermove", (event) => this.#move(event));
-    listen("pointerup", (event) => this.#up(event));
-    listen("pointercancel", (event) => this.#lift(event));
-    listen("pointerleave", () => this.#stroke ?? this.#overlay.clear());
+    const acts = {
+      down: this.#down.bind(this),
+      move: this.#move.bind(this),
+      up: this.#up.bind(this),
+      cancel: this.#lift.bind(this),
+    };
+    listenToPointers(this.#canvas, acts, signal);
+    const leave = () => this.#stroke ?? this.#overlay.clear();
+    this.#canvas.parentElement!.addEventListener("pointerleave", leave, { capture: true, signal });
   }
 
   /** Forgets the stroke; tells whether there was one. */

@@ -5,6 +5,7 @@ const STAGES: Record<string, string> = {
   waiting: "Waiting for another computation",
   reading: "Reading the mesh",
   filling: "Filling the surface with tets",
+  "filling exactly": "Filling the surface exactly: some minutes",
   snapshots: "Solving samples",
   subspace: "Finding the subspace",
   energy: "Reducing the energy",
@@ -138,7 +139,7 @@ export class ProgressBar {
 }
 
 function percent(share: number): string {
-  return `${Number((100 * share).toPrecision(2))} %`;
+  return `${Number((100 * share).toPrecision(2))}\u00a0%`;
 }
 
 function duration(seconds: number): string {

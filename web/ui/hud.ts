@@ -80,14 +80,14 @@ export class Hud {
   #tellError(): void {
     const { value } = this.#figures.error;
     const found = this.#certify!();
-    value.textContent = found ? percent(found.relative) : "–";
-    value.title =
-      found?.upper != null ? `below ${percent(found.upper)} with ${percent(CONFIDENCE)} confidence` : "";
+    const bound = found?.upper == null ? "" : ` (< ${percent(found.upper)})`;
+    value.textContent = found ? percent(found.relative) + bound : "–";
+    value.title = bound ? `below ${percent(found!.upper!)} with ${percent(CONFIDENCE)} confidence` : "";
   }
 
   #tell(): void {
     const now = performance.now();
-    if (now - this.#shown < 120) return; // numbers that change faster cannot be read
+    if (now - this.#shown < 200) return; // numbers that change faster cannot be read
     this.#shown = now;
     if (this.#solves.length) this.#figures.solve.value.textContent = `${mean(this.#solves).toFixed(2)} ms`;
     if (this.#frames.length > 3) this.#figures.fps.value.textContent = (1 / mean(this.#frames)).toFixed(0);

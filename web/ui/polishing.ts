@@ -24,8 +24,12 @@ const MILLISECONDS = 150; // from the live shape to the improved one
 
 /** At a server, for the model that has the number `model()` there by then. */
 export function polishAt(server: Server, model: () => number): Polish {
+  let newest = new AbortController();
   return async (frame) => {
-    const { message, bytes } = await server.ask({ type: "polish", model: model(), ...frame }, "polished");
+    newest.abort(); // the server drops it as well, without an answer
+    newest = new AbortController();
+    const order = { type: "polish", model: model(), ...frame } as const;
+    const { message, bytes } = await server.ask(order, "polished", newest.signal);
     if (!bytes) throw new Refused("The server sent no shape.");
     return { positions: new Float32Array(bytes), moved: message.moved };
   };
@@ -85,8 +89,12 @@ export class Polishing {
     if (this.#begin === null) return;
     const time = Math.min((performance.now() - this.#begin) / MILLISECONDS, 1);
     this.#posing.surface.blend(time * time * (3 - 2 * time));
-    if (time < 1) this.#posing.stage.draw();
-    else this.#begin = null;
+    if (time === 1) this.#begin = null;
+  }
+
+  /** Whether the improved shape is not yet reached: another picture is needed. */
+  get isOnTheWay(): boolean {
+    return this.#begin !== null;
   }
 }
 

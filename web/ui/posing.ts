@@ -1,6 +1,12 @@
 import { Color, Matrix4 } from "three";
 
-import { rotationOfEuler, type FrameReport, type Motion, type PosingSession } from "../engine/index.ts";
+import {
+  eulerOfRotation,
+  rotationOfEuler,
+  type FrameReport,
+  type Motion,
+  type PosingSession,
+} from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
@@ -8,28 +14,33 @@ import type { Surface } from "./surface.ts";
 
 export type Mode = "move" | "turn";
 
+const WHITE = new Color("#ffffff");
+
 /** The state of posing: what is asked of the handles, what is selected, and what was before.
  *
  * Wishes are collected and solved once before the next picture. */
 export class Posing {
   readonly stage: Stage;
   mode: Mode = "move";
+  /** After each solve, many times a second in a drag. */
   onSolved: (report: FrameReport) => void = () => {};
   /** After the end of a drag. */
   onReleased: () => void = () => {};
-  /** After anything that controls show has changed. */
+  /** After selection, mode or history have changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
   #surface: Surface;
   #selected = -1;
+  /** Of each handle. */
+  #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
-  readonly #history: History<Motion[]>;
+  #history: History<Motion[]>;
 
   constructor(stage: Stage, session: PosingSession, surface: Surface) {
     this.stage = stage;
     this.#session = session;
     this.#surface = surface;
-    this.#history = new History(this.#motions());
+    this.#history = new History(this.motions);
     this.#paint();
     this.#show();
   }
@@ -44,21 +55,23 @@ export class Posing {
 
   /** Goes on with another model of the same handles: their motions, the selection and what was before stay. */
   replace(session: PosingSession, surface: Surface): void {
-    const before = this.#session;
+    const motions = this.motions;
     [this.#session, this.#surface] = [session, surface];
     this.#paint();
-    let report = session.solve();
-    // in steps, as a drag comes there: one large one may end in another minimum
-    for (const share of [0.25, 0.5, 0.75, 1])
-      report = session.moveAll(
-        new Map(
-          before.model.handles.map((_, handle) => [
-            handle,
-            share < 1 ? partOf(before, handle, share) : before.motion(handle),
-          ]),
-        ),
-      );
-    this.#solved(report);
+    this.#approach(motions);
+    this.onChange();
+  }
+
+  /** Begins with the handles at motions, as they were left in another view. */
+  begin(motions: readonly Motion[]): void {
+    this.#approach(motions);
+    this.#history = new History(this.motions);
+    this.onChange();
+  }
+
+  /** Of all handles, from rest. */
+  get motions(): Motion[] {
+    return this.session.model.handles.map((_, handle) => this.session.motion(handle));
   }
 
   get selected(): number {
@@ -67,8 +80,10 @@ export class Posing {
 
   select(handle: number): void {
     if (handle === this.#selected) return;
+    const before = this.#selected;
     this.#selected = handle;
-    this.#paint();
+    for (const changed of [before, handle])
+      if (changed >= 0) this.#surface.paintSome(this.#vertices[changed], this.#colorOf(changed));
     this.onChange();
     this.stage.draw();
   }
@@ -101,7 +116,7 @@ export class Posing {
   /** The end of a drag: a step of undo. */
   commit(): void {
     this.solveWishes();
-    this.#history.push(this.#motions());
+    this.#history.push(this.motions);
     this.onChange();
     this.onReleased();
   }
@@ -125,8 +140,9 @@ export class Posing {
   reset(): void {
     this.#wishes.clear();
     this.session.reset();
-    this.#history.push(this.#motions());
+    this.#history.push(this.motions);
     this.#solved(this.session.solve());
+    this.onChange();
   }
 
   set dimension(dimension: number) {
@@ -138,16 +154,22 @@ export class Posing {
     if (!motions) return;
     this.#wishes.clear();
     this.#solved(this.session.moveAll(new Map(motions.entries())));
+    this.onChange();
   }
 
-  #motions(): Motion[] {
-    return this.session.model.handles.map((_, handle) => this.session.motion(handle));
+  /** From rest to motions, in steps as a drag comes there: one large one may end in another minimum. */
+  #approach(motions: readonly Motion[]): void {
+    let report = this.session.solve();
+    for (const share of [0.25, 0.5, 0.75, 1])
+      report = this.session.moveAll(
+        new Map(motions.map((motion, handle) => [handle, partOf(motion, share)])),
+      );
+    this.#solved(report);
   }
 
   #solved(report: FrameReport): void {
     this.#show();
     this.onSolved(report);
-    this.onChange();
     this.stage.draw();
   }
 
@@ -160,20 +182,25 @@ export class Posing {
     this.surface.object.matrixWorldNeedsUpdate = true;
   }
 
+  /** Colours all of a new surface. */
   #paint(): void {
-    const white = new Color("#ffffff");
-    const colors = this.session.model.handles.map((_, handle) => {
-      const color = new Color(handleColor(handle));
-      return handle === this.#selected ? color.lerp(white, 0.1) : color;
-    });
-    const { handleOfVertex } = this.session.model;
+    const { handles, handleOfVertex } = this.session.model;
+    const colors = handles.map((_, handle) => this.#colorOf(handle));
+    this.#vertices = handles.map(() => []);
+    handleOfVertex.forEach((handle, vertex) => this.#vertices[handle]?.push(vertex));
     this.surface.paint((vertex) => (handleOfVertex[vertex] < 0 ? CLAY : colors[handleOfVertex[vertex]]));
+  }
+
+  #colorOf(handle: number): Color {
+    const color = new Color(handleColor(handle));
+    return handle === this.#selected ? color.lerp(WHITE, 0.1) : color;
   }
 }
 
-function partOf(session: PosingSession, handle: number, share: number): Motion {
-  const [a, b, c] = session.euler(handle);
-  const [x, y, z] = session.motion(handle).translation;
+function partOf(motion: Motion, share: number): Motion {
+  if (share === 1) return motion;
+  const [a, b, c] = eulerOfRotation(motion.rotation);
+  const [x, y, z] = motion.translation;
   return {
     rotation: rotationOfEuler([share * a, share * b, share * c]),
     translation: [share * x, share * y, share * z],

@@ -1,7 +1,7 @@
 import { Matrix4, Plane, Quaternion, Raycaster, Vector2, Vector3 } from "three";
 
 import type { Motion } from "../engine/index.ts";
-import { pick } from "./pick.ts";
+import { listenToPointers } from "./canvas_pointers.ts";
 import type { Gizmo } from "./posing_gizmo.ts";
 import type { Posing } from "./posing.ts";
 
@@ -33,13 +33,15 @@ export class HandleDrag {
     this.#posing = posing;
     this.#gizmo = gizmo;
     this.#canvas = posing.stage.renderer.domElement;
-    const room = this.#canvas.parentElement!; // hears before the camera's controls do
-    const listen = (name: string, act: (event: PointerEvent) => void) =>
-      room.addEventListener(name, act as EventListener, { capture: true, signal });
-    listen("pointerdown", (event) => this.#down(event));
-    listen("pointermove", (event) => this.#move(event));
-    listen("pointerup", (event) => this.#up(event));
-    listen("pointercancel", (event) => this.#up(event));
+    const up = (event: PointerEvent) => this.#up(event);
+    const acts = { down: this.#down.bind(this), move: this.#move.bind(this), up, cancel: up };
+    listenToPointers(this.#canvas, acts, signal);
+  }
+
+  /** Looks at each handle once or twice: the first time is slow. */
+  warmUp(): void {
+    for (const handle of [0, 1, 0, 1])
+      this.find(...this.screen(handle % this.#posing.session.model.handles.length));
   }
 
   /** The handle below a point of the window, or -1, and where it was hit. */
@@ -47,11 +49,12 @@ export class HandleDrag {
     const { session, surface, stage } = this.#posing;
     this.#aim(x, y);
     const toShape = surface.object.matrixWorld.clone().invert();
-    const hit = pick(this.#caster.ray.clone().applyMatrix4(toShape), surface.positions(), surface.faces);
+    const hit = surface.pick(this.#caster.ray.clone().applyMatrix4(toShape));
     if (hit) {
-      const owners = [hit.vertex, ...hit.corners].map((vertex) => session.model.handleOfVertex[vertex]);
+      const owners = hit.corners.map((vertex) => session.model.handleOfVertex[vertex]);
       const handle = owners.find((owner) => owner >= 0) ?? -1;
-      if (handle >= 0) return { handle, point: hit.point.applyMatrix4(surface.object.matrixWorld) };
+      if (handle >= 0)
+        return { handle, point: new Vector3(...hit.point).applyMatrix4(surface.object.matrixWorld) };
     }
     let [best, nearest] = [-1, MARKER_PIXELS];
     session.model.handles.forEach((_, handle) => {
@@ -80,7 +83,7 @@ export class HandleDrag {
     const { handle, point } = this.find(event.clientX, event.clientY);
     if (handle < 0) return;
     const { stage } = this.#posing;
-    stage.controls.enabled = false;
+    stage.controls.enabled = this.#gizmo.isListening = false;
     this.#canvas.setPointerCapture(event.pointerId);
     const facing = stage.camera.getWorldDirection(new Vector3());
     this.#drag = {
@@ -115,12 +118,11 @@ export class HandleDrag {
     if (event.pointerId !== this.#drag?.pointer) return;
     const { moved } = this.#drag;
     this.#drag = null;
-    this.#posing.stage.controls.enabled = true;
+    this.#posing.stage.controls.enabled = this.#gizmo.isListening = true;
     if (moved) this.#posing.commit();
   }
 
   #hover(event: PointerEvent): void {
-    if (!this.#posing.surface.isReady) return; // the next move will do
     const over = this.find(event.clientX, event.clientY).handle >= 0;
     this.#canvas.style.cursor = over ? "grab" : "";
   }

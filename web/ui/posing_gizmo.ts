@@ -26,6 +26,11 @@ export class Gizmo {
     });
   }
 
+  /** Whether it hears the pointer. */
+  set isListening(on: boolean) {
+    this.#controls.enabled = on;
+  }
+
   /** Whether a press at this place would take hold of an arrow or ring. */
   isBelow(event: PointerEvent): boolean {
     if (this.#posing.selected < 0) return false;

@@ -9,15 +9,18 @@ import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
 import { Marks } from "./posing_marks.ts";
+import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
-import type { View, ViewOptions } from "./view.ts";
+import type { Motions, View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
 
 /** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
 export interface PosingView extends View {
   replace(model: PosingModel): Promise<void>;
+  /** Where the handles are, by name. */
+  readonly motions: Motions;
 }
 
 /** Posing: handles on the stage, controls in the panel. */
@@ -35,11 +38,14 @@ export async function posingView(
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
-  const posing = new Posing(stage, await PosingSession.create(module, model), surfaces[0]);
+  const session = await PosingSession.create(module, model);
+  session.warmUp();
+  const posing = new Posing(stage, session, surfaces[0]);
   const stop = new AbortController();
   const gizmo = new Gizmo(posing);
   let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
+  drag.warmUp();
   listenToKeys(posing, stop.signal);
 
   const hud = new Hud(
@@ -72,9 +78,12 @@ export async function posingView(
   posing.onSolved = (report) => {
     hud.solved(report);
     polishing?.cancel();
+    gizmo.update();
+    marks.update();
+    readout.ask();
   };
   posing.onReleased = () => void polishing?.ask();
-  posing.onChange = () => {
+  const readout = new Readout(() => {
     list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
     modes.set(posing.mode);
     undo.disabled = !posing.canUndo;
@@ -86,15 +95,23 @@ export async function posingView(
         ? ""
         : `Beyond what was sampled: ${outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`).join("; ")}`,
     );
+  });
+  posing.onChange = () => {
     gizmo.update();
     marks.update();
+    readout.now();
   };
   posing.onChange();
+  const start = model.handles.map(({ name }) => options.motions?.get(name));
+  if (start.every((motion) => motion !== undefined)) posing.begin(start);
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
     polishing?.advance();
     look.legend.look();
     hud.frame(seconds);
+  };
+  stage.afterFrame = () => {
+    if (polishing?.isOnTheWay) stage.draw();
   };
 
   const polish = toggle(
@@ -125,6 +142,7 @@ export async function posingView(
     stage.root.add(surfaces[0].object);
     marks.dispose();
     posing.replace(session, surfaces[0]);
+    drag.warmUp();
     marks = new Marks(posing);
     before.object.removeFromParent();
     before.dispose();
@@ -151,6 +169,9 @@ export async function posingView(
     hud,
     panel,
     replace,
+    get motions() {
+      return new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion]));
+    },
     script: {
       kind: "posing",
       get session() {
@@ -164,7 +185,9 @@ export async function posingView(
     dispose: () => {
       stop.abort();
       polishing?.cancel();
+      readout.dispose();
       stage.beforeFrame = () => {};
+      stage.afterFrame = () => {};
       look.legend.dispose();
       hud.dispose();
       gizmo.dispose();

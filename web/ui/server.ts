@@ -84,10 +84,17 @@ export class Server {
     return request;
   }
 
-  /** Sends a message and waits for its answer of a type. Refused if the server cannot, or is lost. */
-  ask<T extends ServerMessage["type"]>(message: Request, type: T): Promise<Answered<T>> {
+  /** Sends a message and waits for its answer of a type, until the signal. Refused if the server cannot, or is lost. */
+  ask<T extends ServerMessage["type"]>(
+    message: Request,
+    type: T,
+    signal?: AbortSignal,
+  ): Promise<Answered<T>> {
     return new Promise((resolve, reject) => {
       const request = this.send(message);
+      signal?.addEventListener("abort", () => {
+        if (this.#waiting.delete(request)) reject(new Refused("Another request came in its place."));
+      });
       this.#waiting.set(request, { type, resolve: resolve as (answer: unknown) => void, reject });
     });
   }

@@ -33,9 +33,8 @@ export class Stage {
   up: Axis = "z";
   /** Called before each picture that is drawn. */
   beforeFrame: (seconds: number) => void = () => {};
+  /** Called after it: what moves by itself asks for the next one here. */
   afterFrame: () => void = () => {};
-  /** Milliseconds that the last frame took apart from drawing. */
-  work = 0;
   readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
   #height = 0.5;
   readonly #before = new PerspectiveCamera(); // while another picture is taken
@@ -65,17 +64,18 @@ export class Stage {
     this.#resize();
   }
 
-  /** Asks for a picture; several wishes before the next frame are one. */
+  /** Asks for a picture; several wishes before it is drawn are one, those of `beforeFrame` included. */
   draw(): void {
     if (this.#asked) return;
     this.#asked = true;
     requestAnimationFrame((now) => {
-      this.#asked = false;
       const seconds = (now - this.#last) / 1000;
       this.#last = now;
-      const begin = performance.now();
-      this.beforeFrame(seconds);
-      this.work = performance.now() - begin;
+      try {
+        this.beforeFrame(seconds);
+      } finally {
+        this.#asked = false;
+      }
       this.renderer.render(this.scene, this.camera);
       this.afterFrame();
     });

@@ -10,14 +10,21 @@ import {
   RGBADepthPacking,
   type Color,
   type Material,
+  type Ray,
   type WebGLRenderer,
 } from "three";
 
-import { EnergyScale, type Membrane, type ShapeSpace } from "../engine/index.ts";
+import {
+  EnergyScale,
+  reconstruct,
+  ShapePicker,
+  type Hit,
+  type Membrane,
+  type ShapeSpace,
+} from "../engine/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
-import { IdleShape } from "./idle_shape.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
 
 /** What its colours tell. */
@@ -40,9 +47,10 @@ export class Surface {
   readonly #solid: Mesh;
   readonly #wires: Mesh;
   readonly #uniforms: SurfaceUniforms;
-  readonly #idle: IdleShape;
   readonly #membrane: Membrane | null;
+  #picker: ShapePicker | null = null;
   #coefficients: ArrayLike<number> = [];
+  #goal: Float32Array | null = null;
   #share = 0;
   #weights: readonly number[] = [1];
   #scale: EnergyScale | null = null;
@@ -63,7 +71,6 @@ export class Surface {
       ? new GpuDeformer(renderer, space, faces, membrane)
       : new CpuDeformer(space, faces, membrane);
     this.#membrane = membrane;
-    this.#idle = new IdleShape(space);
     const base = new BufferAttribute(space.base, 3);
     this.#geometry.setAttribute("position", base);
     this.#geometry.setAttribute("normal", base); // never read; without one three.js shades flat
@@ -113,29 +120,39 @@ export class Surface {
   show(coefficients: ArrayLike<number>): void {
     this.#coefficients = coefficients;
     this.#share = 0;
-    this.#idle.show(coefficients);
+    this.#picker?.show(coefficients);
     this.#deformer.update(coefficients);
   }
 
   /** Another shape, 3 numbers per vertex, to go to. */
   set goal(positions: Float32Array) {
+    this.#goal = positions;
     this.#deformer.goal = positions;
+    if (this.#picker) this.#picker.goal = positions;
   }
 
   /** Goes a share of the way from the shape to the goal. */
   blend(share: number): void {
     this.#share = share;
+    this.#picker?.show(this.#coefficients, share);
     this.#deformer.update(this.#coefficients, share);
   }
 
-  /** The shape before its rigid motion, computed here: for picking. */
+  /** The shape before its rigid motion, computed here. */
   positions(): Float32Array {
-    return this.#idle.positions();
+    const shape = new Float32Array(this.space.base.length);
+    reconstruct(this.space, this.#coefficients, shape);
+    return shape;
   }
 
-  /** Whether `positions` are there without waiting. */
-  get isReady(): boolean {
-    return this.#idle.isFresh;
+  /** What a ray hits of the shape before its rigid motion, as it is drawn; the first time takes some milliseconds. */
+  pick({ origin, direction }: Ray): Hit | null {
+    if (!this.#picker) {
+      this.#picker = new ShapePicker(this.space, this.faces);
+      if (this.#goal) this.#picker.goal = this.#goal;
+      this.#picker.show(this.#coefficients, this.#share);
+    }
+    return this.#picker.pick(origin.toArray(), direction.toArray());
   }
 
   /** The shape before its rigid motion, as the vertex shader gets it. */
@@ -203,18 +220,21 @@ export class Surface {
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
     const colors = this.#geometry.getAttribute("color") as BufferAttribute;
-    const numbers = colors.array as Float32Array;
     for (let vertex = 0; vertex < this.space.vertices; vertex++) {
       const { r, g, b } = color(vertex);
-      numbers[3 * vertex] = r;
-      numbers[3 * vertex + 1] = g;
-      numbers[3 * vertex + 2] = b;
+      colors.setXYZ(vertex, r, g, b);
     }
     colors.needsUpdate = true;
   }
 
+  /** One colour for some vertices. */
+  paintSome(vertices: Iterable<number>, { r, g, b }: Color): void {
+    const colors = this.#geometry.getAttribute("color") as BufferAttribute;
+    for (const vertex of vertices) colors.setXYZ(vertex, r, g, b);
+    colors.needsUpdate = true;
+  }
+
   dispose(): void {
-    this.#idle.dispose();
     this.#deformer.dispose();
     this.#geometry.dispose();
     this.#materials.forEach((material) => material.dispose());

@@ -1,3 +1,4 @@
+import type { Motion } from "../engine/index.ts";
 import type { Hud } from "./hud.ts";
 import type { Polish } from "./polishing.ts";
 import type { Axis } from "./stage.ts";
@@ -11,11 +12,16 @@ export interface View {
   dispose(): void;
 }
 
+/** Motions of handles by name. */
+export type Motions = ReadonlyMap<string, Motion>;
+
 export interface ViewOptions {
   readonly up: Axis;
   readonly forceCpu: boolean;
   /** Leaves the camera as it is, and what stands before it. */
   readonly keepView?: boolean;
+  /** Where handles are at first, if all that the model has are among them; else at rest. */
+  readonly motions?: Motions;
   /** Improves frames when a handle is let go. */
   readonly polish?: Polish;
 }

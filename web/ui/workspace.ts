@@ -8,6 +8,7 @@ import { ComputePanel } from "./compute_panel.ts";
 import { polishAt } from "./polishing.ts";
 import { posingView, type PosingView } from "./posing_view.ts";
 import { readable, type Room } from "./room.ts";
+import type { Motions } from "./view.ts";
 import { Refused, type Server } from "./server.ts";
 import { ReadingBox } from "./workspace_reading.ts";
 
@@ -24,6 +25,8 @@ export class Workspace {
   /** The newest model of the computation that was started last. */
   #model: { told: Model; content: PosingModel } | null = null;
   #posing: PosingView | null = null;
+  /** Where the handles were when posing was left. */
+  #motions: Motions = new Map();
   /** Number of the request that computes, or 0. */
   #job = 0;
   #isRunning = false;
@@ -77,6 +80,7 @@ export class Workspace {
     this.#choice = choiceOf(given.handles);
     this.#sampling = samplingOf(given);
     [this.#model, this.#job, this.#isRunning] = [null, 0, false];
+    this.#motions = new Map();
     this.#panel.clear();
     this.#choosing(true);
   }
@@ -115,7 +119,8 @@ export class Workspace {
     const { content } = this.#model!;
     this.#leave();
     const polish = polishAt(this.#server, () => this.#model!.told.number);
-    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true, polish };
+    const motions = this.#motions;
+    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true, polish, motions };
     const view = await posingView(stage, await module, content, options);
     this.#posing = view;
     this.#room.show({ ...view, panel: [this.#panel.element, ...view.panel] }, content.name);
@@ -123,6 +128,7 @@ export class Workspace {
   }
 
   #leave(): void {
+    if (this.#posing) this.#motions = this.#posing.motions;
     this.#posing = null;
     this.#room.clear();
   }
@@ -133,6 +139,7 @@ export class Workspace {
     const { samples, dimension, seed, stiffness, poisson } = this.#sampling!;
     this.#panel.clear();
     this.#model = null;
+    this.#motions = new Map(); // of handles that were other ones
     this.#job = this.#server.send({ type: "compute", samples, dimension, seed, stiffness, poisson });
     this.#isRunning = true;
     this.#panel.progress({ type: "progress", request: this.#job, stage: "snapshots", ...NOT_YET });

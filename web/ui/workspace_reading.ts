@@ -6,12 +6,16 @@ import type { Server } from "./server.ts";
 import { sendFile } from "./upload.ts";
 
 const MEGABYTE = 2 ** 20;
+const SURFACES = [".obj", ".off", ".ply", ".stl"];
+const TETS = [".mesh", ".msh", ".vtk", ".vtu", ".veg"];
 
 /** The box before everything: asks for a mesh, sends it, and waits until the server has read and filled it. */
 export class ReadingBox {
   readonly #room: Room;
   readonly #server: Server;
   readonly #bar = new ProgressBar();
+  readonly #elapsed = h("span", { className: "told" });
+  #clock = 0;
   #given: Given | null = null;
   #sending: AbortController | null = null;
   #isShown = false;
@@ -25,17 +29,22 @@ export class ReadingBox {
   ask(given: Given): void {
     this.#given = given;
     this.#isShown = false;
+    clearInterval(this.#clock);
     const formats = h(
       "p",
       { className: "formats" },
-      "A closed surface (.obj .off .ply .stl), which is filled with tets, ",
-      "or tets (.mesh .msh .vtk .vtu .veg).",
+      `A closed surface (${SURFACES.join(" ")}), which is filled with tets, or tets (${TETS.join(" ")}).`,
     );
     this.#room.tell("Drop a mesh here", false, formats, this.#picker());
   }
 
   async upload(file: File, given: Given): Promise<void> {
     this.#given = given;
+    const known = [...SURFACES, ...TETS];
+    if (!known.some((suffix) => file.name.toLowerCase().endsWith(suffix))) {
+      this.failed(`${file.name} is no mesh that is read here: ${known.join(" ")}.`);
+      return;
+    }
     if (file.size > given.upload_limit) {
       const [size, most] = [file.size, given.upload_limit].map((bytes) => (bytes / MEGABYTE).toFixed(0));
       this.failed(
@@ -74,14 +83,26 @@ export class ReadingBox {
 
   failed(message: string): void {
     this.#isShown = false;
+    clearInterval(this.#clock);
     this.#room.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
   }
 
   #show(text: string): void {
     this.#isShown = true;
     this.#bar.element.hidden = true;
+    this.#countFrom(performance.now());
     const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
-    this.#room.tell(text, false, this.#bar.element, cancel);
+    this.#room.tell(text, false, this.#bar.element, this.#elapsed, cancel);
+  }
+
+  /** Tells how long it has taken, once that is worth telling. */
+  #countFrom(begin: number): void {
+    clearInterval(this.#clock);
+    this.#elapsed.textContent = "";
+    this.#clock = window.setInterval(() => {
+      if (!this.#elapsed.isConnected) return;
+      this.#elapsed.textContent = `${Math.round((performance.now() - begin) / 1000)} s so far`;
+    }, 1000);
   }
 
   #cancel(): void {

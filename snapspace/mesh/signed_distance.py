@@ -1,0 +1,131 @@
+"""SignedDistance: how far points are from a closed surface, negative inside."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from .arrays import FloatArray, IndexArray
+from .box_tree import BoxTree
+from .closest_point import closest_on_triangles
+
+_BLOCK = 4096  # points at a time: their candidates fit into the cache
+_EDGE = 1e-7  # barycentric coordinates below this are on an edge or at a corner
+
+
+class SignedDistance:
+    """Distances from points to a closed surface.
+
+    Parameters
+    ----------
+    vertices : ndarray, (s, 3)
+    faces : ndarray of int, (f, 3)
+        Closed and oriented outward. Where faces intersect, signs beside them may be wrong.
+
+    Notes
+    -----
+    The sign is that of the angle-weighted normal at the closest point, which is right for every
+    point: Baerentzen and Aanaes, "Signed Distance Computation Using the Angle Weighted
+    Pseudonormal", 2005.
+    """
+
+    def __init__(self, vertices: FloatArray, faces: IndexArray) -> None:
+        self._faces, self._corners = faces, vertices[faces]
+        self._tree = BoxTree(self._corners.min(axis=1), self._corners.max(axis=1))
+        self._nearest = cKDTree(vertices)
+        self._face_normals = _unit(
+            np.cross(
+                self._corners[:, 1] - self._corners[:, 0], self._corners[:, 2] - self._corners[:, 0]
+            )
+        )
+        self._edge_normals = _edge_normals(faces, self._face_normals)
+        self._vertex_normals = _vertex_normals(
+            len(vertices), faces, self._corners, self._face_normals
+        )
+
+    def __call__(self, points: FloatArray) -> FloatArray:
+        """Distances of points (k, 3), as (k,)."""
+        # the closest vertex bounds the distance of the closest face from above
+        reach = np.asarray(self._nearest.query(points)[0]) * (1.0 + 1e-12)
+        distances = np.empty(len(points))
+        for start in range(0, len(points), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            distances[block] = self._of(points[block], reach[block])
+        return distances
+
+    def _of(self, points: FloatArray, reach: FloatArray) -> FloatArray:
+        point, face = self._tree.within(points, reach)
+        closest = closest_on_triangles(points[point], self._corners[face])
+        squared = ((closest - points[point]) ** 2).sum(axis=1)
+        order = np.lexsort((face, squared, point))
+        best = order[np.diff(point[order], prepend=-1) > 0]
+        face, closest = face[best], closest[best]
+        normals = self._normals(face, closest)
+        outward = np.einsum("ij,ij->i", points - closest, normals) >= 0
+        distances: FloatArray = np.where(outward, 1.0, -1.0) * np.sqrt(squared[best])
+        return distances
+
+    def _normals(self, face: NDArray[np.intp], closest: FloatArray) -> FloatArray:
+        """Of the face, edge or vertex that each closest point is on."""
+        on = _barycentric(self._corners[face], closest) > _EDGE
+        normals = self._face_normals[face]
+        count = on.sum(axis=1)
+        for corner in range(3):
+            edge = (count == 2) & ~on[:, corner]  # the edge across from a corner
+            normals[edge] = self._edge_normals[face[edge], corner]
+            vertex = (count <= 1) & on[:, corner]
+            normals[vertex] = self._vertex_normals[self._faces[face[vertex], corner]]
+        return normals
+
+
+def _barycentric(corners: FloatArray, points: FloatArray) -> FloatArray:
+    """Of points in the planes of triangles; thirds for triangles without an area."""
+    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    offset = points - corners[:, 0]
+    aa, ab, bb, pa, pb = (
+        np.einsum("ij,ij->i", x, y)
+        for x, y in (
+            (first, first),
+            (first, second),
+            (second, second),
+            (offset, first),
+            (offset, second),
+        )
+    )
+    area = aa * bb - ab * ab
+    scale = np.divide(1.0, area, out=np.zeros_like(area), where=area > 0)
+    second_part, third = (bb * pa - ab * pb) * scale, (aa * pb - ab * pa) * scale
+    weights = np.stack([1.0 - second_part - third, second_part, third], axis=1)
+    weights[~(area > 0)] = 1.0 / 3.0
+    return weights
+
+
+def _edge_normals(faces: IndexArray, face_normals: FloatArray) -> FloatArray:
+    """Sums of the normals of the faces at each edge, (f, 3, 3): by face and the corner across."""
+    edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]], axis=2).reshape(-1, 2)
+    _, edge = np.unique(edges, axis=0, return_inverse=True)
+    edge = edge.ravel()
+    sums = np.zeros((edge.max() + 1, 3))
+    np.add.at(sums, edge, np.repeat(face_normals, 3, axis=0))
+    normals: FloatArray = sums[edge].reshape(-1, 3, 3)
+    return normals
+
+
+def _vertex_normals(
+    count: int, faces: IndexArray, corners: FloatArray, face_normals: FloatArray
+) -> FloatArray:
+    """Normals of the faces around each vertex, weighted by their angles there."""
+    normals = np.zeros((count, 3))
+    for k in range(3):
+        first = _unit(corners[:, (k + 1) % 3] - corners[:, k])
+        second = _unit(corners[:, (k + 2) % 3] - corners[:, k])
+        angle = np.arccos(np.clip(np.einsum("ij,ij->i", first, second), -1.0, 1.0))
+        np.add.at(normals, faces[:, k], angle[:, None] * face_normals)
+    return normals
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    units: FloatArray = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+    return units

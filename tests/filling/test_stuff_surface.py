@@ -1,0 +1,80 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from snapspace.filling import stuff_surface
+from snapspace.generators import bar, cylinder
+from snapspace.mesh import TetMesh, compact_surface
+from snapspace.mesh.closed_surface import check_closed, enclosed_volume
+from snapspace.mesh.tet_search import closest_boundary_faces
+
+Surface = tuple[np.ndarray, np.ndarray]
+EDGE = 0.07
+
+
+def surface_of(mesh: TetMesh) -> Surface:
+    return compact_surface(mesh.vertices, mesh.surface)
+
+
+@pytest.fixture(scope="module")
+def barrel() -> Surface:
+    return surface_of(cylinder(6, 8, length=2.0, radius=0.5))
+
+
+@pytest.fixture(scope="module")
+def stuffed(barrel: Surface) -> TetMesh:
+    return stuff_surface(*barrel, edge_length=EDGE)
+
+
+def test_the_solid_is_that_of_the_surface(barrel: Surface, stuffed: TetMesh) -> None:
+    vertices, faces = barrel
+    assert stuffed.volume == pytest.approx(enclosed_volume(vertices, faces), rel=0.03)
+    check_closed(stuffed.surface, who="test")
+    _, distances = closest_boundary_faces(stuffed, vertices, limit=np.inf)
+    assert distances.max() < EDGE * stuffed.diagonal
+
+
+def test_the_tets_are_well_shaped_and_of_the_wanted_size(stuffed: TetMesh) -> None:
+    assert stuffed.dihedral_angles.min() > 8.0
+    edges = stuffed.vertices[stuffed.tets[:, 0]] - stuffed.vertices[stuffed.tets[:, 1]]
+    lengths = np.linalg.norm(edges, axis=1) / stuffed.diagonal
+    assert 0.5 * EDGE < np.median(lengths) < 1.1 * EDGE
+
+
+def test_the_same_twice_also_turned_inside_out(barrel: Surface, stuffed: TetMesh) -> None:
+    vertices, faces = barrel
+    again = stuff_surface(vertices, faces[:, ::-1], edge_length=EDGE)
+    assert np.array_equal(again.vertices, stuffed.vertices)
+    assert np.array_equal(again.tets, stuffed.tets)
+
+
+@pytest.mark.parametrize("edge_length", [0.05, 0.07, 0.1])
+def test_corners_are_cut_off_but_not_lost(edge_length: float) -> None:
+    mesh = bar(6, 4, 4, length=1.5, width=1.0, height=1.0)
+    stuffed = stuff_surface(*surface_of(mesh), edge_length=edge_length)
+    assert stuffed.volume == pytest.approx(mesh.volume, rel=edge_length)
+
+
+def test_a_part_that_is_too_thin_is_told_and_not_lost() -> None:
+    mesh = bar(16, 1, 1, length=4.0, width=0.02, height=0.02)
+    with pytest.raises(ValueError, match=r"edge_length is 0\.1 of the diagonal, too long"):
+        stuff_surface(*surface_of(mesh), edge_length=0.1)
+
+
+def test_two_solids_are_not_one(barrel: Surface) -> None:
+    vertices, faces = surface_of(bar(4, 2, 2))
+    two = np.vstack([vertices, vertices + np.array([20.0, 0.0, 0.0])])
+    with pytest.raises(ValueError, match="vertices are far from the tets"):
+        stuff_surface(two, np.vstack([faces, faces + len(vertices)]), edge_length=0.02)
+
+
+@pytest.mark.parametrize("edge_length", [0.0, -1.0, 0.6, np.nan])
+def test_the_edge_length_is_checked(barrel: Surface, edge_length: float) -> None:
+    with pytest.raises(ValueError, match="stuff_surface: edge_length is"):
+        stuff_surface(*barrel, edge_length=edge_length)
+
+
+def test_an_open_surface_is_refused(barrel: Surface) -> None:
+    with pytest.raises(ValueError, match="stuff_surface: the surface is not closed"):
+        stuff_surface(barrel[0], barrel[1][1:])
