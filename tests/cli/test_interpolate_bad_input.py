@@ -174,7 +174,7 @@ CASES: dict[str, tuple[Case, str]] = {
     "open surface": (open_surface, "the surface is not closed, it has 3 boundary edges"),
     "edge length": (
         lambda f: [*write_surface_poses(f), *SMALL, "--edge-length", 7],
-        "edge_length is 7.0, but must be positive and at most 1.0",
+        "edge_length is 7.0, but must be positive and at most 1",
     ),
     "deviation": (lambda f: surfaces(f, "--deviation", 0), "deviation is 0.0, but it must be posi"),
     "deviation nan": (lambda f: surfaces(f, "--deviation", "nan"), "deviation is nan"),
