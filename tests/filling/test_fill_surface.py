@@ -10,16 +10,13 @@ from numpy.typing import ArrayLike
 
 from snapspace.filling import fill_surface, ftetwild
 from snapspace.generators import bar, cylinder
-from snapspace.mesh import TetMesh, compact_surface, embed_surface
+from snapspace.mesh import TetMesh, embed_surface
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
 from snapspace.mesh.tet_search import closest_boundary_faces
 
-Surface = tuple[np.ndarray, np.ndarray]
+from .surfaces import Surface, surface_of
+
 COARSE = {"edge_length": 0.3, "tolerance": 4e-3}
-
-
-def surface_of(mesh: TetMesh) -> Surface:
-    return compact_surface(mesh.vertices, mesh.surface)
 
 
 @pytest.fixture(scope="module")

@@ -5,16 +5,13 @@ import pytest
 
 from snapspace.filling import stuff_surface
 from snapspace.generators import bar, cylinder
-from snapspace.mesh import TetMesh, compact_surface
+from snapspace.mesh import TetMesh
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
 from snapspace.mesh.tet_search import closest_boundary_faces
 
-Surface = tuple[np.ndarray, np.ndarray]
+from .surfaces import Surface, surface_of
+
 EDGE = 0.07
-
-
-def surface_of(mesh: TetMesh) -> Surface:
-    return compact_surface(mesh.vertices, mesh.surface)
 
 
 @pytest.fixture(scope="module")
