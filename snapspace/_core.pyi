@@ -195,17 +195,31 @@ class PosingSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
+
+class SoftModes:
+    """
+    Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.
+    """
+
+    def __init__(self, system: PosingSystem) -> None: ...
+
+    def modes(self, system: PosingSystem) -> NDArray[numpy.float64]:
+        """(8, 3n), each v . A v = 1 with the scalar matrix A of the system."""
+
+    @property
+    def weights(self) -> list[float]:
+        """Of the modes in the seed, 8 numbers; zero where no mode was found."""
 
 class InterpolationSystem:
     """
@@ -234,13 +248,13 @@ class InterpolationSystem:
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0) -> Batch:
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "snapshots/find_soft_modes.h"
 #include "snapshots/solve.h"
 
 namespace snapspace {
@@ -55,6 +56,12 @@ LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatri
   return {vertices, n, tets.data(), static_cast<int>(tets.shape(0))};
 }
 
+template <class System>
+void require_fitting(const System& system, const SoftModes* modes) {
+  require(!modes || modes->size() == static_cast<std::size_t>(system.size()),
+          "the modes are of another system");
+}
+
 /// What the systems of all problems have in common.
 template <class System>
 void bind_solves(nb::class_<System>& system) {
@@ -100,14 +107,16 @@ void bind_solves(nb::class_<System>& system) {
           "serve_fast",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
              int max_iterations, int threads, SolveControl& control, int lanes, bool single,
-             double settling) {
+             double settling, const SoftModes* modes) {
             const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
+            require_fitting(self, modes);
             nb::gil_scoped_release release;
-            solve_fast(self, queue, expected, options, control);
+            solve_fast(self, modes, queue, expected, options, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, nb::arg("settling") = 0.0,
+          nb::arg("modes").none() = nb::none(),
           "L-BFGS on the samples of a queue until it is closed and empty.")
       .def(
           "serve_newton",
@@ -125,16 +134,18 @@ void bind_solves(nb::class_<System>& system) {
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
              int max_iterations, int threads, SolveControl& control, int lanes, bool single,
-             double settling) {
+             double settling, const SoftModes* modes) {
             const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
+            require_fitting(self, modes);
             return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
-              solve_fast(self, queue, count, options, control);
+              solve_fast(self, modes, queue, count, options, control);
               return 0L;
             });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, nb::arg("settling") = 0.0,
+          nb::arg("modes").none() = nb::none(),
           "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
@@ -239,6 +250,39 @@ void bind_snapshots(nb::module_& m) {
       nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
       nb::arg("pinned").noconvert(), nb::arg("weights"));
   bind_solves(posing);
+
+  nb::class_<SoftModes>(m, "SoftModes",
+                        "Deformations that the scalar factor of a posing system mistakes for "
+                        "stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest "
+                        "against the scalar matrix.")
+      .def(
+          "__init__",
+          [](SoftModes* self, const PosingSystem& system) {
+            const nb::gil_scoped_release release;
+            new (self) SoftModes(find_soft_modes(system));
+          },
+          nb::arg("system"))
+      .def(
+          "modes",
+          [](const SoftModes& self, const PosingSystem& system) {
+            require_fitting(system, &self);
+            DoublesOut modes = new_array<double>({SoftModes::kCount, self.size()});
+            std::vector<double> mode(self.size());
+            for (int k = 0; k < SoftModes::kCount; ++k) {
+              for (std::size_t i = 0; i < self.size(); ++i) mode[i] = self.entry(i, k);
+              system.numbering.to_external(mode.data(), modes.data() + k * self.size());
+            }
+            return modes;
+          },
+          nb::arg("system"), "(8, 3n), each v . A v = 1 with the scalar matrix A of the system.")
+      .def_prop_ro(
+          "weights",
+          [](const SoftModes& self) {
+            std::vector<double> weights;
+            for (int k = 0; k < SoftModes::kCount; ++k) weights.push_back(self.weight(k));
+            return weights;
+          },
+          "Of the modes in the seed, 8 numbers; zero where no mode was found.");
 
   nb::class_<InterpolationSystem> interpolation(
       m, "InterpolationSystem",

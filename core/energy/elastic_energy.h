@@ -40,6 +40,14 @@ struct ElasticEnergy {
     for (const RestTet& tet : rest.tets) stvk_hessian_product(material, tet, u, v, product);
   }
 
+  /// Hessian at rest times v, which is linear elasticity; `product` (3n) is overwritten.
+  template <class Real>
+  void rest_hessian_product(const Real* v, Real* product) const {
+    std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
+    for (const auto& tet : rest.tets_in<typename ScalarOf<Real>::type>())
+      stvk_rest_hessian_product(material, tet, v, product);
+  }
+
   /// Volume times first Piola-Kirchhoff stress (tets x 9, row by row) and energies (tets) at u.
   void tet_stresses(const double* u, double* stresses, double* energies) const {
     for (const RestTet& tet : rest.tets) {

@@ -6,6 +6,7 @@
 
 #include "snapshots/lbfgs.h"
 #include "snapshots/newton.h"
+#include "snapshots/softened_system.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
@@ -55,44 +56,58 @@ class Exchange {
   SolveControl& control_;
 };
 
-template <class Real, class System>
-void solve_in_lanes(const System& system, SampleQueue& queue, int expected,
+/// @param seeded  the system itself, or with another seed of its inverse Hessians
+template <class Real, class System, class Seeded>
+void solve_in_lanes(const System& system, const Seeded& seeded, SampleQueue& queue, int expected,
                     const SolveOptions& options, SolveControl& control) {
   const int threads = thread_count(options.threads), packs = pack_count(expected, threads);
   const Exchange exchange(system, queue, control);
   queue.share(packs);
   parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
-    LaneLbfgs<System, Real>(system, options, threads / packs).run(exchange, control);
+    LaneLbfgs<Seeded, Real>(seeded, options, threads / packs).run(exchange, control);
   });
 }
 
 /// Packs that hold the samples, as wide as is wanted and as this build has. Width does not change
 /// results; packs get narrower by themselves towards the end.
-template <class T, class System>
-void solve_in_packs(const System& system, SampleQueue& queue, int expected,
+template <class T, class System, class Seeded>
+void solve_in_packs(const System& system, const Seeded& seeded, SampleQueue& queue, int expected,
                     const SolveOptions& options, SolveControl& control) {
   constexpr int kWidest = kWideLanes * static_cast<int>(sizeof(double) / sizeof(T));
   const int packs = pack_count(expected, thread_count(options.threads));
   const int width = std::min(options.lanes, (expected + packs - 1) / packs);
   if constexpr (kWidest >= 16)
-    if (width > 8) return solve_in_lanes<Pack<T, 16>>(system, queue, expected, options, control);
+    if (width > 8)
+      return solve_in_lanes<Pack<T, 16>>(system, seeded, queue, expected, options, control);
   if constexpr (kWidest >= 8)
-    if (width > 4) return solve_in_lanes<Pack<T, 8>>(system, queue, expected, options, control);
+    if (width > 4)
+      return solve_in_lanes<Pack<T, 8>>(system, seeded, queue, expected, options, control);
   if constexpr (kWidest >= 4)
-    if (width > 2) return solve_in_lanes<Pack<T, 4>>(system, queue, expected, options, control);
-  solve_in_lanes<Pack<T, 2>>(system, queue, expected, options, control);
+    if (width > 2)
+      return solve_in_lanes<Pack<T, 4>>(system, seeded, queue, expected, options, control);
+  solve_in_lanes<Pack<T, 2>>(system, seeded, queue, expected, options, control);
+}
+
+template <class System, class Seeded>
+void solve_in_precision(const System& system, const Seeded& seeded, SampleQueue& queue,
+                        int expected, const SolveOptions& options, SolveControl& control) {
+  if (options.single)
+    solve_in_packs<float>(system, seeded, queue, expected, options, control);
+  else
+    solve_in_packs<double>(system, seeded, queue, expected, options, control);
 }
 
 }  // namespace
 
 template <class System>
-void solve_fast(const System& system, SampleQueue& queue, int expected, const SolveOptions& options,
-                SolveControl& control) {
-  if (options.single)
-    solve_in_packs<float>(system, queue, expected, options, control);
+void solve_fast(const System& system, const SoftModes* modes, SampleQueue& queue, int expected,
+                const SolveOptions& options, SolveControl& control) {
+  if (modes)
+    solve_in_precision(system, SoftenedSystem<System>{system, *modes}, queue, expected, options,
+                       control);
   else
-    solve_in_packs<double>(system, queue, expected, options, control);
+    solve_in_precision(system, system, queue, expected, options, control);
 }
 
 template <class System>
@@ -116,10 +131,10 @@ long solve_newton(const System& system, SampleQueue& queue, int expected,
   return linear_iterations;
 }
 
-template void solve_fast(const PosingSystem&, SampleQueue&, int, const SolveOptions&,
-                         SolveControl&);
-template void solve_fast(const InterpolationSystem&, SampleQueue&, int, const SolveOptions&,
-                         SolveControl&);
+template void solve_fast(const PosingSystem&, const SoftModes*, SampleQueue&, int,
+                         const SolveOptions&, SolveControl&);
+template void solve_fast(const InterpolationSystem&, const SoftModes*, SampleQueue&, int,
+                         const SolveOptions&, SolveControl&);
 template long solve_newton(const PosingSystem&, SampleQueue&, int, const SolveOptions&, double,
                            SolveControl&);
 template long solve_newton(const InterpolationSystem&, SampleQueue&, int, const SolveOptions&,

@@ -83,6 +83,11 @@ class InterpolationProblem:
         return 0.0
 
     @property
+    def soft_modes(self) -> None:
+        """Not known: nothing holds the shape, and poses differ in what is soft."""
+        return None
+
+    @property
     def solutions_far_apart(self) -> bool:
         """Yes: halfway between distant poses a linear blend shrinks and turns inside out."""
         return True

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from .. import _core as core
 from ..energy import StVK
 from ..mesh import TetMesh
 from ..sampling import Domain
@@ -72,6 +73,11 @@ class Problem(Protocol):
     @property
     def system(self) -> Any:
         """The compiled problem: solve_fast and solve_newton."""
+        ...
+
+    @property
+    def soft_modes(self) -> core.SoftModes | None:
+        """What the system's scalar factor mistakes for stiff, if it is known."""
         ...
 
     @property

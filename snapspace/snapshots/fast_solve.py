@@ -47,6 +47,7 @@ def solve_fast(
         control=control,
         single=options.single,
         settling=options.settling,
+        modes=options.modes_of(problem),
     )
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
     for k, report in enumerate(reports):

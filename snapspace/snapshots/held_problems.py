@@ -53,7 +53,7 @@ class HeldProblems:
         with self._lock:
             home = self._homes.get(run)
             if home is not None:
-                _ = home.problem.system
+                _ = home.problem.system, home.problem.soft_modes
             return home
 
     def received(self, key: str, payload: bytes | None) -> Problem | None:
@@ -68,7 +68,7 @@ class HeldProblems:
                     return None
                 problem = pickle.loads(payload)
                 assert problem is not None
-                _ = problem.system
+                _ = problem.system, problem.soft_modes
                 self._received[key] = problem
             self._received.move_to_end(key)
             while len(self._received) > _MOST_RECEIVED:

@@ -35,7 +35,8 @@ class LocalBackend:
     def __init__(
         self, problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
     ) -> None:
-        _ = problem.system  # made once, before threads ask for it, and where Ctrl-C ends it
+        # made once, before threads ask for them, and where Ctrl-C ends it
+        _ = problem.system, options.modes_of(problem)
         self._problem = problem
         self._options = options
         self._threads = threads
@@ -117,6 +118,7 @@ class LocalBackend:
             control=self._control,
             single=options.single,
             settling=options.settling,
+            modes=options.modes_of(self._problem),
         )
 
     def _solve_on(self, slow: Solved) -> Solved:

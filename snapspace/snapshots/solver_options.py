@@ -7,6 +7,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from .. import _core as core
 from ..problem import Problem
 
 Solver = Literal["fast", "newton"]
@@ -40,7 +41,11 @@ class SolverOptions:
         the minimum, together are shorter than this share of the sample's displacement, in the norm
         of the lumped masses. A subspace needs shapes, not energies: on a fine mesh the energy goes
         on falling while the surface wrinkles, and nothing else moves. Default: the problem's
-        `snapshot_settling` if no tolerance is given, otherwise 0, which is never.
+        `snapshot_settling`, a fifth of it without soft modes, whose steps then are too short; 0,
+        which is never, if a tolerance is given.
+    soft_modes : bool, default True
+        "fast" only: L-BFGS is seeded with the lowest modes of a posing problem beside the scalar
+        factor. Without them it takes half as many steps again, and soft parts stay behind.
     max_iterations : int, default 1000
         Per sample; one that needs more ends as max_iterations.
     clamp : float, default 0.65
@@ -65,6 +70,7 @@ class SolverOptions:
     solver: Solver = "fast"
     tolerance: float | None = None
     settling: float | None = None
+    soft_modes: bool = True
     max_iterations: int = 1000
     clamp: float = 0.65
     precision: Precision | None = None
@@ -106,6 +112,7 @@ class SolverOptions:
             solver=self.solver,
             tolerance=tolerance,
             settling=settling,
+            soft_modes=self.soft_modes and self.solver == "fast",
             max_iterations=self.max_iterations,
             clamp=self.clamp,
             single=single and self.solver == "fast",
@@ -117,7 +124,9 @@ class SolverOptions:
             return 0.0
         if self.settling is not None:
             return float(self.settling)
-        return problem.snapshot_settling if self.tolerance is None else 0.0
+        if self.tolerance is not None:
+            return 0.0
+        return problem.snapshot_settling * (1.0 if self.soft_modes else 0.2)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -130,10 +139,15 @@ class ResolvedOptions:
     solver: Solver
     tolerance: float
     settling: float
+    soft_modes: bool
     max_iterations: int
     clamp: float
     single: bool
     block: int
+
+    def modes_of(self, problem: Problem) -> core.SoftModes | None:
+        """The soft modes that solutions of a problem are to start with, if any."""
+        return problem.soft_modes if self.soft_modes else None
 
     def as_key(self) -> dict[str, Any]:
         """The options by name, for the record and for the key of a run."""

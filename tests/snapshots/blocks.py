@@ -25,6 +25,7 @@ Outcome = tuple[FloatArray, SampleReport]
 
 OPTIONS = ResolvedOptions(
     settling=0.0,
+    soft_modes=False,
     solver="fast",
     tolerance=1e-10,
     max_iterations=1000,

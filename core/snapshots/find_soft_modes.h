@@ -1,0 +1,16 @@
+#pragma once
+#include "snapshots/posing_system.h"
+#include "snapshots/soft_modes.h"
+
+namespace snapspace {
+
+/// The lowest modes of a posing problem's Hessian H at rest against its scalar matrix A, normalized
+/// to v . A v = 1, with the weights 1 / (kStiffening * (v . H v)).
+///
+/// A is an upper bound of H where deformations are local, and far too stiff for the bending of long
+/// parts: there H / A is a few thousandths, and a solve on the factor alone needs hundreds of
+/// steps. By LOBPCG (Knyazev 2001), preconditioned by the factor. The same modes for any number of
+/// threads.
+[[nodiscard]] SoftModes find_soft_modes(const PosingSystem& system);
+
+}  // namespace snapspace
