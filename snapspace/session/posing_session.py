@@ -44,9 +44,9 @@ class PosingSession(Session[PosingModel]):
 
     Notes
     -----
-    A drag goes on from the last frame's shape. A jump, farther than the training samples lie apart,
-    is solved from a shape interpolated between these (or the last frame's, if that is lower) and
-    from the three nearest, each within a frame's bounds, and the lowest energy wins.
+    A drag goes on from the last frame's shape, with a closure moved by the expected change. A jump,
+    farther than the training samples lie apart, is solved from a shape interpolated between these
+    (or the last frame's, if lower) and from the three nearest, and the lowest energy wins.
 
     Examples
     --------
@@ -221,8 +221,7 @@ class PosingSession(Session[PosingModel]):
     def _placed(self, vertices: FloatArray) -> FloatArray:
         if np.array_equal(self._maps[0], np.eye(3, 4)):
             return vertices
-        placed: FloatArray = vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3]
-        return placed
+        return np.asarray(vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3], np.float64)
 
     def _make_probe(self, sample: ResidualSample) -> PosingProbe:
         return PosingProbe(self.model.problem, self.model.subspace, sample)
@@ -255,6 +254,8 @@ class PosingSession(Session[PosingModel]):
         with np.errstate(over="ignore"):  # motions far outside of any use
             jump = self._motions.distance(self._offsets, before)
         if not self._motions.spacing < jump < FARTHEST * self._motions.spacing:
+            if self._closure is not None:
+                self._closure.carry_along(self._loop)
             return self.solve()
         return self._lowest_of(self._after_jump())
 

@@ -136,6 +136,28 @@ def test_a_drag_there_and_back_returns_to_the_same_shape(model: PosingModel) -> 
         assert session.q == pytest.approx(q, abs=1e-3 * np.linalg.norm(q))
 
 
+def test_a_drag_starts_much_nearer_to_the_next_frame_than_the_last_one_is(
+    model: PosingModel,
+) -> None:
+    session, w = model.session(closure=True), inside(model)
+    session.pose(0.9 * w)
+    last, closure = session.q, session._closures[8]
+    closure.pull(session._loop, model.problem.offsets(w))
+    closure.carry_along(session._loop)
+    start = session.q
+    assert session.pose(w).converged
+    assert np.linalg.norm(start - session.q) < 0.3 * np.linalg.norm(last - session.q)
+
+
+def test_posing_twice_is_posing_once(model: PosingModel) -> None:
+    session, w = model.session(closure=True), inside(model)
+    session.pose(0.9 * w)
+    session.pose(w)
+    once = session.q
+    session.pose(w)
+    assert session.q == pytest.approx(once, abs=1e-5 * np.linalg.norm(once))
+
+
 def test_a_motion_of_all_handles_carries_the_shape_along(model: PosingModel) -> None:
     session = model.session(closure=True)
     session.pose(inside(model))
