@@ -207,20 +207,6 @@ class PosingSystem:
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
 
-class SoftModes:
-    """
-    Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.
-    """
-
-    def __init__(self, system: PosingSystem) -> None: ...
-
-    def modes(self, system: PosingSystem) -> NDArray[numpy.float64]:
-        """(8, 3n), each v . A v = 1 with the scalar matrix A of the system."""
-
-    @property
-    def weights(self) -> list[float]:
-        """Of the modes in the seed, 8 numbers; zero where no mode was found."""
-
 class InterpolationSystem:
     """
     What all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
@@ -259,6 +245,20 @@ class InterpolationSystem:
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
+
+class SoftModes:
+    """
+    Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.
+    """
+
+    def __init__(self, system: PosingSystem) -> None: ...
+
+    def modes(self, system: PosingSystem) -> NDArray[numpy.float64]:
+        """(8, 3n), each v . A v = 1 with the scalar matrix A of the system."""
+
+    @property
+    def weights(self) -> list[float]:
+        """Of the modes in the seed, 8 numbers; zero where no mode was found."""
 
 class CoarseSpace:
     """Modes (d, 3n) in the numbering of a system, in single precision."""

@@ -1,5 +1,4 @@
 #include "bindings/arrays.h"
-#include "snapshots/find_soft_modes.h"
 #include "snapshots/solve.h"
 
 namespace snapspace {
@@ -250,39 +249,6 @@ void bind_snapshots(nb::module_& m) {
       nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
       nb::arg("pinned").noconvert(), nb::arg("weights"));
   bind_solves(posing);
-
-  nb::class_<SoftModes>(m, "SoftModes",
-                        "Deformations that the scalar factor of a posing system mistakes for "
-                        "stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest "
-                        "against the scalar matrix.")
-      .def(
-          "__init__",
-          [](SoftModes* self, const PosingSystem& system) {
-            const nb::gil_scoped_release release;
-            new (self) SoftModes(find_soft_modes(system));
-          },
-          nb::arg("system"))
-      .def(
-          "modes",
-          [](const SoftModes& self, const PosingSystem& system) {
-            require_fitting(system, &self);
-            DoublesOut modes = new_array<double>({SoftModes::kCount, self.size()});
-            std::vector<double> mode(self.size());
-            for (int k = 0; k < SoftModes::kCount; ++k) {
-              for (std::size_t i = 0; i < self.size(); ++i) mode[i] = self.entry(i, k);
-              system.numbering.to_external(mode.data(), modes.data() + k * self.size());
-            }
-            return modes;
-          },
-          nb::arg("system"), "(8, 3n), each v . A v = 1 with the scalar matrix A of the system.")
-      .def_prop_ro(
-          "weights",
-          [](const SoftModes& self) {
-            std::vector<double> weights;
-            for (int k = 0; k < SoftModes::kCount; ++k) weights.push_back(self.weight(k));
-            return weights;
-          },
-          "Of the modes in the seed, 8 numbers; zero where no mode was found.");
 
   nb::class_<InterpolationSystem> interpolation(
       m, "InterpolationSystem",
