@@ -13,6 +13,22 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Puts a text into an element that has no other content. Costs nothing if it is there already; else no style is
+ * computed, as for a new node, and only the line is laid out. */
+export function tell(element: HTMLElement, text: string): void {
+  const { firstChild } = element;
+  if (firstChild instanceof Text) {
+    if (firstChild.data !== text) firstChild.data = text;
+  } else {
+    element.textContent = text;
+  }
+}
+
+/** Sets an attribute if it is another one: each setting has the element's style computed. */
+export function mark(element: HTMLElement, attribute: string, value: unknown): void {
+  if (element.getAttribute(attribute) !== String(value)) element.setAttribute(attribute, String(value));
+}
+
 /** A group of a panel with a heading. */
 export function section(title: string, ...children: (Node | string)[]): HTMLElement {
   return h("section", {}, h("h2", {}, title), ...children);
@@ -44,7 +60,7 @@ export function choice<T extends string>(
     ),
   );
   const set = (value: T, tell = false) => {
-    options.forEach(([own], i) => buttons[i].setAttribute("aria-checked", String(own === value)));
+    options.forEach(([own], i) => mark(buttons[i], "aria-checked", own === value));
     if (tell) act(value);
   };
   return {

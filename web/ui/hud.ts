@@ -1,5 +1,5 @@
 import { CONFIDENCE, type Certificate, type FrameReport } from "../engine/index.ts";
-import { h } from "./dom.ts";
+import { h, tell } from "./dom.ts";
 
 const STATUS: Partial<Record<FrameReport["status"], string>> = {
   max_iterations: "stopped early",
@@ -13,7 +13,8 @@ const PAUSE = 120; // milliseconds without another frame
 /** Dimension, time of a solve and rate of frames, in a corner; and what the user should know, below. */
 export class Hud {
   readonly element: HTMLElement;
-  readonly notice = h("p", { className: "notice", role: "status", hidden: true });
+  readonly #warning = h("span");
+  readonly notice = h("p", { className: "notice", role: "status", hidden: true }, this.#warning);
   readonly #figures = {
     d: figure("d", "coordinates"),
     solve: figure("solve", "of one solve"),
@@ -42,13 +43,13 @@ export class Hud {
   }
 
   dimension(d: number, whole: number): void {
-    this.#figures.d.value.textContent = d === whole ? String(d) : `${d} of ${whole}`;
+    tell(this.#figures.d.value, d === whole ? String(d) : `${d} of ${whole}`);
   }
 
   solved(report: FrameReport): void {
     keep(this.#solves, report.milliseconds);
     const told = STATUS[report.status];
-    if (told) this.#figures.solve.value.textContent = told;
+    if (told) tell(this.#figures.solve.value, told);
     else this.#tell();
     // once a drag pauses: certificates are not for frames that nobody looks at
     clearTimeout(this.#certifying);
@@ -68,20 +69,20 @@ export class Hud {
 
   /** A remark on the shape that is shown, or an empty text. */
   remark(text: string): void {
-    if (this.#remark.textContent !== text) this.#remark.textContent = text;
+    tell(this.#remark, text);
   }
 
   /** What must be known, or an empty text. */
   warn(text: string): void {
-    if (this.notice.textContent !== text) this.notice.textContent = text;
-    this.notice.hidden = text === "";
+    tell(this.#warning, text);
+    if (this.notice.hidden !== (text === "")) this.notice.hidden = text === "";
   }
 
   #tellError(): void {
     const { value } = this.#figures.error;
     const found = this.#certify!();
     const bound = found?.upper == null ? "" : ` (< ${percent(found.upper)})`;
-    value.textContent = found ? percent(found.relative) + bound : "–";
+    tell(value, found ? percent(found.relative) + bound : "–");
     value.title = bound ? `below ${percent(found!.upper!)} with ${percent(CONFIDENCE)} confidence` : "";
   }
 
@@ -89,8 +90,8 @@ export class Hud {
     const now = performance.now();
     if (now - this.#shown < 200) return; // numbers that change faster cannot be read
     this.#shown = now;
-    if (this.#solves.length) this.#figures.solve.value.textContent = `${mean(this.#solves).toFixed(2)} ms`;
-    if (this.#frames.length > 3) this.#figures.fps.value.textContent = (1 / mean(this.#frames)).toFixed(0);
+    if (this.#solves.length) tell(this.#figures.solve.value, `${mean(this.#solves).toFixed(2)} ms`);
+    if (this.#frames.length > 3) tell(this.#figures.fps.value, (1 / mean(this.#frames)).toFixed(0));
   }
 }
 

@@ -1,5 +1,5 @@
 import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
-import { choice, h, section, toggle } from "./dom.ts";
+import { choice, h, mark, section, tell, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -84,11 +84,11 @@ export async function posingView(
   };
   posing.onReleased = () => void polishing?.ask();
   const readout = new Readout(() => {
-    list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
+    list.forEach((button, handle) => mark(button, "aria-pressed", handle === posing.selected));
     modes.set(posing.mode);
     undo.disabled = !posing.canUndo;
     redo.disabled = !posing.canRedo;
-    figures.textContent = posing.selected < 0 ? HELP : described(posing.session, posing.selected);
+    tell(figures, posing.selected < 0 ? HELP : described(posing.session, posing.selected));
     const { outside } = posing.session;
     hud.warn(
       outside.length === 0
