@@ -1,4 +1,4 @@
-import { Color, Matrix4 } from "three";
+import { Color } from "three";
 
 import {
   eulerOfRotation,
@@ -176,9 +176,8 @@ export class Posing {
   #show(): void {
     this.surface.show(this.session.q);
     const { rotation: R, shift: t } = this.session.carriedBy;
-    this.surface.object.matrix.copy(
-      new Matrix4().set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1),
-    );
+    const { matrix } = this.surface.object;
+    matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);
     this.surface.object.matrixWorldNeedsUpdate = true;
   }
 
