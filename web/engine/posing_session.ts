@@ -118,14 +118,15 @@ export class PosingSession {
   }
 
   /** Solves small motions and forgets them, at rest: the browser makes fast code of what has run some times, which the
-   * first drag should not wait for. */
-  warmUp(): void {
+   * first drag should not wait for. `follow` does what follows a solve. */
+  warmUp(follow: () => void = () => {}): void {
     const { handles, diagonal } = this.model;
     for (let step = 1; step <= WARMING; step++) {
       const shift = (WARMING_SHARE * step * diagonal) / WARMING;
       this.moveAll(
         new Map([[handles.length - 1, { rotation: IDENTITY.rotation, translation: [shift, 0, 0] }]]),
       );
+      follow();
     }
     this.reset();
     this.dimension = this.dimension; // nothing of it stays in the core

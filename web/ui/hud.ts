@@ -14,7 +14,7 @@ const PAUSE = 120; // milliseconds without another frame
 export class Hud {
   readonly element: HTMLElement;
   readonly #warning = h("span");
-  readonly notice = h("p", { className: "notice", role: "status", hidden: true }, this.#warning);
+  readonly notice = h("p", { className: "notice", role: "status" }, this.#warning);
   readonly #figures = {
     d: figure("d", "coordinates"),
     solve: figure("solve", "of one solve"),
@@ -24,9 +24,9 @@ export class Hud {
   readonly #remark = h("p", { role: "status" });
   readonly #certify: (() => Certificate | null) | null;
   #certifying = 0;
+  #stopped: string | undefined;
   readonly #solves: number[] = [];
   readonly #frames: number[] = [];
-  #shown = 0;
 
   /** `certify` tells the error of the present frame; without it there is no such figure. */
   constructor(title: string, detail: string, certify: (() => Certificate | null) | null = null) {
@@ -40,6 +40,7 @@ export class Hud {
       h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes, ...(certify ? error.nodes : [])),
       this.#remark,
     );
+    this.warn("");
   }
 
   dimension(d: number, whole: number): void {
@@ -48,9 +49,7 @@ export class Hud {
 
   solved(report: FrameReport): void {
     keep(this.#solves, report.milliseconds);
-    const told = STATUS[report.status];
-    if (told) tell(this.#figures.solve.value, told);
-    else this.#tell();
+    this.#stopped = STATUS[report.status];
     // once a drag pauses: certificates are not for frames that nobody looks at
     clearTimeout(this.#certifying);
     if (this.#certify) this.#certifying = window.setTimeout(() => this.#tellError(), PAUSE);
@@ -64,7 +63,14 @@ export class Hud {
   frame(seconds: number): void {
     if (seconds > 0.5) this.#frames.length = 0;
     else keep(this.#frames, seconds);
-    this.#tell();
+  }
+
+  /** Tells time and rate; whether they are other ones. */
+  tell(): boolean {
+    const { solve, fps } = this.#figures;
+    const took = this.#stopped ?? (this.#solves.length ? `${mean(this.#solves).toFixed(2)} ms` : "–");
+    const isOther = tell(solve.value, took);
+    return (this.#frames.length > 3 && tell(fps.value, (1 / mean(this.#frames)).toFixed(0))) || isOther;
   }
 
   /** A remark on the shape that is shown, or an empty text. */
@@ -72,10 +78,11 @@ export class Hud {
     tell(this.#remark, text);
   }
 
-  /** What must be known, or an empty text. */
-  warn(text: string): void {
-    tell(this.#warning, text);
-    if (this.notice.hidden !== (text === "")) this.notice.hidden = text === "";
+  /** What must be known, or an empty text; whether it is another one. It has its place always: to hide it lays
+   * nothing out. */
+  warn(text: string): boolean {
+    this.notice.style.visibility = text ? "" : "hidden";
+    return tell(this.#warning, text);
   }
 
   #tellError(): void {
@@ -84,14 +91,6 @@ export class Hud {
     const bound = found?.upper == null ? "" : ` (< ${percent(found.upper)})`;
     tell(value, found ? percent(found.relative) + bound : "–");
     value.title = bound ? `below ${percent(found!.upper!)} with ${percent(CONFIDENCE)} confidence` : "";
-  }
-
-  #tell(): void {
-    const now = performance.now();
-    if (now - this.#shown < 200) return; // numbers that change faster cannot be read
-    this.#shown = now;
-    if (this.#solves.length) tell(this.#figures.solve.value, `${mean(this.#solves).toFixed(2)} ms`);
-    if (this.#frames.length > 3) tell(this.#figures.fps.value, (1 / mean(this.#frames)).toFixed(0));
   }
 }
 

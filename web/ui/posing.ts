@@ -105,6 +105,16 @@ export class Posing {
     return this.#wishes.get(handle) ?? this.session.motion(handle);
   }
 
+  /** Does what a drag does some times, and goes back to rest. `follow` does what follows a solve. */
+  warmUp(follow: () => void): void {
+    const show = () => {
+      this.#show();
+      follow();
+    };
+    this.session.warmUp(show);
+    show();
+  }
+
   /** Solves for what was asked since the last time. */
   solveWishes(): void {
     if (this.#wishes.size === 0) return;
