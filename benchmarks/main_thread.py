@@ -1,28 +1,34 @@
 """Work of a page's main thread per picture, by wall clock and by processor time, out of a trace.
 
-Counted is what the thread does for the page from one picture to the next: event handlers, timers,
-animation frames, style, layout and garbage collection, apart from the call that draws the picture
-and from the browser's painting. Processor time is the thread's own: where software rendering keeps
-all cores busy the thread is often put aside, and only wall time grows by that.
+The page's own work is what the thread does for it from one picture to the next: event handlers,
+timers, animation frames, style, layout, hit tests and garbage collection, apart from the call that
+draws the picture. Apart from it are told: what the tester's own listeners and callbacks take, which
+no user has; the browser's painting; and all that the thread did, with the browser's housekeeping
+and the tester's commands. Processor time is the thread's own: where software rendering keeps all
+cores busy the thread is often put aside, and only wall time grows by that.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
-CATEGORIES = ["devtools.timeline"]
+CATEGORIES = ["devtools.timeline", "toplevel"]
 COUNTED = {
     "EventDispatch",
     "TimerFire",
     "FireAnimationFrame",
+    "FireIdleCallback",
     "RunMicrotasks",
     "UpdateLayoutTree",
     "Layout",
+    "HitTest",
     "MinorGC",
     "MajorGC",
 }
+PAINTING = {"PrePaint", "Paint", "Layerize"}
+TASK = "ThreadControllerImpl::RunTask"
 # An event of its own: the trace has its times, and marks would take longer than what they measure.
 TELL_DRAWING = """() => {
   const { stage } = snapspace, { renderer } = stage, drawing = document.createElement("i");
@@ -31,15 +37,31 @@ TELL_DRAWING = """() => {
   renderer.render = (scene, camera) =>
     scene === stage.scene ? drawing.dispatchEvent(new Event("draw")) : render(scene, camera);
 }"""
-Work = tuple[float, float]
+Event = dict[str, Any]
+
+
+class Work(NamedTuple):
+    """Milliseconds by the wall clock, and of the processor."""
+
+    wall: float
+    cpu: float
+
+
+class Picture(NamedTuple):
+    """Work from the picture before to this one, the calls that draw them left out."""
+
+    own: Work
+    tester: Work
+    painting: Work
+    thread: Work
 
 
 class MainThread:
-    """Traces a page that shows a model, from its making to `works`."""
+    """Traces a page that shows a model, from its making to `pictures`."""
 
     def __init__(self, page: Any) -> None:
         self._page = page
-        self._events: list[dict[str, Any]] = []
+        self._events: list[Event] = []
         self._is_complete = False
         page.evaluate(TELL_DRAWING)
         self._devtools = page.context.new_cdp_session(page)
@@ -50,39 +72,73 @@ class MainThread:
             "Tracing.start", {"traceConfig": config, "transferMode": "ReportEvents"}
         )
 
-    def works(self) -> list[Work]:
-        """Ends the trace. Milliseconds by the wall clock and of the processor, by picture."""
+    def pictures(self) -> list[Picture]:
+        """Ends the trace."""
         self._devtools.send("Tracing.end")
         while not self._is_complete:
             self._page.wait_for_timeout(20)
-        return per_picture(self._events)
+        return per_picture(self._events, self._page.url)
 
     def _complete(self, _: Any) -> None:
         self._is_complete = True
 
 
-def per_picture(events: list[dict[str, Any]]) -> list[Work]:
-    """Wall and processor time from one picture to the next, of the thread that draws them."""
+def per_picture(events: list[Event], address: str) -> list[Picture]:
+    """Work of the thread that draws; functions of `address` are the page's, others the tester's."""
     events = [event for event in events if event["ph"] == "X" and "tdur" in event]
     drawings = sorted(filter(_is_drawing, events), key=lambda event: event["ts"])
-    thread = drawings[0]["tid"]
-    parts = _outermost(e for e in events if e["tid"] == thread and e["name"] in COUNTED)
-    works = []
-    for before, drawing in pairwise(drawings):
+    events = [event for event in events if event["tid"] == drawings[0]["tid"]]
+    calls = [event for event in events if event["name"] == "FunctionCall"]
+
+    def is_testers(part: Event) -> bool:
+        inner = [call for call in calls if 0 <= call["ts"] - part["ts"] < part["dur"]]
+        if not inner:  # a promise that is kept by an animation frame calls nothing
+            return part["name"] == "FireAnimationFrame"
+        return all(call["args"]["data"].get("url") != address for call in inner)
+
+    parts = _outermost(event for event in events if event["name"] in COUNTED)
+    testers = {id(part) for part in filter(is_testers, parts)}
+    between = _Between(drawings)
+    return [
+        Picture(*works)
+        for works in zip(
+            between.works(part for part in parts if id(part) not in testers),
+            between.works((part for part in parts if id(part) in testers), draws=False),
+            between.works((e for e in events if e["name"] in PAINTING), draws=False),
+            between.works(_outermost(event for event in events if event["name"] == TASK)),
+            strict=True,
+        )
+    ]
+
+
+class _Between:
+    """Sums of what began between two pictures."""
+
+    def __init__(self, drawings: list[Event]) -> None:
+        self._pairs = list(pairwise(drawings))
+
+    def works(self, parts: Iterable[Event], *, draws: bool = True) -> list[Work]:
+        """For each picture but the first. `draws` if one of the parts has the drawing in it."""
+        parts = list(parts)
+        return [self._work(parts, *pair, draws) for pair in self._pairs]
+
+    @staticmethod
+    def _work(parts: list[Event], before: Event, drawing: Event, draws: bool) -> Work:
         own = [part for part in parts if before["ts"] < part["ts"] < drawing["ts"]]
-        wall, cpu = (sum(part[key] for part in own) - drawing[key] for key in ("dur", "tdur"))
-        works.append((wall / 1e3, cpu / 1e3))
-    return works
+        wall, cpu = (
+            sum(part[key] for part in own) - draws * drawing[key] for key in ("dur", "tdur")
+        )
+        return Work(wall / 1e3, cpu / 1e3)
 
 
-def _is_drawing(event: dict[str, Any]) -> bool:
+def _is_drawing(event: Event) -> bool:
     data = event["args"].get("data", {})
     return event["name"] == "EventDispatch" and data.get("type") == "draw"
 
 
-def _outermost(events: Iterable[dict[str, Any]]) -> list[dict[str, Any]]:
+def _outermost(events: Iterable[Event]) -> list[Event]:
     """Those that are in no other one, by time."""
-    found: list[dict[str, Any]] = []
+    found: list[Event] = []
     for event in sorted(events, key=lambda event: (event["ts"], -event["dur"])):
         if not found or event["ts"] >= found[-1]["ts"] + found[-1]["dur"]:
             found.append(event)

@@ -117,7 +117,7 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         moving = [h for h in range(len(model.problem.handles.names)) if h != 0]
         for drag in range(args.drags):
             pointer_drag(page, moving[drag % len(moving)], args.steps)
-        works = np.array(thread.works())
+        pictures = thread.pictures()
         page.evaluate("snapspace.session.reset()")
         drag = way(model, args.frames, seed=7)
         solves = page.evaluate(SOLVES, [motions(model, w) for w in drag])
@@ -132,9 +132,12 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         "started_ms": opened[1],
         "solve": summary(solves),
         "native_solve": summary(native(model, drag)),
-        "work": summary(works[:, 0]),
-        "cpu_work": summary(works[:, 1]),
-        "frames": len(works),
+        "work": summary([picture.own.wall for picture in pictures]),
+        "cpu_work": summary([picture.own.cpu for picture in pictures]),
+        "cpu_tester": summary([picture.tester.cpu for picture in pictures]),
+        "cpu_painting": summary([picture.painting.cpu for picture in pictures]),
+        "cpu_thread": summary([picture.thread.cpu for picture in pictures]),
+        "frames": len(pictures),
     }
 
 
@@ -157,6 +160,9 @@ def rows(figures: dict[str, Any]) -> list[tuple[str, Any, str]]:
         ("the same, its processor time, ms, median", cpu["median"], "<= 3 at 25k"),
         ("... 95 %", cpu["p95"], "<= 3 at 25k"),
         ("... worst", cpu["worst"], "<= 3 at 25k"),
+        ("not in it: the tester's listeners, median", figures["cpu_tester"]["median"], ""),
+        ("not in it: the browser's painting, median", figures["cpu_painting"]["median"], ""),
+        ("all that the thread does besides drawing, median", figures["cpu_thread"]["median"], ""),
     ]
 
 

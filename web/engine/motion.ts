@@ -50,10 +50,19 @@ export function transposed(R: Rotation): Rotation {
 }
 
 export function product(A: Rotation, B: Rotation): Rotation {
-  return Array.from({ length: 9 }, (_, i) => {
-    const [row, column] = [3 * Math.floor(i / 3), i % 3];
-    return A[row] * B[column] + A[row + 1] * B[column + 3] + A[row + 2] * B[column + 6];
-  });
+  const entry = (row: number, column: number) =>
+    A[row] * B[column] + A[row + 1] * B[column + 3] + A[row + 2] * B[column + 6];
+  return [
+    entry(0, 0),
+    entry(0, 1),
+    entry(0, 2),
+    entry(3, 0),
+    entry(3, 1),
+    entry(3, 2),
+    entry(6, 0),
+    entry(6, 1),
+    entry(6, 2),
+  ];
 }
 
 /** Difference of two vectors. */

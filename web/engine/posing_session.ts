@@ -31,8 +31,11 @@ export class PosingSession {
   readonly #core: Core;
   readonly #stop: Termination;
   readonly #certifier: Certifier | null;
-  #maps: RigidMap[];
+  #maps: readonly RigidMap[] = [];
+  /** Motions relative to the first handle, and their differences from rest, 12 numbers each. */
+  #relative: readonly Motion[] = [];
   #offsets: readonly number[] = [];
+  #outside: { handle: number; how: string }[] | null = null;
 
   static async create(module: WebAssembly.Module, model: PosingModel): Promise<PosingSession> {
     return new PosingSession(model, await Core.create(module, model));
@@ -44,8 +47,7 @@ export class PosingSession {
     this.#certifier = Certifier.of(model);
     const { valueScale, coordinateScale } = model;
     this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
-    this.#maps = model.handles.map(() => IDENTITY);
-    this.#set(this.#maps);
+    this.#set(model.handles.map(() => IDENTITY));
   }
 
   get dimension(): number {
@@ -116,27 +118,31 @@ export class PosingSession {
   }
 
   /** Solves small motions and forgets them, at rest: the browser makes fast code of what has run some times, which the
-   * first drag should not wait for. */
-  warmUp(): void {
+   * first drag should not wait for. `follow` does what follows a solve. */
+  warmUp(follow: () => void = () => {}): void {
     const { handles, diagonal } = this.model;
     for (let step = 1; step <= WARMING; step++) {
       const shift = (WARMING_SHARE * step * diagonal) / WARMING;
       this.moveAll(
         new Map([[handles.length - 1, { rotation: IDENTITY.rotation, translation: [shift, 0, 0] }]]),
       );
+      follow();
     }
     this.reset();
     this.dimension = this.dimension; // nothing of it stays in the core
   }
 
   /** The handles outside of the box of motions that was sampled, and how. */
-  get outside(): { handle: number; how: string }[] {
-    return this.model.handles.flatMap((_, handle) => {
-      if (handle === 0) return [];
-      const { rotation, translation } = this.#relative(handle);
-      const how = beyondBox(this.model.boxes[handle], rotation, translation);
-      return how ? [{ handle, how }] : [];
-    });
+  get outside(): readonly { handle: number; how: string }[] {
+    if (!this.#outside) {
+      this.#outside = [];
+      for (let handle = 1; handle < this.#relative.length; handle++) {
+        const { rotation, translation } = this.#relative[handle];
+        const how = beyondBox(this.model.boxes[handle], rotation, translation);
+        if (how) this.#outside.push({ handle, how });
+      }
+    }
+    return this.#outside;
   }
 
   /** Euler angles of a handle's motion, in radians. */
@@ -144,29 +150,27 @@ export class PosingSession {
     return eulerOfRotation(this.#maps[handle].rotation);
   }
 
-  #relative(handle: number): Motion {
-    const [first, own] = [this.#maps[0], this.#maps[handle]];
-    const back = transposed(first.rotation);
-    const rotation = product(back, own.rotation);
-    const shift = applied(back, minus(own.shift, first.shift));
-    const { center } = this.model.handles[handle];
-    return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
+  #set(maps: readonly RigidMap[]): void {
+    const relative = maps.map((map, handle) =>
+      // of most handles nothing has changed in a drag
+      map === this.#maps[handle] && maps[0] === this.#maps[0]
+        ? this.#relative[handle]
+        : relativeMotion(maps[0], map, this.model.handles[handle].center),
+    );
+    const offsets: number[] = [];
+    for (const { rotation: R, translation: t } of relative)
+      offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
+    offsets.fill(0, 0, 12); // exactly
+    this.#core.setOffsets(offsets);
+    [this.#maps, this.#relative, this.#offsets] = [maps, relative, offsets];
+    this.#outside = null;
   }
+}
 
-  #set(maps: RigidMap[]): void {
-    const before = this.#maps;
-    this.#maps = maps;
-    const offsets = maps.flatMap((_, handle) => {
-      if (handle === 0) return Array<number>(12).fill(0);
-      const { rotation: R, translation: t } = this.#relative(handle);
-      return [R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]];
-    });
-    try {
-      this.#core.setOffsets(offsets);
-      this.#offsets = offsets;
-    } catch (error) {
-      this.#maps = before;
-      throw error;
-    }
-  }
+/** A handle's motion as it is seen from the first one. */
+function relativeMotion(first: RigidMap, own: RigidMap, center: Vector): Motion {
+  const back = transposed(first.rotation);
+  const rotation = product(back, own.rotation);
+  const shift = applied(back, minus(own.shift, first.shift));
+  return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
 }

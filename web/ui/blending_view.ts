@@ -8,6 +8,7 @@ import { h, section, slider, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
+import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import { thumbnail } from "./thumbnail.ts";
@@ -38,6 +39,7 @@ export async function blendingView(
     model.estimator && (() => session.certificate()),
   );
   hud.dimension(model.dimension, model.dimension);
+  const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
   const path = new BlendPath(model.poses.length);
   let [wish, compared] = [[...session.weights], false];
@@ -103,6 +105,8 @@ export async function blendingView(
     solve();
     look.legend.look();
     hud.frame(seconds);
+    readout.ask();
+    readout.advance();
     label(stage, names, [elastic, straight], compared);
   };
   stage.afterFrame = () => {
@@ -162,6 +166,7 @@ export async function blendingView(
       stage.afterFrame = () => {};
       look.legend.dispose();
       hud.dispose();
+      readout.dispose();
       names.forEach((name) => name.remove());
       for (const surface of [elastic, straight]) {
         surface.object.removeFromParent();

@@ -13,6 +13,33 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
+/** Puts a text into an element that has no other content, and says whether it is another one. Costs nothing if it is
+ * there already; else no style is computed, as for a new node, and only the line is laid out. */
+export function tell(element: HTMLElement, text: string): boolean {
+  const { firstChild } = element;
+  if (!(firstChild instanceof Text)) {
+    element.textContent = text;
+    return true;
+  }
+  if (firstChild.data === text) return false;
+  firstChild.data = text;
+  return true;
+}
+
+/** Sets an attribute if it is another one, and says so: each setting has the element's style computed. */
+export function mark(element: HTMLElement, attribute: string, value: unknown): boolean {
+  if (element.getAttribute(attribute) === String(value)) return false;
+  element.setAttribute(attribute, String(value));
+  return true;
+}
+
+/** Lets a button be pressed or not, and says whether that has changed. */
+export function enable(button: HTMLButtonElement, on: boolean): boolean {
+  if (button.disabled !== on) return false;
+  button.disabled = !on;
+  return true;
+}
+
 /** A group of a panel with a heading. */
 export function section(title: string, ...children: (Node | string)[]): HTMLElement {
   return h("section", {}, h("h2", {}, title), ...children);
@@ -44,8 +71,9 @@ export function choice<T extends string>(
     ),
   );
   const set = (value: T, tell = false) => {
-    options.forEach(([own], i) => buttons[i].setAttribute("aria-checked", String(own === value)));
+    const marked = options.map(([own], i) => mark(buttons[i], "aria-checked", own === value));
     if (tell) act(value);
+    return marked.includes(true);
   };
   return {
     element: h("div", { className: "choice", role: "radiogroup", "aria-label": label }, ...buttons),

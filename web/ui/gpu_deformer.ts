@@ -13,7 +13,7 @@ import {
 import type { Membrane, ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 import { GpuEnergies } from "./gpu_energies.ts";
-import { disposePass, floatTarget, integers, pass, run, type Pass } from "./gpu_pass.ts";
+import { disposePass, floatTarget, integers, pass, Passes, type Pass } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
 /** Modes that the shader takes: a WebGL 2 texture has at least so many layers. */
@@ -74,6 +74,7 @@ export class GpuDeformer implements Deformer {
   readonly #membrane: Membrane | null;
   readonly #targets: readonly WebGLRenderTarget[];
   readonly #passes: readonly Pass[];
+  readonly #both: Passes;
   readonly #textures: readonly Texture[];
   readonly #target: DataTexture;
   #energies: GpuEnergies | null = null;
@@ -123,6 +124,10 @@ export class GpuDeformer implements Deformer {
       }),
       pass(NORMALS, places),
     ];
+    this.#both = new Passes(
+      renderer,
+      this.#passes.map((mesh, i) => [mesh, this.#targets[i]]),
+    );
     this.update([]);
   }
 
@@ -149,10 +154,7 @@ export class GpuDeformer implements Deformer {
       uniforms.coefficients.value[i] = coefficients[i] * this.#space.scales[i];
     uniforms.count.value = coefficients.length;
     uniforms.share.value = share;
-    run(
-      this.#renderer,
-      this.#passes.map((mesh, i) => [mesh, this.#targets[i]]),
-    );
+    this.#both.run();
     this.#energies?.update();
   }
 

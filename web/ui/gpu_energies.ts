@@ -10,7 +10,7 @@ import {
 
 import type { Membrane } from "../engine/index.ts";
 import { asTexels } from "./deformer.ts";
-import { disposePass, floatTarget, pass, run, type Pass } from "./gpu_pass.ts";
+import { disposePass, floatTarget, pass, Passes, type Pass } from "./gpu_pass.ts";
 
 /** As web/engine/membrane_energy.ts, a vertex at a time. */
 const ENERGIES = `
@@ -60,8 +60,8 @@ type Places = RawShaderMaterial["uniforms"];
 /** Strain energy densities of a surface, over mu, on the graphics processor; in the red of each texel. */
 export class GpuEnergies {
   readonly target: WebGLRenderTarget;
-  readonly #renderer: WebGLRenderer;
   readonly #pass: Pass;
+  readonly #only: Passes;
   readonly #rests: DataArrayTexture;
   #isOn = false;
 
@@ -70,7 +70,6 @@ export class GpuEnergies {
     const count = membrane.rests.length;
     const texels = new Float32Array(4 * width * height * count);
     membrane.rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
-    this.#renderer = renderer;
     this.#rests = new DataArrayTexture(texels, width, height, count);
     this.#rests.format = RGBAFormat;
     this.#rests.type = FloatType;
@@ -83,6 +82,7 @@ export class GpuEnergies {
       count: { value: count },
       ratio: { value: membrane.ratio },
     });
+    this.#only = new Passes(renderer, [[this.#pass, this.target]]);
   }
 
   get texture(): Texture {
@@ -96,7 +96,7 @@ export class GpuEnergies {
   }
 
   update(): void {
-    if (this.#isOn) run(this.#renderer, [[this.#pass, this.target]]);
+    if (this.#isOn) this.#only.run();
   }
 
   dispose(): void {

@@ -5,6 +5,7 @@ import {
   DataTexture,
   FloatType,
   GLSL3,
+  Group,
   IntType,
   Mesh,
   NearestFilter,
@@ -23,6 +24,7 @@ in vec3 position;
 void main() { gl_Position = vec4(position, 1.0); }`;
 
 const CAMERA = new Camera();
+CAMERA.matrixWorldAutoUpdate = false;
 
 /** Pairs of integers, a texel each. */
 export function integers(values: Int32Array, width: number, height: number): DataTexture {
@@ -63,19 +65,37 @@ export function floatTarget(width: number, height: number): WebGLRenderTarget {
   });
 }
 
-/** Runs passes one after the other, each into its target; the renderer is left as it was. */
-export function run(renderer: WebGLRenderer, passes: readonly (readonly [Pass, WebGLRenderTarget])[]): void {
-  const { autoClear } = renderer;
-  const shadows = renderer.shadowMap.autoUpdate;
-  renderer.autoClear = false;
-  renderer.shadowMap.autoUpdate = false;
-  for (const [mesh, target] of passes) {
-    renderer.setRenderTarget(target);
-    renderer.render(mesh, CAMERA);
+/** Passes that run one after the other, each into its target. */
+export class Passes {
+  readonly #renderer: WebGLRenderer;
+  readonly #group = new Group();
+  readonly #first: WebGLRenderTarget;
+
+  constructor(renderer: WebGLRenderer, passes: readonly (readonly [Pass, WebGLRenderTarget])[]) {
+    this.#renderer = renderer;
+    this.#first = passes[0][1];
+    passes.forEach(([mesh, target], order) => {
+      mesh.renderOrder = order;
+      if (order > 0) mesh.onBeforeRender = () => renderer.setRenderTarget(target);
+      mesh.matrixAutoUpdate = false;
+      this.#group.add(mesh);
+    });
+    this.#group.matrixWorldAutoUpdate = false;
   }
-  renderer.setRenderTarget(null);
-  renderer.autoClear = autoClear;
-  renderer.shadowMap.autoUpdate = shadows;
+
+  /** As one call of the renderer, whose own work is more than that of the passes; it is left as it was. */
+  run(): void {
+    const renderer = this.#renderer;
+    const { autoClear } = renderer;
+    const shadows = renderer.shadowMap.autoUpdate;
+    renderer.autoClear = false;
+    renderer.shadowMap.autoUpdate = false;
+    renderer.setRenderTarget(this.#first);
+    renderer.render(this.#group, CAMERA);
+    renderer.setRenderTarget(null);
+    renderer.autoClear = autoClear;
+    renderer.shadowMap.autoUpdate = shadows;
+  }
 }
 
 export function disposePass({ geometry, material }: Pass): void {

@@ -1,5 +1,5 @@
 import { CONFIDENCE, type Certificate, type FrameReport } from "../engine/index.ts";
-import { h } from "./dom.ts";
+import { h, tell } from "./dom.ts";
 
 const STATUS: Partial<Record<FrameReport["status"], string>> = {
   max_iterations: "stopped early",
@@ -13,7 +13,8 @@ const PAUSE = 120; // milliseconds without another frame
 /** Dimension, time of a solve and rate of frames, in a corner; and what the user should know, below. */
 export class Hud {
   readonly element: HTMLElement;
-  readonly notice = h("p", { className: "notice", role: "status", hidden: true });
+  readonly #warning = h("span");
+  readonly notice = h("p", { className: "notice", role: "status" }, this.#warning);
   readonly #figures = {
     d: figure("d", "coordinates"),
     solve: figure("solve", "of one solve"),
@@ -23,9 +24,9 @@ export class Hud {
   readonly #remark = h("p", { role: "status" });
   readonly #certify: (() => Certificate | null) | null;
   #certifying = 0;
+  #stopped: string | undefined;
   readonly #solves: number[] = [];
   readonly #frames: number[] = [];
-  #shown = 0;
 
   /** `certify` tells the error of the present frame; without it there is no such figure. */
   constructor(title: string, detail: string, certify: (() => Certificate | null) | null = null) {
@@ -39,17 +40,16 @@ export class Hud {
       h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes, ...(certify ? error.nodes : [])),
       this.#remark,
     );
+    this.warn("");
   }
 
   dimension(d: number, whole: number): void {
-    this.#figures.d.value.textContent = d === whole ? String(d) : `${d} of ${whole}`;
+    tell(this.#figures.d.value, d === whole ? String(d) : `${d} of ${whole}`);
   }
 
   solved(report: FrameReport): void {
     keep(this.#solves, report.milliseconds);
-    const told = STATUS[report.status];
-    if (told) this.#figures.solve.value.textContent = told;
-    else this.#tell();
+    this.#stopped = STATUS[report.status];
     // once a drag pauses: certificates are not for frames that nobody looks at
     clearTimeout(this.#certifying);
     if (this.#certify) this.#certifying = window.setTimeout(() => this.#tellError(), PAUSE);
@@ -63,34 +63,34 @@ export class Hud {
   frame(seconds: number): void {
     if (seconds > 0.5) this.#frames.length = 0;
     else keep(this.#frames, seconds);
-    this.#tell();
+  }
+
+  /** Tells time and rate; whether they are other ones. */
+  tell(): boolean {
+    const { solve, fps } = this.#figures;
+    const took = this.#stopped ?? (this.#solves.length ? `${mean(this.#solves).toFixed(2)} ms` : "–");
+    const isOther = tell(solve.value, took);
+    return (this.#frames.length > 3 && tell(fps.value, (1 / mean(this.#frames)).toFixed(0))) || isOther;
   }
 
   /** A remark on the shape that is shown, or an empty text. */
   remark(text: string): void {
-    if (this.#remark.textContent !== text) this.#remark.textContent = text;
+    tell(this.#remark, text);
   }
 
-  /** What must be known, or an empty text. */
-  warn(text: string): void {
-    if (this.notice.textContent !== text) this.notice.textContent = text;
-    this.notice.hidden = text === "";
+  /** What must be known, or an empty text; whether it is another one. It has its place always: to hide it lays
+   * nothing out. */
+  warn(text: string): boolean {
+    this.notice.style.visibility = text ? "" : "hidden";
+    return tell(this.#warning, text);
   }
 
   #tellError(): void {
     const { value } = this.#figures.error;
     const found = this.#certify!();
     const bound = found?.upper == null ? "" : ` (< ${percent(found.upper)})`;
-    value.textContent = found ? percent(found.relative) + bound : "–";
+    tell(value, found ? percent(found.relative) + bound : "–");
     value.title = bound ? `below ${percent(found!.upper!)} with ${percent(CONFIDENCE)} confidence` : "";
-  }
-
-  #tell(): void {
-    const now = performance.now();
-    if (now - this.#shown < 200) return; // numbers that change faster cannot be read
-    this.#shown = now;
-    if (this.#solves.length) this.#figures.solve.value.textContent = `${mean(this.#solves).toFixed(2)} ms`;
-    if (this.#frames.length > 3) this.#figures.fps.value.textContent = (1 / mean(this.#frames)).toFixed(0);
   }
 }
 

@@ -1,4 +1,4 @@
-import { Color, Matrix4 } from "three";
+import { Color } from "three";
 
 import {
   eulerOfRotation,
@@ -105,6 +105,16 @@ export class Posing {
     return this.#wishes.get(handle) ?? this.session.motion(handle);
   }
 
+  /** Does what a drag does some times, and goes back to rest. `follow` does what follows a solve. */
+  warmUp(follow: () => void): void {
+    const show = () => {
+      this.#show();
+      follow();
+    };
+    this.session.warmUp(show);
+    show();
+  }
+
   /** Solves for what was asked since the last time. */
   solveWishes(): void {
     if (this.#wishes.size === 0) return;
@@ -176,9 +186,8 @@ export class Posing {
   #show(): void {
     this.surface.show(this.session.q);
     const { rotation: R, shift: t } = this.session.carriedBy;
-    this.surface.object.matrix.copy(
-      new Matrix4().set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1),
-    );
+    const { matrix } = this.surface.object;
+    matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);
     this.surface.object.matrixWorldNeedsUpdate = true;
   }
 

@@ -7,6 +7,7 @@ import type { Posing } from "./posing.ts";
 
 const MARKER_PIXELS = 18;
 const RADIANS_PER_PIXEL = 0.008;
+const WARMING = 12; // looks
 
 interface Drag {
   pointer: number;
@@ -38,10 +39,13 @@ export class HandleDrag {
     listenToPointers(this.#canvas, acts, signal);
   }
 
-  /** Looks at each handle once or twice: the first time is slow. */
+  /** Looks at handles some times, as if they had moved: the browser makes fast code of what has run often. */
   warmUp(): void {
-    for (const handle of [0, 1, 0, 1])
-      this.find(...this.screen(handle % this.#posing.session.model.handles.length));
+    const { session, surface } = this.#posing;
+    for (let time = 0; time < WARMING; time++) {
+      surface.forgetPicks();
+      this.find(...this.screen(time % session.model.handles.length));
+    }
   }
 
   /** The handle below a point of the window, or -1, and where it was hit. */

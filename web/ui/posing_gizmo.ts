@@ -1,7 +1,9 @@
-import { Matrix4, Object3D } from "three";
+import { Matrix4, Object3D, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import type { Posing } from "./posing.ts";
+
+const WARMING = 12; // looks
 
 /** Arrows or rings at the selected handle. */
 export class Gizmo {
@@ -24,6 +26,18 @@ export class Gizmo {
       stage.controls.enabled = !event.value;
       if (!event.value) posing.commit();
     });
+  }
+
+  /** Looks for its arrows below places around it some times, as a pointer does that comes to it. */
+  warmUp(): void {
+    const helper = this.#controls.getHelper();
+    this.#controls.attach(this.#proxy);
+    helper.updateMatrixWorld(true);
+    const middle = new Vector3().setFromMatrixPosition(this.#proxy.matrixWorld);
+    const { x, y } = middle.project(this.#posing.stage.camera);
+    for (let time = 0; time < WARMING; time++)
+      this.#controls.pointerHover({ x: x + 0.01 * time, y: y + 0.01 * time, button: -1 } as never);
+    this.#controls.detach();
   }
 
   /** Whether it hears the pointer. */

@@ -44,11 +44,15 @@ export class Marks {
   update(): void {
     const { session, selected } = this.#posing;
     this.#dots.forEach((sprite, handle) => {
-      sprite.position.set(...session.place(handle));
+      const [x, y, z] = session.place(handle);
+      sprite.position.set(x, y, z);
       sprite.scale.setScalar((handle === selected ? 0.034 : 0.026) * session.model.diagonal);
     });
-    const outside = new Set(session.outside.map(({ handle }) => handle));
-    this.#boxes.forEach((lines, handle) => (lines.visible = outside.has(handle)));
+    this.#boxes.forEach((lines) => (lines.visible = false));
+    for (const { handle } of session.outside) {
+      const lines = this.#boxes.get(handle);
+      if (lines) lines.visible = true;
+    }
   }
 
   dispose(): void {

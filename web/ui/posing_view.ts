@@ -1,5 +1,5 @@
 import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
-import { choice, h, section, toggle } from "./dom.ts";
+import { choice, enable, h, mark, section, tell, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -39,12 +39,17 @@ export async function posingView(
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
   const session = await PosingSession.create(module, model);
-  session.warmUp();
   const posing = new Posing(stage, session, surfaces[0]);
   const stop = new AbortController();
   const gizmo = new Gizmo(posing);
   let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
+  const follow = () => {
+    gizmo.update();
+    marks.update();
+  };
+  posing.warmUp(follow);
+  gizmo.warmUp();
   drag.warmUp();
   listenToKeys(posing, stop.signal);
 
@@ -78,27 +83,24 @@ export async function posingView(
   posing.onSolved = (report) => {
     hud.solved(report);
     polishing?.cancel();
-    gizmo.update();
-    marks.update();
+    follow();
     readout.ask();
   };
   posing.onReleased = () => void polishing?.ask();
-  const readout = new Readout(() => {
-    list.forEach((button, handle) => button.setAttribute("aria-pressed", String(handle === posing.selected)));
-    modes.set(posing.mode);
-    undo.disabled = !posing.canUndo;
-    redo.disabled = !posing.canRedo;
-    figures.textContent = posing.selected < 0 ? HELP : described(posing.session, posing.selected);
-    const { outside } = posing.session;
-    hud.warn(
-      outside.length === 0
-        ? ""
-        : `Beyond what was sampled: ${outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`).join("; ")}`,
-    );
-  });
+  const readout = new Readout(
+    () =>
+      [
+        ...list.map((button, handle) => mark(button, "aria-pressed", handle === posing.selected)),
+        modes.set(posing.mode),
+        enable(undo, posing.canUndo),
+        enable(redo, posing.canRedo),
+      ].includes(true),
+    () => hud.warn(warningOf(posing.session)),
+    () => tell(figures, posing.selected < 0 ? HELP : described(posing.session, posing.selected)),
+    () => hud.tell(),
+  );
   posing.onChange = () => {
-    gizmo.update();
-    marks.update();
+    follow();
     readout.now();
   };
   posing.onChange();
@@ -109,6 +111,7 @@ export async function posingView(
     polishing?.advance();
     look.legend.look();
     hud.frame(seconds);
+    readout.advance();
   };
   stage.afterFrame = () => {
     if (polishing?.isOnTheWay) stage.draw();
@@ -196,6 +199,11 @@ export async function posingView(
       surfaces[0].dispose();
     },
   };
+}
+
+function warningOf({ outside, model }: PosingSession): string {
+  const told = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);
+  return told.length === 0 ? "" : `Beyond what was sampled: ${told.join("; ")}`;
 }
 
 function described(session: PosingSession, handle: number): string {

@@ -1,31 +1,61 @@
-const PAUSE = 200; // milliseconds: numbers that change faster cannot be read, and each change lays the panel out anew
+const PAUSE = 200; // milliseconds: numbers that change faster cannot be read, and each change lays out some of the page
+const REST = 800; // milliseconds without a change, where no picture comes: then all is told
 
-/** Tells something after changes, a few times a second at most: at once after a pause, and always the last state. */
+/** Tells things that change with the pictures of a drag: one of them before a picture, a few times a second at most, so
+ * that no picture waits for all of them. What is told last is always the last state. */
 export class Readout {
-  readonly #tell: () => void;
-  #told = -Infinity;
+  readonly #parts: readonly (() => boolean)[];
+  readonly #isDue: boolean[];
+  #next = 0;
+  #told = 0;
+  #asked = 0;
   #timer = 0;
 
-  constructor(tell: () => void) {
-    this.#tell = tell;
+  /** Each part tells something, and whether that was new. */
+  constructor(...parts: (() => boolean)[]) {
+    this.#parts = parts;
+    this.#isDue = parts.map(() => false);
   }
 
   /** Something has changed. */
   ask(): void {
-    if (this.#timer) return;
-    const wait = this.#told + PAUSE - performance.now();
-    if (wait <= 0) this.now();
-    else this.#timer = window.setTimeout(() => this.now(), wait);
+    this.#isDue.fill(true);
+    this.#asked = performance.now();
+    if (!this.#timer) this.#timer = window.setTimeout(() => this.#rest(), REST);
   }
 
+  /** Before a picture: tells the next thing that is new. */
+  advance(): void {
+    const { length } = this.#parts;
+    const now = performance.now();
+    if (now - this.#told < PAUSE / length) return;
+    for (let tried = 0; tried < length; tried++) {
+      const part = this.#next;
+      this.#next = (part + 1) % length;
+      if (!this.#isDue[part]) continue;
+      this.#isDue[part] = false;
+      if (!this.#parts[part]()) continue;
+      this.#told = now;
+      return;
+    }
+  }
+
+  /** Tells all, as after a click. */
   now(): void {
     this.dispose();
     this.#told = performance.now();
-    this.#tell();
+    this.#isDue.fill(false);
+    for (const part of this.#parts) part();
   }
 
   dispose(): void {
     clearTimeout(this.#timer);
     this.#timer = 0;
+  }
+
+  #rest(): void {
+    const wait = this.#asked + REST - performance.now();
+    if (wait > 0) this.#timer = window.setTimeout(() => this.#rest(), wait);
+    else this.now();
   }
 }

@@ -68,7 +68,9 @@ export class Room {
     this.#panel.hidden = false;
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
-    this.stage.renderer.render(this.stage.scene, this.stage.camera);
+    const { renderer, scene, camera } = this.stage;
+    renderer.render(scene, camera);
+    renderer.compile(scene, camera); // what is hidden as well, such as the gizmo: the first press should not wait
     this.stage.draw();
     // what the view tells may change while it is shown: it is inherited, not copied
     window.snapspace = Object.assign(Object.create(view.script), {

@@ -155,6 +155,11 @@ export class Surface {
     return this.#picker.pick(origin.toArray(), direction.toArray());
   }
 
+  /** As after another shape: what was computed for rays is forgotten. */
+  forgetPicks(): void {
+    this.#picker?.show(this.#coefficients, this.#share);
+  }
+
   /** The shape before its rigid motion, as the vertex shader gets it. */
   shown(): Float32Array {
     return this.#deformer.read();
