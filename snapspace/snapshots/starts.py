@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +13,15 @@ from ..blas import single_threaded_blas
 from .displacement_rows import DisplacementRows
 
 FloatArray = NDArray[np.float64]
+Kernel = Literal["linear", "thin_plate_spline"]
 
 #: Samples around a wanted one that its start is interpolated from. On the Dragon 64 and all of
 #: 300 give starts of the same quality, and a bound keeps the cost of a start constant.
 NEIGHBOURS = 64
+#: Samples for each parameter from which on thin plates take over from linear functions.
+ENOUGH_FOR_PLATES = 4
+#: Sum of the absolute weights of a start that is still trusted; those of the Dragon's are below 6.
+WILDEST_WEIGHTS = 10.0
 
 
 def nearest_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray) -> FloatArray:
@@ -38,7 +43,7 @@ def nearest_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray)
 
 @single_threaded_blas
 def interpolated_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray) -> FloatArray:
-    """Shapes interpolated between the nearest known samples by linear radial basis functions.
+    """Shapes interpolated between the nearest known samples by radial basis functions.
 
     Arguments and result as for `nearest_start`. On 32 samples of the Dragon after 48 finished ones
     such starts need 82 evaluations each, against 105 from the nearest sample and 145 from the rest
@@ -50,19 +55,40 @@ def interpolated_start(known: FloatArray, rows: DisplacementRows, wanted: FloatA
         return nearest_start(known, rows, wanted)
     # it is linear in the data: one row of weights per wanted sample, applied to whole shapes
     weights = np.zeros((len(wanted), len(known)))
-    interpolant = RBFInterpolator(
-        known[distinct],
-        np.eye(len(distinct)),
-        kernel="linear",
-        neighbors=min(NEIGHBOURS, len(distinct)),
-    )
-    weights[:, distinct] = interpolant(wanted)
+    weights[:, distinct] = _interpolation_weights(known[distinct], wanted)
     used = weights.any(axis=0)
     weights = np.ascontiguousarray(weights[:, used])
     starts = np.empty((len(wanted), rows.size))
     for columns, block in rows.select(used).blocks():
         starts[:, columns] = weights @ block
     return starts
+
+
+def _interpolation_weights(points: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Weights (j, k) of distinct points (k, p): of thin plates, where the points carry them.
+
+    Thin plates have half the error of the linear functions, and save one in twenty evaluations of
+    the Dragon. They need points in all directions, several times as many as there are.
+    """
+    linear = _radial_weights(points, wanted, kernel="linear", degree=0)
+    if len(points) < ENOUGH_FOR_PLATES * points.shape[1]:
+        return linear
+    try:
+        plates = _radial_weights(points, wanted, kernel="thin_plate_spline", degree=1)
+    except np.linalg.LinAlgError:  # neighbours in one plane
+        return linear
+    # and in nearly one plane weights are large and of both signs
+    steady = np.abs(plates).sum(axis=1) < WILDEST_WEIGHTS
+    return np.where(steady[:, None], plates, linear)
+
+
+def _radial_weights(
+    points: FloatArray, wanted: FloatArray, *, kernel: Kernel, degree: int
+) -> FloatArray:
+    neighbours = min(NEIGHBOURS, len(points))
+    data = np.eye(len(points))
+    interpolant = RBFInterpolator(points, data, kernel=kernel, degree=degree, neighbors=neighbours)
+    return np.asarray(interpolant(wanted), np.float64)
 
 
 def lower_start(

@@ -47,6 +47,29 @@ def test_interpolation_between_equal_shapes_is_that_shape() -> None:
     np.testing.assert_allclose(starts, shapes[:5], atol=1e-12)
 
 
+def test_many_samples_carry_what_is_linear_in_the_parameters() -> None:
+    rng = np.random.default_rng(4)
+    known, wanted = rng.random((40, 3)), rng.random((6, 3))
+    slopes = rng.normal(size=(3, 9))
+    starts = interpolated_start(known, rows_of(known @ slopes + 1.0), wanted)
+    np.testing.assert_allclose(starts, wanted @ slopes + 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize("thickness", [0.0, 1e-14, 1e-9, 1e-7])
+def test_samples_in_a_plane_are_enough(thickness: float) -> None:
+    """As a path or a slice of the domain; a start off the plane stays between the shapes."""
+    rng = np.random.default_rng(5)
+    known, wanted = rng.random((40, 3)), rng.random((6, 3))
+    known[:, 2] = 0.5 + thickness * rng.normal(size=40)
+    shapes = np.hstack([known, np.ones((40, 6))])
+    starts = interpolated_start(known, rows_of(shapes), wanted)
+    assert np.isfinite(starts).all()
+    np.testing.assert_allclose(starts[:, :2], wanted[:, :2], atol=0.5)
+    np.testing.assert_allclose(
+        starts[:, 2:], np.array([0.5, *[1.0] * 6])[None].repeat(6, 0), atol=0.1
+    )
+
+
 def test_one_known_sample_is_every_start() -> None:
     shapes = np.ones((1, 9))
     starts = interpolated_start(np.full((1, 6), 0.5), rows_of(shapes), np.zeros((3, 6)))
