@@ -118,9 +118,12 @@ def growing_models(
 def _loosened(
     options: SolverOptions, problem: PosingProblem | InterpolationProblem
 ) -> SolverOptions:
-    """By the energy: loose samples are far from settling, and what counts is how far."""
-    tolerance = options.tolerance or problem.snapshot_tolerance
-    return replace(options, tolerance=FIRST_SLACK * tolerance, settling=None)
+    """By the energy: loose samples are far from settling, and what counts is how far.
+
+    Without soft modes: to find them takes longer than they save so few samples.
+    """
+    tolerance = FIRST_SLACK * (options.tolerance or problem.snapshot_tolerance)
+    return replace(options, tolerance=tolerance, settling=None, soft_modes=False)
 
 
 @dataclass(frozen=True)
