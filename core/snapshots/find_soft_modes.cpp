@@ -121,7 +121,7 @@ std::optional<Ritz> rayleigh_ritz(const Gram& gram) {
   const auto inverse = lengths.cwiseInverse().asDiagonal();
   const Small scalar = inverse * gram.scalar * inverse, hessian = inverse * gram.hessian * inverse;
   const Eigen::LLT<Small> factor(scalar);  // of lower triangles, as everything here
-  constexpr double kDependent = 1e-2;      // squared: of products in single precision
+  constexpr double kDependent = 1e-2;      // least root of a pivot; products are of 1e-6
   if (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().minCoeff() < kDependent)
     return std::nullopt;
   const Eigen::GeneralizedSelfAdjointEigenSolver<Small> solver(hessian, scalar);

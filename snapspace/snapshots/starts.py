@@ -47,7 +47,8 @@ def interpolated_start(known: FloatArray, rows: DisplacementRows, wanted: FloatA
 
     Arguments and result as for `nearest_start`. On 32 samples of the Dragon after 48 finished ones
     such starts need 82 evaluations each, against 105 from the nearest sample and 145 from the rest
-    shape. With fewer than two distinct samples the result is that of `nearest_start`.
+    shape (without soft modes). With fewer than two distinct samples the result is that of
+    `nearest_start`.
     """
     # the interpolant needs distinct points, but a sample may repeat another one or the rest pose
     distinct = np.sort(np.unique(known.round(9), axis=0, return_index=True)[1])
