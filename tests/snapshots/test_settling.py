@@ -9,26 +9,18 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import (
-    HandleBox,
-    Handles,
     PosingProblem,
     Snapshots,
     SolverOptions,
-    generators,
     sample,
     solve_snapshots,
 )
 from snapspace.mesh import mass_norms
 from snapspace.snapshots.solver_options import SETTLED_TOLERANCE
 
+from .creatures import posing_creature
+
 SAMPLES = 24
-
-
-def creature(tets: int) -> PosingProblem:
-    mesh = generators.creature(tets)
-    parts = generators.creature_handles(mesh)
-    handles = Handles([parts["feet"], parts["head"]])
-    return PosingProblem(mesh, handles, domain=HandleBox(translation=0.3, angle=np.pi / 4))
 
 
 def solved(problem: PosingProblem, **options: Any) -> Snapshots:
@@ -51,7 +43,7 @@ def errors(snapshots: Snapshots, limit: Snapshots) -> NDArray[np.float64]:
 
 @pytest.fixture(scope="module")
 def small() -> PosingProblem:
-    return creature(5_000)
+    return posing_creature(5_000)
 
 
 def test_it_bounds_what_is_left(small: PosingProblem) -> None:
@@ -66,7 +58,7 @@ def test_it_bounds_what_is_left(small: PosingProblem) -> None:
 
 def test_its_cost_sees_less_of_the_mesh(small: PosingProblem) -> None:
     """The energy of a finer mesh goes on falling when its shape has settled."""
-    large = creature(30_000)
+    large = posing_creature(30_000)
     settled, by_energy = (
         evaluations(solved(large, **how)) / evaluations(solved(small, **how))
         for how in ({"settling": 2e-3}, {"tolerance": 1e-6})

@@ -16,7 +16,6 @@ from snapspace import (
     Snapshots,
     SolverOptions,
     TetMesh,
-    generators,
     sample,
     solve_snapshots,
 )
@@ -24,18 +23,12 @@ from snapspace import _core as core
 from snapspace.mesh import mass_norms
 
 from .bars import posing_bar
+from .creatures import posing_creature
 
 FloatArray = NDArray[np.float64]
 
 #: What the core multiplies eigenvalues with: solutions are stiffer than the rest shape.
 STIFFENING = 40.0
-
-
-def creature(tets: int) -> PosingProblem:
-    mesh = generators.creature(tets)
-    parts = generators.creature_handles(mesh)
-    handles = Handles([parts["feet"], parts["head"]])
-    return PosingProblem(mesh, handles, domain=HandleBox(translation=0.3, angle=np.pi / 4))
 
 
 def evaluations(snapshots: Snapshots) -> float:
@@ -86,7 +79,7 @@ def test_modes_are_the_same_every_time(small: PosingProblem) -> None:
 
 
 def test_the_minimum_does_not_depend_on_the_seed() -> None:
-    problem = creature(5000)
+    problem = posing_creature(5000)
     samples = 0.3 * sample(problem.domain, 6, method="sobol", seed=1)
     shapes = [
         solve_snapshots(
@@ -102,7 +95,7 @@ def test_the_minimum_does_not_depend_on_the_seed() -> None:
 
 
 def test_fewer_evaluations_leave_smaller_errors() -> None:
-    problem = creature(8000)
+    problem = posing_creature(8000)
     samples = sample(problem.domain, 24, method="sobol", seed=2)
     mass = problem.mass()
 
@@ -131,7 +124,7 @@ def test_a_mesh_with_fewer_unknowns_than_a_block_has_none() -> None:
 
 
 def test_modes_of_another_mesh_are_refused(small: PosingProblem) -> None:
-    other = creature(5000)
+    other = posing_creature(5000)
     with pytest.raises(ValueError, match="the modes are of another system"):
         other.system.solve_fast(
             np.zeros((1, other.system.input_size)),
