@@ -45,7 +45,7 @@ Indices leaf_order(const WeightedGraph& graph) {
 
 /// Appends an order of the graph's vertices, which the caller calls `names`.
 void dissect(const WeightedGraph& graph, const Indices& names, Indices& order) {
-  constexpr std::int32_t kLeaf = 200;
+  constexpr std::int32_t kLeaf = 24;
   const auto append = [&](const Indices& vertices) {
     for (const std::int32_t v : vertices) order.push_back(names[v]);
   };

@@ -90,7 +90,7 @@ std::vector<Side> grown(const WeightedGraph& graph, std::int32_t start) {
 
 /// The lightest of the separators that grow from a few vertices.
 std::vector<Side> best_grown(const WeightedGraph& graph) {
-  constexpr std::int64_t kStarts = 6;
+  constexpr std::int64_t kStarts = 2;
   std::vector<Side> best;
   double least = 0.0;
   for (std::int64_t k = 0; k < kStarts; ++k) {

@@ -8,14 +8,21 @@ namespace snapspace {
 
 namespace {
 
+/// The side to which a pass moves vertices. A separator that goes to one side only sweeps over
+/// hills that it does not climb while vertices go both ways: a tenth of the factor's entries in
+/// bodies.
+enum class Towards : std::int8_t { left, right, either };
+
 class Refinement {
  public:
   Refinement(const WeightedGraph& graph, std::vector<Side>& sides)
       : graph_(graph), sides_(sides), moved_(graph.size()) {
     for (auto& gain : gains_) gain.resize(graph.size());
-    for (std::int32_t v = 0; v < graph.size(); ++v)
+    for (std::int32_t v = 0; v < graph.size(); ++v) {
       weights_[static_cast<int>(sides[v])] += graph.weights[v];
-    most_ = 6 * (weights_[0] + weights_[1] + weights_[2]) / 10;
+      if (sides[v] == Side::separator) members_.push_back(v);
+    }
+    most_ = 7 * (weights_[0] + weights_[1] + weights_[2]) / 10;
   }
 
   [[nodiscard]] double cost() const {
@@ -24,8 +31,14 @@ class Refinement {
     return static_cast<double>(weights_[2]) * (1.0 + 0.5 * uneven * uneven);
   }
 
+  [[nodiscard]] Towards lighter() const {
+    return weights_[0] <= weights_[1] ? Towards::left : Towards::right;
+  }
+
   /// Moves every vertex once at most, also at a loss; what comes after the best state is undone.
-  void run_pass() {
+  void run_pass(Towards towards) {
+    open_[0] = towards != Towards::right;
+    open_[1] = towards != Towards::left;
     std::size_t patience = start_pass(), keep = 0;
     double least = cost();
     while (moves_.size() < keep + patience) {
@@ -54,17 +67,15 @@ class Refinement {
 
   /// Returns how many moves without a better state are enough.
   std::size_t start_pass() {
-    std::fill(moved_.begin(), moved_.end(), 0);
+    ++pass_;
     moves_.clear();
     pulled_.clear();
     for (auto& queue : queues_) queue = {};
-    std::size_t patience = 50;
-    for (std::int32_t v = 0; v < graph_.size(); ++v)
-      if (sides_[v] == Side::separator) {
-        enter(v);
-        patience += 2;
-      }
-    return std::min<std::size_t>(patience, 300);
+    std::sort(members_.begin(), members_.end());
+    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
+    std::erase_if(members_, [&](std::int32_t v) { return sides_[v] != Side::separator; });
+    for (const std::int32_t v : members_) enter(v);
+    return std::min<std::size_t>(25 + 2 * members_.size(), 300);
   }
 
   void put(std::int32_t v, Side side) {
@@ -73,10 +84,16 @@ class Refinement {
     sides_[v] = side;
   }
 
+  [[nodiscard]] bool has_moved(std::int32_t v) const { return moved_[v] == pass_; }
+
+  void queue(std::int32_t v, int side) {
+    if (open_[side] && !has_moved(v)) queues_[side].push({gains_[side][v], v});
+  }
+
   void change_gain(std::int32_t v, int side, std::int32_t change) {
     gains_[side][v] += change;
     // one that fell is put in its place when it comes to the top
-    if (change > 0 && !moved_[v]) queues_[side].push({gains_[side][v], v});
+    if (change > 0) queue(v, side);
   }
 
   /// Gains of a vertex that is in the separator from now on: its own weight, less that of the
@@ -87,7 +104,7 @@ class Refinement {
       if (sides_[u] != Side::separator) pulled[sides_[u] == Side::left] += graph_.weights[u];
     for (int side = 0; side < 2; ++side) {
       gains_[side][v] = graph_.weights[v] - pulled[side];
-      if (!moved_[v]) queues_[side].push({gains_[side][v], v});
+      queue(v, side);
     }
   }
 
@@ -96,7 +113,7 @@ class Refinement {
     auto& queue = queues_[side];
     while (!queue.empty()) {
       const auto [gain, v] = queue.top();
-      const bool free = !moved_[v] && sides_[v] == Side::separator;
+      const bool free = !has_moved(v) && sides_[v] == Side::separator;
       if (free && gains_[side][v] == gain && weights_[side] + graph_.weights[v] <= most_) return v;
       queue.pop();
       if (free && gains_[side][v] < gain) queue.push({gains_[side][v], v});
@@ -106,7 +123,7 @@ class Refinement {
 
   void move(std::int32_t v, int side) {
     moves_.push_back({v, side, pulled_.size()});
-    moved_[v] = 1;
+    moved_[v] = pass_;
     put(v, static_cast<Side>(side));
     for (const std::int32_t u : graph_.around(v)) {
       if (sides_[u] == Side::separator) change_gain(u, 1 - side, -graph_.weights[v]);
@@ -117,6 +134,7 @@ class Refinement {
       for (const std::int32_t w : graph_.around(u))
         if (sides_[w] == Side::separator) change_gain(w, side, graph_.weights[u]);
       put(u, Side::separator);
+      members_.push_back(u);
       enter(u);
     }
   }
@@ -131,24 +149,30 @@ class Refinement {
 
   const WeightedGraph& graph_;
   std::vector<Side>& sides_;
-  std::vector<char> moved_;             // in this pass
+  std::vector<std::int32_t> moved_;     // the last pass that moved a vertex
+  std::vector<std::int32_t> members_;   // of the separator, and some that have left it
   std::vector<std::int32_t> gains_[2];  // of a vertex of the separator when it moves to a side
   std::priority_queue<std::pair<std::int32_t, std::int32_t>> queues_[2];  // former gains as well
   std::vector<Move> moves_;
   std::vector<std::int32_t> pulled_;
   std::int64_t weights_[3] = {};
   std::int64_t most_;  // weight of a side
+  std::int32_t pass_ = 0;
+  bool open_[2] = {};  // whether this pass moves vertices to a side
 };
 
 }  // namespace
 
 double refine_separator(const WeightedGraph& graph, std::vector<Side>& sides) {
-  constexpr int kMaxPasses = 8;
+  constexpr int kMaxPasses = 12;
   Refinement refinement(graph, sides);
-  for (int pass = 0; pass < kMaxPasses; ++pass) {
+  const bool left_first = refinement.lighter() == Towards::left;
+  const Towards turns[] = {left_first ? Towards::left : Towards::right,
+                           left_first ? Towards::right : Towards::left, Towards::either};
+  for (int pass = 0, in_vain = 0; pass < kMaxPasses && in_vain < 3; ++pass) {
     const double before = refinement.cost();
-    refinement.run_pass();
-    if (!(refinement.cost() < before)) break;
+    refinement.run_pass(turns[pass % 3]);
+    in_vain = refinement.cost() < before ? 0 : in_vain + 1;
   }
   return refinement.cost();
 }

@@ -8,6 +8,7 @@
 #include "cholesky/supernodes.h"
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
+#include "snapshots/point.h"
 
 namespace snapspace {
 
@@ -67,9 +68,11 @@ class ScalarFactor {
                             Real* all);
 
   /// Rows below a block lie anywhere in a large vector: they are asked for a few rows early.
+  /// Compilers drop the call of a function that does nothing else, unless they must inline it.
   static constexpr int kRowsAhead = 6;
   template <class Real>
-  static void ask_for(const Real* all, const std::int32_t* rows, int row, int count) {
+  [[gnu::always_inline]] inline static void ask_for(const Real* all, const std::int32_t* rows,
+                                                    int row, int count) {
 #if defined(__GNUC__)
     if (row + kRowsAhead >= count) return;
     const auto* at = reinterpret_cast<const char*>(all + 3 * std::size_t(rows[row + kRowsAhead]));
@@ -93,67 +96,68 @@ class ScalarFactor {
   std::size_t size_ = 0;
 };
 
+// The loops over columns are unrolled: otherwise the unknowns are kept in memory and not in
+// registers, and small blocks take longer for their triangles than for the rows below.
+
 template <int Columns, class Real>
 void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
                            Real* all) {
-  Real x[Columns][3];
-  for (int j = 0; j < Columns; ++j)
-    for (int c = 0; c < 3; ++c) x[j][c] = all[3 * static_cast<std::size_t>(vertices[j]) + c];
+  const auto entries_of = [&](std::int32_t vertex) { return all + 3 * std::size_t(vertex); };
+  Point<Real> x[Columns];
+#pragma GCC unroll 8
+  for (int j = 0; j < Columns; ++j) x[j] = Point<Real>::at(entries_of(vertices[j]));
   l += Columns;
+#pragma GCC unroll 8
   for (int j = 1; j < Columns; ++j)
-    for (int i = 0; i < j; ++i, ++l)
-      for (int c = 0; c < 3; ++c) x[j][c] -= Real(*l) * x[i][c];
-  for (int j = 0; j < Columns; ++j)
-    for (int c = 0; c < 3; ++c) all[3 * static_cast<std::size_t>(vertices[j]) + c] = x[j][c];
+#pragma GCC unroll 8
+    for (int i = 0; i < j; ++i) x[j].subtract(l[j * (j - 1) / 2 + i], x[i]);
+  l += Columns * (Columns - 1) / 2;
+#pragma GCC unroll 8
+  for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
   vertices += Columns;
   for (int row = 0; row < block.below; ++row, l += Columns) {
     ask_for(all, vertices, row, block.below);
-    Real* y = all + 3 * static_cast<std::size_t>(vertices[row]);
-    Real y0 = y[0], y1 = y[1], y2 = y[2];
-    for (int j = 0; j < Columns; ++j) {
-      const Real entry(l[j]);
-      y0 -= entry * x[j][0];
-      y1 -= entry * x[j][1];
-      y2 -= entry * x[j][2];
-    }
-    y[0] = y0;
-    y[1] = y1;
-    y[2] = y2;
+    Real* entries = entries_of(vertices[row]);
+    // two sums: a product is ready four cycles after it has begun, and two begin in each
+    Point<Real> y = Point<Real>::at(entries), odd = Point<Real>::zero();
+#pragma GCC unroll 8
+    for (int j = 0; j < Columns; ++j) (j % 2 ? odd : y).subtract(l[j], x[j]);
+    if constexpr (Columns > 1) y.add(odd);
+    y.store(entries);
   }
 }
 
 template <int Columns, class Real>
 Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
                                  const std::int32_t* vertices, Real* all) {
-  Real x[Columns][3];
-  Sum<Real> product(0.0);
-  for (int j = 0; j < Columns; ++j)
+  const auto entries_of = [&](std::int32_t vertex) { return all + 3 * std::size_t(vertex); };
+  Point<Real> x[Columns];
+  Real product(0);  // of a few vertices: it may be added in the precision of the entries
+#pragma GCC unroll 8
+  for (int j = 0; j < Columns; ++j) {
+    Real* entries = entries_of(vertices[j]);
     for (int c = 0; c < 3; ++c) {
-      const Real w = all[3 * static_cast<std::size_t>(vertices[j]) + c];
-      x[j][c] = Real(l[j]) * w;
-      product += widened(w) * widened(x[j][c]);
+      const Real w = entries[c];
+      entries[c] = Real(l[j]) * w;
+      product += w * entries[c];
     }
-  l += Columns * (Columns + 1) / 2;
-  const Scalar<Real>* entries = l;
-  for (int row = 0; row < block.below; ++row, entries += Columns) {
+    x[j] = Point<Real>::at(entries);
+  }
+  l += Columns;
+  const Scalar<Real>* row_entries = l + Columns * (Columns - 1) / 2;
+  for (int row = 0; row < block.below; ++row, row_entries += Columns) {
     ask_for(all, vertices + Columns, row, block.below);
-    const Real* y = all + 3 * static_cast<std::size_t>(vertices[Columns + row]);
-    const Real y0 = y[0], y1 = y[1], y2 = y[2];
-    for (int j = 0; j < Columns; ++j) {
-      const Real entry(entries[j]);
-      x[j][0] -= entry * y0;
-      x[j][1] -= entry * y1;
-      x[j][2] -= entry * y2;
-    }
+    const auto y = Point<Real>::at(entries_of(vertices[Columns + row]));
+#pragma GCC unroll 8
+    for (int j = 0; j < Columns; ++j) x[j].subtract(row_entries[j], y);
   }
-  for (int j = Columns - 1; j > 0; --j) {
-    l -= j;
-    for (int i = 0; i < j; ++i)
-      for (int c = 0; c < 3; ++c) x[i][c] -= Real(l[i]) * x[j][c];
-  }
-  for (int j = 0; j < Columns; ++j)
-    for (int c = 0; c < 3; ++c) all[3 * static_cast<std::size_t>(vertices[j]) + c] = x[j][c];
-  return product;
+#pragma GCC unroll 8
+  for (int j = Columns - 1; j > 0; --j)
+#pragma GCC unroll 8
+    for (int i = 0; i < j; ++i) x[i].subtract(l[j * (j - 1) / 2 + i], x[j]);
+#pragma GCC unroll 8
+  for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
+  return widened(product);
 }
 
 template <class Real>
