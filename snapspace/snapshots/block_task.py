@@ -60,10 +60,10 @@ def solve_block(task: BlockTask) -> BlockAnswer:
     are not finished then are missing in the answer.
     """
     worker = worker_name()
-    home = HELD_PROBLEMS.home(task.run)
+    home = HELD_PROBLEMS.home(task.run, task.options)
     if home is not None:
         return BlockAnswer(worker, _solved(task, home.problem, home.control))
-    problem = HELD_PROBLEMS.received(task.problem, task.payload)
+    problem = HELD_PROBLEMS.received(task.problem, task.payload, task.options)
     if problem is None:
         return BlockAnswer(worker, None)
     solved, _ = run_interruptible(

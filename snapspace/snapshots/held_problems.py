@@ -11,6 +11,7 @@ from weakref import WeakValueDictionary
 
 from .. import _core as core
 from ..problem import Problem
+from .solver_options import ResolvedOptions
 
 #: A cluster that serves two runs in turns needs no more; a problem with its factor can take GBs.
 _MOST_RECEIVED = 2
@@ -48,16 +49,16 @@ class HeldProblems:
         with self._lock:
             self._homes[run] = home
 
-    def home(self, run: str) -> Home | None:
-        """The home of a run of this process, its system compiled; else None."""
+    def home(self, run: str, options: ResolvedOptions) -> Home | None:
+        """The home of a run of this process, with what its options need compiled; else None."""
         with self._lock:
             home = self._homes.get(run)
             if home is not None:
-                _ = home.problem.system, home.problem.soft_modes
+                _ = home.problem.system, options.modes_of(home.problem)
             return home
 
-    def received(self, key: str, payload: bytes | None) -> Problem | None:
-        """The problem of this key, its system compiled; from the payload if it is not there.
+    def received(self, key: str, payload: bytes | None, options: ResolvedOptions) -> Problem | None:
+        """The problem of this key, with what the options need; from the payload if it is new.
 
         None if it is not there and there is no payload.
         """
@@ -68,8 +69,8 @@ class HeldProblems:
                     return None
                 problem = pickle.loads(payload)
                 assert problem is not None
-                _ = problem.system, problem.soft_modes
                 self._received[key] = problem
+            _ = problem.system, options.modes_of(problem)
             self._received.move_to_end(key)
             while len(self._received) > _MOST_RECEIVED:
                 self._received.popitem(last=False)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from snapspace import InterpolationProblem
+from snapspace.problem import Problem
 from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.held_problems import HeldProblems
 from snapspace.snapshots.solver_options import Solver
@@ -182,10 +183,24 @@ def test_a_problem_lives_no_longer_than_its_run() -> None:
 def test_a_worker_holds_a_few_problems_only() -> None:
     held = HeldProblems()
     payloads = {str(k): pickle.dumps(posing_bar(stiffness=k)) for k in (1.0, 2.0, 3.0)}
-    assert held.received("1.0", None) is None
-    first = held.received("1.0", payloads["1.0"])
-    held.received("2.0", payloads["2.0"])
-    assert held.received("1.0", None) is first, "used last, and not made again"
-    held.received("3.0", payloads["3.0"])
-    assert held.received("2.0", None) is None
-    assert held.received("1.0", None) is first
+
+    def received(key: str, payload: bytes | None = None) -> Problem | None:
+        return held.received(key, payload, OPTIONS)
+
+    assert received("1.0") is None
+    first = received("1.0", payloads["1.0"])
+    received("2.0", payloads["2.0"])
+    assert received("1.0") is first, "used last, and not made again"
+    received("3.0", payloads["3.0"])
+    assert received("2.0") is None
+    assert received("1.0") is first
+
+
+@pytest.mark.parametrize("soft_modes", [True, False])
+def test_a_worker_finds_only_the_modes_that_are_asked_for(soft_modes: bool) -> None:
+    """They cost as much as a few samples."""
+    problem = HeldProblems().received(
+        "key", pickle.dumps(posing_bar()), replace(OPTIONS, soft_modes=soft_modes)
+    )
+    assert problem is not None
+    assert ("soft_modes" in vars(problem)) == soft_modes
