@@ -185,7 +185,7 @@ def _options(
             "--settling",
             type=float,
             help="Converged: the last 8 directions together are below this share of the "
-            "displacement [default: 0.002 for posing without --tolerance, else 0: never].",
+            "displacement [default: 0.01 for posing without --tolerance, else 0: never].",
         ),
         click.option(
             "--max-iterations",

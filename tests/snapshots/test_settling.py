@@ -19,6 +19,7 @@ from snapspace.mesh import mass_norms
 from snapspace.snapshots.solver_options import SETTLED_TOLERANCE
 
 from .creatures import posing_creature
+from .effort import evaluations
 
 SAMPLES = 24
 
@@ -28,10 +29,6 @@ def solved(problem: PosingProblem, **options: Any) -> Snapshots:
     samples = sample(problem.domain, SAMPLES, method="sobol", seed=3)
     how = SolverOptions(block=SAMPLES, **options)
     return solve_snapshots(problem, samples, options=how, threads=1)
-
-
-def evaluations(snapshots: Snapshots) -> float:
-    return float(np.mean([report.evaluations for report in snapshots.reports]))
 
 
 def errors(snapshots: Snapshots, limit: Snapshots) -> NDArray[np.float64]:

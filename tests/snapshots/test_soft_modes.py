@@ -24,15 +24,12 @@ from snapspace.mesh import mass_norms
 
 from .bars import posing_bar
 from .creatures import posing_creature
+from .effort import evaluations
 
 FloatArray = NDArray[np.float64]
 
 #: What the core multiplies eigenvalues with: solutions are stiffer than the rest shape.
 STIFFENING = 40.0
-
-
-def evaluations(snapshots: Snapshots) -> float:
-    return float(np.mean([report.evaluations for report in snapshots.reports]))
 
 
 @pytest.fixture(scope="module")
