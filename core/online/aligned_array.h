@@ -10,10 +10,12 @@ template <class T>
 class AlignedArray {
  public:
   AlignedArray() = default;
-  explicit AlignedArray(std::size_t size) : lines_((size + kPerLine - 1) / kPerLine) {}
+  explicit AlignedArray(std::size_t size) : size_(size), lines_((size + kPerLine - 1) / kPerLine) {}
 
-  [[nodiscard]] T* data() { return lines_.empty() ? nullptr : lines_.front().numbers; }
-  [[nodiscard]] const T* data() const { return lines_.empty() ? nullptr : lines_.front().numbers; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  [[nodiscard]] T* data() { return reinterpret_cast<T*>(lines_.data()); }
+  [[nodiscard]] const T* data() const { return reinterpret_cast<const T*>(lines_.data()); }
 
   T& operator[](std::size_t i) { return data()[i]; }
   const T& operator[](std::size_t i) const { return data()[i]; }
@@ -23,6 +25,7 @@ class AlignedArray {
   struct alignas(64) Line {
     T numbers[kPerLine] = {};
   };
+  std::size_t size_ = 0;
   std::vector<Line> lines_;
 };
 

@@ -2,25 +2,44 @@
 
 #include <algorithm>
 
-#include "online/quartic_passes.h"
-#include "online/symmetric_form.h"
 #include "simd/vectors.h"
 
 namespace snapspace::online {
+
+/// Lists the tiles of each pair of groups.
+struct Quartic::Listing {
+  std::vector<std::vector<Tile>>& tiles;
+
+  template <int First>
+  void diagonal(int g, PairPacks packs, std::size_t place) {
+    tiles[pair_count(g) + g].push_back({First, packs, place});
+  }
+  template <int First>
+  void tile(int g, int h, PairPacks packs, std::size_t place) {
+    tiles[pair_count(h) + g].push_back({First, packs, place});
+  }
+};
 
 Quartic::Quartic(int dimension, Storage storage)
     : capacity_(dimension),
       dimension_(dimension),
       storage_(storage),
       layout_(dimension + 1),
-      coefficients_(storage == Storage::double_precision ? layout_.size(dimension + 1) : 0),
-      singles_(storage == Storage::single_precision ? layout_.size(dimension + 1) : 0),
-      x_(PackedLayout::padded(dimension + 1)),
-      pairs_(PackedLayout::block_size(dimension)),
-      forms_(PackedLayout::block_size(dimension) + kPack),
-      cubic_(layout_.row(dimension + 1) + kPack),
+      tiles_(pair_count(layout_.groups())),
+      coefficients_(storage == Storage::double_precision ? layout_.size() : 0),
+      singles_(storage == Storage::single_precision ? layout_.size() : 0),
+      linear_(dimension + 1),
+      x_(dimension + 1),
+      tile_x_(layout_.groups() * kTile),
+      variables_(dimension + 1),
+      pairs_(layout_.pairs() + kPack),
+      weights_(layout_.pairs() + kPack),
+      cubic_(layout_.form(layout_.groups()) + kPack),
       stride_(PackedLayout::padded(dimension + 1)),
-      rows_(stride_ * (dimension + 1)) {}
+      forms_(stride_ * (dimension + 1 + kTile)),
+      gradient_(stride_) {
+  layout_.visit(layout_.groups(), Listing{tiles_});
+}
 
 Quartic::Quartic(int dimension, const double* coefficients, Storage storage)
     : Quartic(dimension, storage) {
@@ -28,194 +47,203 @@ Quartic::Quartic(int dimension, const double* coefficients, Storage storage)
   combine(1, &one, coefficients);
 }
 
+/// Writes the coefficients of (k, l), which are `block` with zeros behind, where passes read them.
+template <class Stored>
+void Quartic::write_block(int k, int l, const double* block, Stored* to) {
+  const int g = layout_.place(k) / kTile, h = layout_.place(l) / kTile;
+  const int row = layout_.place(k) % kTile, column = layout_.place(l) % kTile;
+  for (const Tile& tile : tiles_[pair_count(h) + g]) {
+    const int r = row - tile.first, c = g == h ? column - tile.first : column;
+    if (r < 0) continue;
+    const int rows = kTile - tile.first;
+    const std::size_t blocks = g == h ? pair_count(rows) : rows * kTile;
+    Stored* at = to + tile.place + (g == h ? pair_count(c) + r : c * rows + r) * kPack;
+    for (int p = tile.packs.begin; p < tile.packs.end; ++p, at += blocks * kPack)
+      std::copy_n(block + p * kPack, kPack, at);
+  }
+}
+
 void Quartic::combine(int terms, const double* weights, const double* coefficients) {
-  const std::size_t total = quartic_count(capacity_ + 1);
+  const int n = capacity_ + 1;
+  const std::size_t total = quartic_count(n);
   double* sums = cubic_.data();
-  for (int l = 0; l <= capacity_; ++l)
+  for (int l = 0; l < n; ++l)
     for (int k = 0; k <= l; ++k) {
       const std::size_t size = pair_count(k + 1);
-      std::fill_n(sums, size, 0.0);
-      for (int t = 0; t < terms; ++t)
+      for (std::size_t i = 0; i < size; ++i) sums[i] = weights[0] * coefficients[i];
+      if (k > 0) std::fill(sums + size, sums + layout_.form_size(layout_.place(k) / kTile), 0.0);
+      for (int t = 1; t < terms; ++t)
         add_scaled(weights[t], coefficients + t * total, sums, static_cast<int>(size));
-      if (storage_ == Storage::double_precision)
-        std::copy_n(sums, size, &coefficients_[layout_.block(k, l)]);
-      else
-        std::copy_n(sums, size, &singles_[layout_.block(k, l)]);
       coefficients += size;
+      if (k == 0)
+        linear_[l] = storage_ == Storage::double_precision ? sums[0] : static_cast<float>(sums[0]);
+      else if (storage_ == Storage::double_precision)
+        write_block(k, l, sums, coefficients_.data());
+      else
+        write_block(k, l, sums, singles_.data());
     }
+  std::fill_n(sums, layout_.form(layout_.groups()), 0.0);  // what evaluations never write is zero
 }
 
 void Quartic::set_variables(const double* q) {
   const int n = dimension_ + 1;
-  std::fill_n(x_.data() + n, PackedLayout::padded(n) - n, 0.0);
   x_[0] = 1.0;
-  std::copy_n(q, dimension_, x_.data() + 1);
+  std::fill(std::copy_n(q, dimension_, x_.data() + 1), x_.data() + capacity_ + 1, 0.0);
+  std::copy_n(x_.data() + 1, capacity_, &tile_x_[layout_.place(1)]);
+  variables_.set(x_.data(), layout_.variable(layout_.groups_of(n)));
   double* pair = pairs_.data();
   for (int j = 0; j < n; ++j)
     for (int i = 0; i <= j; ++i) *pair++ = x_[i] * x_[j];
-  std::fill(pair, pairs_.data() + PackedLayout::block_size(n - 1), 0.0);
-  std::fill_n(forms_.data(), PackedLayout::block_size(n - 1), 0.0);
+  std::fill(pair, pairs_.data() + layout_.pairs(), 0.0);
+  std::fill_n(weights_.data(), layout_.pairs(), 0.0);
+  std::fill_n(forms_.data(), stride_ * (n + kTile), 0.0);
 }
 
-/// forms_kl and, in cubic_, the sum over k and l of x_k x_l times block (k, l).
+[[gnu::always_inline]] inline void Quartic::add_sums(int g, int h, const TileSums& sums) {
+  const int k = layout_.variable(g), l = layout_.variable(h);
+  double forms[kTile * kTile];
+  lane_sums<kTile * kTile>(sums.forms, forms);
+  for (int c = 0; c < kTile; ++c) {
+    double* to = row(l + c) + k;
+    store(to, load<kTile>(to) + load<kTile>(forms + c * kTile));
+  }
+}
+
+/// Forms, and weights: the sum over k and l of x_k x_l times the coefficients of (k, l).
 template <class Stored>
 struct Quartic::PairPass {
   Quartic& self;
   const Stored* coefficients;
 
-  void columns(int, int) {}
-
-  template <int Rows, int Columns>
-  void tile(int k, int l, Range range) {
-    const Stored* blocks[Columns];
-    double forms[Rows * Columns];
-    for (int c = 0; c < Columns; ++c) blocks[c] = coefficients + self.layout_.block(k, l + c);
-    contract_pairs<Rows, Columns>(blocks, PackedLayout::block_size(k), range, self.pairs_.data(),
-                                  &self.x_[k], &self.x_[l], self.cubic_.data(), forms);
-    self.add_forms<Rows, Columns>(k, l, forms);
+  template <int First>
+  void diagonal(int g, PairPacks packs, std::size_t place) {
+    contract<First, true>(g, g, packs, place);
+  }
+  template <int First>
+  void tile(int g, int h, PairPacks packs, std::size_t place) {
+    contract<First, false>(g, h, packs, place);
   }
 
-  void corner(int a) {
-    tile<1, 2>(a, a, {0, PackedLayout::block_size(a)});
-    tile<1, 1>(a + 1, a + 1, {0, PackedLayout::block_size(a)});
+  template <int First, bool Diagonal>
+  void contract(int g, int h, PairPacks packs, std::size_t place) {
+    TileSums sums(&self.tile_x_[g * kTile], &self.tile_x_[h * kTile]);
+    contract_pairs<First, Diagonal>(coefficients + place, packs, self.pairs_.data(),
+                                    self.weights_.data(), sums);
+    self.add_sums(g, h, sums);
   }
-
-  void diagonal(int l) { tile<1, 1>(l, l, {0, PackedLayout::block_size(l)}); }
 };
 
-/// forms_kl and, in block a of cubic_, the sum over l of x_l times block (a, l) and over k of x_k
-/// times block (k, a).
+/// Forms, and in cubic_ for each variable a the sum over l of x_l times the coefficients of (a, l)
+/// and over k of x_k times those of (k, a).
 template <class Stored>
 struct Quartic::CubicPass {
   Quartic& self;
   const Stored* coefficients;
 
-  /// Zeros where sums begin: just before they do, so that they are in the first-level cache.
-  void columns(int l, int count) {
-    std::fill_n(cubic(l), self.layout_.row(l + count) - self.layout_.row(l), 0.0);
+  template <int First>
+  void diagonal(int g, PairPacks packs, std::size_t place) {
+    const FormGroup k = group(g);
+    TileSums sums(k.x, k.x);
+    contract_diagonal<First>(coefficients + place, packs, self.pairs_.data(), k, sums);
+    self.add_sums(g, g, sums);
   }
 
-  template <int Rows, int Columns>
-  void tile(int k, int l, Range range) {
-    const Stored* blocks[Columns];
-    double* cubic_l[Columns];
-    double forms[Rows * Columns];
-    for (int c = 0; c < Columns; ++c) {
-      blocks[c] = coefficients + self.layout_.block(k, l + c);
-      cubic_l[c] = cubic(l + c);
-    }
-    contract_cubic<Rows, Columns>(blocks, PackedLayout::block_size(k), range, self.pairs_.data(),
-                                  &self.x_[k], &self.x_[l], cubic(k), cubic_l, forms);
-    self.add_forms<Rows, Columns>(k, l, forms);
+  template <int First>
+  void tile(int g, int h, PairPacks packs, std::size_t place) {
+    const FormGroup k = group(g), l = group(h);
+    TileSums sums(k.x, l.x);
+    contract_tile<First>(coefficients + place, packs, self.pairs_.data(), k, l, sums);
+    self.add_sums(g, h, sums);
   }
 
-  void corner(int a) {
-    const Stored* blocks[2] = {coefficients + self.layout_.block(a, a),
-                               coefficients + self.layout_.block(a, a + 1)};
-    double forms[4];
-    contract_corner(blocks, PackedLayout::block_size(a), self.pairs_.data(), &self.x_[a], cubic(a),
-                    forms);
-    self.add_forms<1, 2>(a, a, forms);
-    self.add_forms<1, 1>(a + 1, a + 1, forms + 2);
+  FormGroup group(int g) {
+    return {&self.tile_x_[g * kTile], self.cubic_.data() + self.layout_.form(g),
+            self.layout_.form_size(g)};
   }
-
-  void diagonal(int l) {
-    const Stored* block = coefficients + self.layout_.block(l, l);
-    const double two = 2.0;  // as row and as column
-    double form;
-    contract_pairs<1, 1>(&block, 0, {0, PackedLayout::block_size(l)}, self.pairs_.data(),
-                         &self.x_[l], &two, cubic(l), &form);
-    self.add_forms<1, 1>(l, l, &form);
-  }
-
-  double* cubic(int k) { return self.cubic_.data() + self.layout_.row(k); }
 };
 
-template <int Rows, int Columns>
-void Quartic::add_forms(int k, int l, const double* forms) {
-  for (int c = 0; c < Columns; ++c)
-    for (int r = 0; r < Rows; ++r) forms_[pair_count(l + c) + k + r] += forms[c * Rows + r];
+template <template <class> class Pass>
+void Quartic::read_coefficients() {
+  const int groups = layout_.groups_of(dimension_ + 1);
+  if (storage_ == Storage::double_precision)
+    layout_.visit(groups, Pass<double>{*this, coefficients_.data()});
+  else
+    layout_.visit(groups, Pass<float>{*this, singles_.data()});
 }
 
 double Quartic::value_and_gradient(const double* q, double* gradient) {
   set_variables(q);
-  const std::size_t size = PackedLayout::block_size(dimension_);
-  std::fill_n(cubic_.data(), size, 0.0);
-  if (storage_ == Storage::double_precision)
-    visit_blocks(dimension_ + 1, PairPass<double>{*this, coefficients_.data()});
-  else
-    visit_blocks(dimension_ + 1, PairPass<float>{*this, singles_.data()});
-  const double value = form_value();
-  for (std::size_t p = 0; p < size; p += kPack)
-    store(&forms_[p], load<kPack>(&forms_[p]) + load<kPack>(&cubic_[p]));
-  form_gradient(1.0, gradient);
-  return value;
+  read_coefficients<PairPass>();
+  add_weights();
+  add_linear(1.0);
+  return form_gradient(1.0, gradient);
 }
 
 double Quartic::derivatives(const double* q, double* gradient, double* hessian) {
   set_variables(q);
-  if (storage_ == Storage::double_precision)
-    visit_blocks(dimension_ + 1, CubicPass<double>{*this, coefficients_.data()});
-  else
-    visit_blocks(dimension_ + 1, CubicPass<float>{*this, singles_.data()});
-  const double value = form_value();
+  read_coefficients<CubicPass>();
   add_cubic();
-  form_gradient(1.0 / 3.0, gradient);
-  unpack_hessian(hessian);
-  return value;
-}
-
-/// Adds to the forms what cubic_ means for the Hessian: for block a and its form c_ij x_i x_j, the
-/// form's gradient to (a, i), and x_a / 2 times the block itself.
-void Quartic::add_cubic() {
-  const int n = dimension_ + 1;
-  const auto block = [&](int a) { return cubic_.data() + layout_.row(a); };
-  form_gradients<kPack>(block, 0, n, x_.data(), stride_, rows_.data());
-  for (int a = 0; a < n; ++a)
-    for (int i = 0; i <= a; ++i) forms_[pair_count(a) + i] += rows_[a * stride_ + i];
-  const Numbers half(0.5);
-  int a = 0;
-  for (; a + 1 < n; a += 2) {
-    const std::size_t size = PackedLayout::padded(pair_count(a + 1));
-    const Numbers x = half * Numbers(x_[a]), y = half * Numbers(x_[a + 1]);
-    const double *first = block(a), *second = block(a + 1);
-    std::size_t p = 0;
-    for (; p < size; p += kPack)
-      store(&forms_[p],
-            load<kPack>(&forms_[p]) + x * load<kPack>(first + p) + y * load<kPack>(second + p));
-    for (; p < PackedLayout::padded(pair_count(a + 2)); p += kPack)
-      store(&forms_[p], load<kPack>(&forms_[p]) + y * load<kPack>(second + p));
-  }
-  for (std::size_t p = 0; a < n && p < PackedLayout::padded(pair_count(n)); p += kPack)
-    store(&forms_[p], load<kPack>(&forms_[p]) + half * Numbers(x_[a]) * load<kPack>(block(a) + p));
-}
-
-/// gradient = factor * that of the form, by q.
-void Quartic::form_gradient(double factor, double* gradient) {
-  const int n = dimension_ + 1;
-  const auto form = [&](int) { return forms_.data(); };
-  form_gradients<kPack>(form, n - 1, n, x_.data(), stride_, rows_.data());
-  for (int i = 1; i < n; ++i) gradient[i - 1] = factor * rows_[(n - 1) * stride_ + i];
-}
-
-double Quartic::form_value() const {
-  Numbers sum(0.0);
-  for (std::size_t p = 0; p < PackedLayout::block_size(dimension_); p += kPack)
-    sum += load<kPack>(&forms_[p]) * load<kPack>(&pairs_[p]);
-  double value;
-  lane_sums<1>(&sum, &value);
-  return value;
-}
-
-void Quartic::unpack_hessian(double* hessian) const {
+  add_weights();
+  add_linear(3.0);
+  const double value = form_gradient(1.0 / 3.0, gradient);
   const int d = dimension_;
-  const double* row = forms_.data() + 1;
   for (int a = 0; a < d; ++a) {
-    ++row;  // behind the derivative by the constant
-    for (int i = 0; i < a; ++i) hessian[a * d + i] = row[i];
-    hessian[a * d + a] = 2.0 * row[a];
-    row += a + 1;
+    const double* from = row(a + 1) + 1;
+    std::copy_n(from, a, hessian + a * d);
+    hessian[a * d + a] = 2.0 * from[a];
   }
+  return value;
+}
+
+/// Adds to the forms what cubic_ means for the Hessian: for variable a and its form c_ij x_i x_j,
+/// the form's gradient to (a, i), and to the weights x_a / 2 times the form itself.
+void Quartic::add_cubic() {
+  const int groups = layout_.groups_of(dimension_ + 1);
+  std::fill_n(&cubic_[layout_.form(groups)], kPack, 0.0);  // read, and perhaps not finite
+  for (int g = 0; g < groups; ++g) {
+    const int a = layout_.variable(g);
+    const std::size_t size = layout_.form_size(g);
+    const double* forms = &cubic_[layout_.form(g)];
+    for (int r = 0; r < kTile; r += 2) {
+      double* const gradients[2] = {row(a + r), row(a + r + 1)};
+      const auto form_row = [&](int f, int j) { return forms + (r + f) * size + pair_count(j); };
+      add_form_gradients<2>(form_row, a + kTile - 1, variables_, gradients);
+    }
+    Numbers factors[kTile];
+    for (int r = 0; r < kTile; ++r) factors[r] = Numbers(0.5) * Numbers(tile_x_[g * kTile + r]);
+    for (std::size_t p = 0; p < size; p += kPack) {
+      Numbers weight = load<kPack>(&weights_[p]);
+      for (int r = 0; r < kTile; ++r) weight += factors[r] * load<kPack>(forms + r * size + p);
+      store(&weights_[p], weight);
+    }
+  }
+}
+
+/// Adds the weights, which are packed, to the forms.
+void Quartic::add_weights() {
+  const double* from = weights_.data();
+  for (int j = 0; j <= dimension_; from += ++j)
+    for (int i = 0; i <= j; ++i) row(j)[i] += from[i];
+}
+
+/// Adds a form that has, for the linear part, `factor` times the gradient.
+void Quartic::add_linear(double factor) {
+  for (int l = 0; l <= dimension_; ++l) {
+    row(l)[0] += factor * linear_[l];
+    row(0)[0] += factor * linear_[l] * x_[l];
+  }
+}
+
+/// gradient = factor * that of the form, by q. Returns the value of the polynomial that has it.
+double Quartic::form_gradient(double factor, double* gradient) {
+  const int n = dimension_ + 1;
+  std::fill_n(gradient_.data(), stride_, 0.0);
+  double* const gradients[1] = {gradient_.data()};
+  add_form_gradients<1>([&](int, int j) { return row(j); }, dimension_, variables_, gradients);
+  double value = 0.0;
+  for (int i = 0; i < n; ++i) value += x_[i] * gradient_[i];
+  for (int i = 1; i < n; ++i) gradient[i - 1] = factor * gradient_[i];
+  return 0.25 * factor * value;
 }
 
 }  // namespace snapspace::online

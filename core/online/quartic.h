@@ -1,8 +1,11 @@
 #pragma once
 #include <cstddef>
+#include <vector>
 
 #include "online/aligned_array.h"
 #include "online/packed_layout.h"
+#include "online/quartic_tiles.h"
+#include "online/symmetric_form.h"
 
 namespace snapspace::online {
 
@@ -18,9 +21,9 @@ enum class Storage : int { double_precision = 0, single_precision = 1 };
 /// array. They are copied into PackedLayout, and every evaluation reads the copy once.
 ///
 /// Value, gradient and Hessian come out of one pass, because for a form of degree four they are all
-/// the Hessian times x: with H the Hessian by x, the gradient is H x / 3 and the value x^T H x
-/// / 12. The pass makes, for each coefficient, three multiply-adds into sums that stay in the
-/// caches:
+/// the Hessian times x: with H the Hessian by x, the gradient is H x / 3 and the value x . gradient
+/// / 4. The pass makes, for each coefficient, three multiply-adds into sums that stay in registers
+/// and the nearest cache:
 ///   forms_kl   = sum_ij c_ijkl x_i x_j
 ///   cubic_kij += c_ijkl x_l   and   cubic_lij += c_ijkl x_k
 /// From them H follows at the cost of a form of degree three.
@@ -40,7 +43,7 @@ class Quartic {
   /// Restricts the polynomial to the first variables, 1 <= dimension <= capacity.
   void set_dimension(int dimension) { dimension_ = dimension; }
 
-  /// Sets the coefficients to sum_k weights_k coefficients_k.
+  /// Sets the coefficients to sum_k weights_k coefficients_k, one term or more.
   /// @param coefficients  terms x quartic_count(capacity + 1)
   void combine(int terms, const double* weights, const double* coefficients);
 
@@ -51,30 +54,47 @@ class Quartic {
   double derivatives(const double* q, double* gradient, double* hessian);
 
  private:
+  /// Where rows first ... of a tile lie.
+  struct Tile {
+    int first;
+    PairPacks packs;
+    std::size_t place;
+  };
+  struct Listing;
   template <class Stored>
   struct PairPass;
   template <class Stored>
   struct CubicPass;
 
+  template <class Stored>
+  void write_block(int k, int l, const double* block, Stored* to);
+  template <template <class> class Pass>
+  void read_coefficients();
   void set_variables(const double* q);
-  template <int Rows, int Columns>
-  void add_forms(int k, int l, const double* forms);
+  void add_sums(int g, int h, const TileSums& sums);
   void add_cubic();
-  void form_gradient(double factor, double* gradient);
-  [[nodiscard]] double form_value() const;
-  void unpack_hessian(double* hessian) const;
+  void add_weights();
+  void add_linear(double factor);
+  double form_gradient(double factor, double* gradient);
+  /// Row l of the form. Variables that are missing are in front: zeros are added to them.
+  double* row(int l) { return forms_.data() + (l + kTile) * stride_; }
 
   int capacity_, dimension_;
   Storage storage_;
   PackedLayout layout_;
-  AlignedArray<double> coefficients_;  // one of the two is empty
+  std::vector<std::vector<Tile>> tiles_;  // by pairs of groups
+  AlignedArray<double> coefficients_;     // one of the two is empty
   AlignedArray<float> singles_;
-  AlignedArray<double> x_;      // (1, q), then zeros
-  AlignedArray<double> pairs_;  // x_i x_j, j slowest, then zeros
-  AlignedArray<double> forms_;  // by pairs
-  AlignedArray<double> cubic_;  // by blocks
+  AlignedArray<double> linear_;  // coefficients of x_0^3 x_l
+  AlignedArray<double> x_;       // (1, q), then zeros
+  AlignedArray<double> tile_x_;  // by groups, without x_0; zeros where there are none
+  FormVariables<kPack> variables_;
+  AlignedArray<double> pairs_;    // x_i x_j, j slowest, then zeros
+  AlignedArray<double> weights_;  // sums of coefficients by pairs
+  AlignedArray<double> cubic_;    // forms of degree two in the pairs, by variables
   std::size_t stride_;
-  AlignedArray<double> rows_;  // gradients of the forms of cubic_
+  AlignedArray<double> forms_;     // rows l of a form of degree two in x
+  AlignedArray<double> gradient_;  // of that form
 };
 
 }  // namespace snapspace::online

@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "online/packed_layout.h"
+#include "online/aligned_array.h"
 #include "simd/memory.h"
+#include "simd/unrolled.h"
 
 namespace snapspace::online {
 
@@ -18,52 +19,94 @@ struct FirstLanes {
 template <int Width>
 inline constexpr FirstLanes<Width> kFirstLanes;
 
-/// Gradients of the forms sum_{i <= j <= a} form_ij x_i x_j, i fastest, for a = first ... last - 1.
+/// The variables x of forms sum_{i <= j} form_ij x_i x_j, as their gradients need them: in square
+/// tiles of rows j and columns i, of which those on the diagonal are triangles.
+template <int Width>
+class FormVariables {
+ public:
+  explicit FormVariables(int capacity)
+      : nothing_(padded(capacity)),
+        x_(nothing_ + 1),
+        rows_(Width * x_.size()),
+        columns_(rows_.size()) {}
+
+  static constexpr int padded(int count) { return (count + Width - 1) / Width * Width; }
+
+  /// Takes x (n); what is behind becomes zero.
+  void set(const double* x, int n) {
+    std::fill(std::copy_n(x, n, x_.data()), x_.data() + padded(n), 0.0);
+    const Lanes<Width> zero(0.0);
+    for (int j = 0; j < padded(n); ++j) {
+      const int lane = j % Width;
+      const Lanes<Width> mask = load<Width>(kFirstLanes<Width>.ones + Width - 1 - lane);
+      store(&rows_[j * Width], select(mask, Lanes<Width>(x_[j]), zero));
+      store(&columns_[j * Width], select(mask, load<Width>(&x_[j - lane]), zero));
+    }
+  }
+
+  [[nodiscard]] const double* x() const { return x_.data(); }
+  /// A variable that is zero.
+  [[nodiscard]] int nothing() const { return nothing_; }
+  /// x_j in the lanes i <= j of the last tile of row j, else 0.
+  [[nodiscard]] Lanes<Width> row(int j) const { return load<Width>(&rows_[j * Width]); }
+  /// x_i in the same lanes, else 0.
+  [[nodiscard]] Lanes<Width> column(int j) const { return load<Width>(&columns_[j * Width]); }
+
+ private:
+  int nothing_;
+  AlignedArray<double> x_, rows_, columns_;
+};
+
+/// gradients[f] += that of form f with rows j = 0 ... last by x_0 ... x_last, f < Forms.
 ///
-/// Row j of a form, i <= j, adds row * x_j to entries i of the gradient, and row . x to entry j.
-/// Row j of all forms comes before row j + 1 of any: loops of one length after each other are
-/// predicted.
-/// @param form       form(a) is the address of a form; Width numbers behind it are read, too
-/// @param x          `last` numbers, then zeros up to a multiple of 8
-/// @param stride     of the gradients, a multiple of 8, at least `last`
-/// @param gradients  gradients[a * stride + i], i <= a; what is behind is spoilt
-template <int Width, class Form>
-inline void form_gradients(Form&& form, int first, int last, const double* x, std::size_t stride,
-                           double* gradients) {
-  for (int a = first; a < last; ++a)
-    std::fill_n(gradients + a * stride, PackedLayout::padded(a + 1), 0.0);
-  for (int j = 0; j < last; ++j) {
-    const Lanes<Width> x_j(x[j]);
-    const int tail = j / Width * Width;
-    const Lanes<Width> mask = load<Width>(kFirstLanes<Width>.ones + Width - 1 - (j - tail));
-    const Lanes<Width> x_tail = load<Width>(x + tail);
-    const auto row_of = [&](int a) {
-      const double* row = form(a) + pair_count(j);
-      double* gradient = gradients + a * stride;
-      Lanes<Width> dot(0.0);
-      for (int i = 0; i < tail; i += Width) {
-        const Lanes<Width> entries = load<Width>(row + i);
-        dot += entries * load<Width>(x + i);
-        store(gradient + i, load<Width>(gradient + i) + entries * x_j);
-      }
-      // lanes beyond the diagonal belong to the next row
-      const Lanes<Width> entries = select(mask, load<Width>(row + tail), Lanes<Width>(0.0));
-      store(gradient + tail, load<Width>(gradient + tail) + entries * x_j);
-      return dot + entries * x_tail;
-    };
-    int a = std::max(first, j);
-    for (; a + 4 <= last; a += 4) {
-      const Lanes<Width> sums[4] = {row_of(a), row_of(a + 1), row_of(a + 2), row_of(a + 3)};
-      double dots[4];
-      lane_sums<4>(sums, dots);
-      for (int i = 0; i < 4; ++i) gradients[(a + i) * stride + j] += dots[i];
+/// Row j, i <= j, adds row * x_j to entries i of the gradient, and row . x to entry j. Width rows
+/// are taken at once: their sums are in registers, and are added up together. The last row stands
+/// in for those that are missing, times zero, which is faster than a branch.
+/// @param row        row(f, j) is the address of row j; what is behind it up to the next multiple
+///                   of Width is read, and must be finite
+/// @param gradients  what is behind `last` up to the next multiple of Width is spoilt
+template <int Forms, int Width, class Row>
+inline void add_form_gradients(Row&& row, int last, const FormVariables<Width>& x,
+                               double* const* gradients) {
+  for (int block = 0; block <= last; block += Width) {
+    std::ptrdiff_t rows[Width];
+    const double* forms[Forms];
+    int variables[Width];
+    Lanes<Width> dots[Forms * Width], factors[Width], entries[Forms];
+    unrolled<0, Forms>([&](auto f) { forms[f] = row(f, block); });
+    unrolled<0, Width>([&](auto r) {
+      const int j = block + r;
+      rows[r] = row(0, std::min(j, last)) - forms[0];
+      variables[r] = j <= last ? j : x.nothing();
+      factors[r] = Lanes<Width>(x.x()[variables[r]]);
+    });
+    unrolled<0, Forms * Width>([&](auto i) { dots[i] = Lanes<Width>(0.0); });
+    for (int i = 0; i < block; i += Width) {
+      const Lanes<Width> x_i = load<Width>(x.x() + i);
+      unrolled<0, Forms>([&](auto f) { entries[f] = load<Width>(gradients[f] + i); });
+      unrolled<0, Width>([&](auto r) {
+        unrolled<0, Forms>([&](auto f) {
+          Lanes<Width> entry = load<Width>(forms[f] + rows[r] + i);
+          keep_in_register(entry);
+          dots[f * Width + r] += entry * x_i;
+          entries[f] += entry * factors[r];
+        });
+      });
+      unrolled<0, Forms>([&](auto f) { store(gradients[f] + i, entries[f]); });
     }
-    for (; a < last; ++a) {
-      const Lanes<Width> sum = row_of(a);
-      double dot;
-      lane_sums<1>(&sum, &dot);
-      gradients[a * stride + j] += dot;
-    }
+    unrolled<0, Forms>([&](auto f) { entries[f] = load<Width>(gradients[f] + block); });
+    unrolled<0, Width>([&](auto r) {
+      const Lanes<Width> x_row = x.row(variables[r]), x_column = x.column(variables[r]);
+      unrolled<0, Forms>([&](auto f) {
+        const Lanes<Width> entry = load<Width>(forms[f] + rows[r] + block);
+        dots[f * Width + r] += entry * x_column;
+        entries[f] += entry * x_row;
+      });
+    });
+    double sums[Forms * Width];
+    lane_sums<Forms * Width>(dots, sums);
+    unrolled<0, Forms>(
+        [&](auto f) { store(gradients[f] + block, entries[f] + load<Width>(sums + f * Width)); });
   }
 }
 
