@@ -36,6 +36,7 @@ from .problem import (
     in_box,
     in_sphere,
     read_problem,
+    read_problem_surface,
 )
 from .reduction import (
     Cubature,
@@ -128,6 +129,7 @@ __all__ = [
     "matched_scales",
     "pca",
     "read_problem",
+    "read_problem_surface",
     "read_surface",
     "read_tets",
     "reduce",

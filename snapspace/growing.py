@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .mesh import EmbeddedSurface
 from .problem import InterpolationProblem, PosingProblem
 from .reduction import InterpolationModel, PosingModel, reduce
 from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
@@ -55,6 +56,7 @@ def growing_models(
     executor: Executor | None = None,
     known: Snapshots | None = None,
     begins: Callable[[str], None] | None = None,
+    surface: EmbeddedSurface | None = None,
 ) -> Iterator[Growth]:
     """Models of more and more samples: the first after 32 loosely solved ones, the last after all.
 
@@ -72,6 +74,7 @@ def growing_models(
     options, threads, progress, executor, known : as for `solve_snapshots`
     begins : callable, optional
         Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
+    surface : as for `reduce`
 
     Yields
     ------
@@ -82,7 +85,7 @@ def growing_models(
     Raises
     ------
     ValueError
-        For bad samples, or a dimension that exceeds them.
+        For bad samples, a dimension that exceeds them, or a surface of another mesh.
     """
     begin = time.perf_counter()
     samples = np.atleast_2d(np.asarray(parameters, np.float64))
@@ -111,7 +114,7 @@ def growing_models(
         tell("subspace")
         subspace = snapshot_pca(snapshots, dimension=stage.dimension)
         tell("energy")
-        model = reduce(problem, subspace, snapshots=snapshots, threads=threads)
+        model = reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=threads)
         yield Growth(model, snapshots, time.perf_counter() - begin, stage.final, stage.loose)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -22,7 +23,7 @@ from snapspace import (
 from snapspace.generators import cylinder, helix
 
 from .browser import chromium
-from .shapes import bar_problem, interpolation_problem
+from .shapes import bar_problem, interpolation_problem, surface_around
 
 __all__ = ["chromium"]  # a fixture
 
@@ -40,6 +41,12 @@ def posing_model(posing_snapshots: Snapshots) -> ReducedModel:
     subspace = snapshot_pca(posing_snapshots, dimension=20)
     problem = posing_snapshots.problem
     return reduce(problem, subspace, snapshots=posing_snapshots, threads=1)
+
+
+@pytest.fixture(scope="session")
+def own_surface_model(posing_model: PosingModel) -> PosingModel:
+    """The bar inside of a surface of other vertices, some of which are outside of its tets."""
+    return replace(posing_model, surface=surface_around(posing_model.problem.mesh))
 
 
 @pytest.fixture(scope="session")

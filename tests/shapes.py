@@ -8,7 +8,13 @@ from scipy.spatial.transform import Rotation
 
 from snapspace.energy import StVK
 from snapspace.generators import bar, cylinder
-from snapspace.mesh import TetMesh, mass_matrix
+from snapspace.mesh import (
+    EmbeddedSurface,
+    TetMesh,
+    compact_surface,
+    embed_surface,
+    mass_matrix,
+)
 from snapspace.problem import HandleBox, Handles, InterpolationProblem, Poses, PosingProblem
 from snapspace.subspace import AffineSubspace, pca
 
@@ -116,3 +122,13 @@ def mirror_image(mesh: TetMesh) -> NDArray[np.intp]:
     """For each vertex of `symmetric_bar` the one that the mirror y -> -y puts in its place."""
     index = {tuple(vertex): i for i, vertex in enumerate(mesh.vertices.tolist())}
     return np.array([index[x, -y, z] for x, y, z in mesh.vertices.tolist()])
+
+
+def surface_around(mesh: TetMesh) -> EmbeddedSurface:
+    """A box with a finer surface than a bar's, a hundredth larger, embedded in it."""
+    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+    box = bar(20, 5, 5, length=1.0, width=1.0, height=1.0)
+    vertices, faces = compact_surface(box.vertices, box.surface)
+    unit = (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0)
+    larger = low + (high - low) * (1.01 * unit - 0.005)
+    return embed_surface(larger, faces, mesh, farthest=0.1)

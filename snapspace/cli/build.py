@@ -10,9 +10,9 @@ from pathlib import Path
 
 import click
 
-from ..mesh import TetMesh, read_tets
+from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
-from ..problem import PosingProblem, read_problem
+from ..problem import PosingProblem, read_problem, read_problem_surface
 from .choices import Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
@@ -76,11 +76,13 @@ def build(
     """
     begin = time.perf_counter()
     check_output(output)
-    problem, source = _read(problem_file, mesh, repair=repair)
+    problem, surface, source = _read(problem_file, mesh, repair=repair)
     recipe = choices.recipe(problem.domain, dimension=DIMENSION, threads=threads)
     recipe = replace(recipe, energy=method, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
-    built = build_model(problem, recipe, output, source=source, begin=begin, executor=executor)
+    built = build_model(
+        problem, recipe, output, source=source, surface=surface, begin=begin, executor=executor
+    )
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [
@@ -104,10 +106,11 @@ def check_output(output: Path) -> None:
 
 def _read(
     problem_file: Path, mesh_file: Path | None, *, repair: bool
-) -> tuple[PosingProblem, dict[str, str]]:
-    """The problem, and the names of its files without folders."""
+) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, str]]:
+    """The problem, the surface that it names, and the names of its files without folders."""
     mesh: TetMesh | None = None if mesh_file is None else read_tets(mesh_file, repair=repair)
     problem = read_problem(problem_file, mesh=mesh, repair=repair)
     if mesh_file is None:
         mesh_file = Path(json.loads(problem_file.read_text(encoding="utf-8"))["mesh"])
-    return problem, {"problem": problem_file.name, "mesh": mesh_file.name}
+    surface = read_problem_surface(problem_file, problem.mesh)
+    return problem, surface, {"problem": problem_file.name, "mesh": mesh_file.name}

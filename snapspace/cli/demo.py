@@ -107,7 +107,7 @@ def demo(
         assert isinstance(built.model, PosingModel)
         shapes = posed_shapes(built.model)
         save_png(files["png"], contact_sheet(built.model, shapes))
-    write_shape(files["obj"], problem.mesh, shapes[POSE_OF_OBJ])
+    write_shape(files["obj"], built.model, shapes[POSE_OF_OBJ])
     export_html(built.model, files["html"])
     seconds = time.perf_counter() - begin
     notice(f"done in {in_time(seconds)}: {', '.join(str(path) for path in files.values())}")

@@ -77,7 +77,7 @@ def build_model(
     source : dict
         Names of the files it comes from, for the record.
     surface : EmbeddedSurface, optional
-        Interpolation: the user's surface in the tets.
+        The user's surface in the tets.
     begin : float, optional
         `time.perf_counter()` when the work began, for the total. Default: now.
     executor : Executor, optional
@@ -154,8 +154,8 @@ def _reduced(
             problem, subspace, snapshots=snapshots, surface=surface, threads=recipe.threads
         )
     if recipe.energy == "cubature":
-        return hyper_reduce(problem, subspace, snapshots, tets=recipe.tets)
-    return reduce(problem, subspace, snapshots=snapshots, threads=recipe.threads)
+        return hyper_reduce(problem, subspace, snapshots, tets=recipe.tets, surface=surface)
+    return reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=recipe.threads)
 
 
 def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:

@@ -10,10 +10,10 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import TetMesh, write_surface, write_tets
+from ..mesh import write_surface, write_tets
 from ..mesh.input_path import writable_path
 from ..pictures import render, save_png, tint
-from ..reduction import PosingModel
+from ..reduction import PosingModel, ReducedModel
 from .console import notice, print_facts, print_json
 from .files import SURFACE_OUTPUTS, TET_OUTPUTS
 from .loading import load_posing
@@ -92,7 +92,7 @@ def pose(
         "png": None if png is None else str(png),
     }
     if output is not None:
-        write_shape(output, problem.mesh, vertices)
+        write_shape(output, model, vertices)
     if png is not None:
         save_png(png, _picture(model, vertices, up))
     _print_report(figures)
@@ -100,12 +100,12 @@ def pose(
         print_json(figures)
 
 
-def write_shape(path: Path, mesh: TetMesh, vertices: NDArray[np.float64]) -> None:
-    """Writes a pose (n, 3) of a mesh: its surface or its tets, by the extension."""
+def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
+    """Writes a pose (n, 3) of a model: its surface or its tets, by the extension."""
     if path.suffix.lower() in SURFACE_OUTPUTS:
-        write_surface(path, vertices, mesh.surface)
+        write_surface(path, model.surface.vertices(vertices), model.surface.faces)
     else:
-        write_tets(path, mesh, vertices=vertices)
+        write_tets(path, model.problem.mesh, vertices=vertices)
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:
@@ -117,9 +117,13 @@ def _check_outputs(output: Path | None, png: Path | None) -> None:
 
 
 def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
-    problem = model.problem
-    colors = tint(len(vertices), [handle.vertices for handle in problem.handles])
-    return render(vertices, problem.mesh.surface, colors=colors, up=up)
+    surface = model.surface
+    regions = [
+        np.flatnonzero(np.isin(surface.nearest, handle.vertices))
+        for handle in model.problem.handles
+    ]
+    colors = tint(len(surface.corners), regions)
+    return render(surface.vertices(vertices), surface.faces, colors=colors, up=up)
 
 
 def _print_report(figures: dict[str, Any]) -> None:

@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
+from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..reduction import Cubature, HandleQuadric, PosingModel, handle_quadric
+from ..reduction.shown_surface import surface_in
 from ..reduction.training import check_attached, training
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
@@ -41,6 +43,7 @@ def hyper_reduce(
     *,
     tets: int | None = None,
     seed: int = 0,
+    surface: EmbeddedSurface | None = None,
     provenance: dict[str, Any] | None = None,
 ) -> PosingModel:
     """Restricts a posing problem to a subspace, with the energy of few tets instead of all.
@@ -62,6 +65,8 @@ def hyper_reduce(
         fewer.
     seed : int, default 0
         Of the random rows.
+    surface : EmbeddedSurface, optional
+        That pages and files show. Default: that of the tets.
     provenance : dict, optional
         Recorded in the model, with a record of the cubature beside; must be valid JSON.
 
@@ -75,14 +80,15 @@ def hyper_reduce(
     Raises
     ------
     ValueError
-        For a problem that is not one of posing, a subspace of another mesh, too few snapshots, or a
-        number of tets that is not between 1 and that of the mesh.
+        For a problem that is not one of posing, a subspace or surface of another mesh, too few
+        snapshots, or a number of tets that is not between 1 and that of the mesh.
     """
     if not isinstance(problem, PosingProblem):
         raise ValueError(
             f"hyper_reduce: works for posing problems, got a {type(problem).__name__}; use reduce"
         )
     check_attached(problem, subspace, who="hyper_reduce")
+    shown = surface_in(problem.mesh, surface, who="hyper_reduce")
     count = _checked_count(problem, subspace, tets)
     if len(snapshots) < HELD_OUT_SHARE:
         raise ValueError(
@@ -123,6 +129,7 @@ def hyper_reduce(
         subspace=subspace,
         elastic=cubature,
         handles=handles,
+        surface=shown,
         training_parameters=parameters,
         training_coordinates=coordinates,
         provenance={**(provenance or {}), "cubature": record},

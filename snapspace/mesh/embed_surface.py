@@ -12,12 +12,12 @@ from .tet_mesh import TetMesh
 from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
 from .validation import check_indices, check_points
 
-# All relative to the diagonal of the mesh.
-_SAME = 1e-9  # points closer than this are one
-_FARTHEST = 0.02
+_SAME = 1e-9  # points closer than this share of the diagonal are one
 
 
-def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> EmbeddedSurface:
+def embed_surface(
+    vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh, *, farthest: float = 0.02
+) -> EmbeddedSurface:
     """Express a surface by the tets it lies in, so that it follows them.
 
     Parameters
@@ -27,6 +27,9 @@ def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> Embed
     faces : array_like of int, (f, 3)
     mesh : TetMesh
         Filled into the surface. A tetrahedraliser may keep the surface only within an envelope.
+    farthest : float, default 0.02
+        How far outside of the tets a vertex may lie, as a share of the mesh's diagonal. Quick tets
+        cut sharp edges off within an edge length.
 
     Returns
     -------
@@ -42,7 +45,7 @@ def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> Embed
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, or a
-        vertex that lies more than 2 % of the mesh's diagonal outside of it.
+        vertex that lies farther outside of the mesh than is allowed.
 
     Notes
     -----
@@ -59,7 +62,7 @@ def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> Embed
     if count <= len(mesh.vertices) and np.abs(mesh.vertices[:count] - points).max() <= same:
         return single_vertices(triangles, np.arange(count, dtype=np.int32))
     tets, weights = containing_tets(mesh, points)
-    _extrapolate_outside(mesh, points, tets, weights)
+    _extrapolate_outside(mesh, points, tets, weights, farthest)
     corners = mesh.tets[tets]
     # the nearest tet vertex may be of a tet that was not chosen: rounding decides at a vertex
     distance, nearest = cKDTree(mesh.vertices).query(points, distance_upper_bound=same)
@@ -70,20 +73,24 @@ def embed_surface(vertices: ArrayLike, faces: ArrayLike, mesh: TetMesh) -> Embed
 
 
 def _extrapolate_outside(
-    mesh: TetMesh, points: FloatArray, tets: NDArray[np.intp], weights: FloatArray
+    mesh: TetMesh,
+    points: FloatArray,
+    tets: NDArray[np.intp],
+    weights: FloatArray,
+    farthest: float,
 ) -> None:
     """Fill in what `containing_tets` left open."""
     outside = np.flatnonzero(tets < 0)
     if not outside.size:
         return
-    faces, _ = closest_boundary_faces(mesh, points[outside], limit=_FARTHEST * mesh.diagonal)
+    faces, _ = closest_boundary_faces(mesh, points[outside], limit=farthest * mesh.diagonal)
     far = outside[faces < 0]
     if far.size:
         _, distance = closest_boundary_faces(mesh, points[far[:1]], limit=np.inf)
         raise ValueError(
             f"embed_surface: vertex {far[0]} lies {distance[0]:.4g} outside of the tets, "
             f"{distance[0] / mesh.diagonal:.3g} of the mesh's diagonal and more than "
-            f"{_FARTHEST}; {far.size} of {len(points)} vertices affected: give the surface that "
+            f"{farthest:g}; {far.size} of {len(points)} vertices affected: give the surface that "
             "the mesh was filled into, in the same unit and frame, or fill it with "
             "snapspace.fill_surface(vertices, faces)"
         )

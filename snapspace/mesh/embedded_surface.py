@@ -87,6 +87,23 @@ class EmbeddedSurface:
             np.count_nonzero(self.weights) == len(self.weights)
         )
 
+    @cached_property
+    def nearest(self) -> IndexArray:
+        """The tet vertex that each surface vertex follows most, (s,): of its largest weight."""
+        largest = self.weights.argmax(axis=1)
+        nearest: IndexArray = self.corners[np.arange(len(largest)), largest]
+        nearest.setflags(write=False)
+        return nearest
+
+    def is_boundary(self, mesh: TetMesh) -> bool:
+        """Whether this is `boundary_surface(mesh)`."""
+        own = boundary_surface(mesh)
+        return (
+            self.exact
+            and np.array_equal(self.nearest, own.nearest)
+            and np.array_equal(self.faces, own.faces)
+        )
+
     def vertices(self, shape: ArrayLike) -> FloatArray:
         """The surface's vertices for a deformed mesh.
 

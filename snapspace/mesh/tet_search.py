@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from .arrays import FloatArray
+from .arrays import FloatArray, IndexArray
 from .box_tree import BoxTree
 from .closest_point import closest_on_triangles
+from .surface import compact_surface
 from .tet_mesh import TetMesh
 
 Integers = NDArray[np.intp]
@@ -92,12 +93,29 @@ def closest_boundary_faces(
     distances : ndarray, (k,)
         To the face; inf if there is none.
     """
-    triangles = mesh.vertices[mesh.surface]
+    return closest_faces(*compact_surface(mesh.vertices, mesh.surface), points, limit=limit)
+
+
+def closest_faces(
+    vertices: FloatArray, faces: IndexArray, points: FloatArray, *, limit: float
+) -> tuple[Integers, FloatArray]:
+    """The face of a surface closest to each point, as `closest_boundary_faces`.
+
+    Parameters
+    ----------
+    vertices : ndarray, (s, 3)
+        All of faces.
+    faces : ndarray of int, (f, 3)
+    points : ndarray, (k, 3)
+    limit : float
+        Largest distance of interest.
+    """
+    triangles = vertices[faces]
     tree = BoxTree(triangles.min(axis=1), triangles.max(axis=1))
     # the closest vertex bounds the distance of the closest face from above
-    reach, _ = cKDTree(mesh.vertices[mesh.surface_vertices]).query(points)
+    reach, _ = cKDTree(vertices).query(points)
     reach = np.minimum(reach * (1.0 + _ROUNDING), limit)
-    faces, distances = np.full(len(points), -1), np.full(len(points), np.inf)
+    nearest, distances = np.full(len(points), -1), np.full(len(points), np.inf)
     for start in range(0, len(points), _BLOCK):
         here = points[start : start + _BLOCK]
         point, face = tree.within(here, reach[start : start + _BLOCK])
@@ -105,8 +123,8 @@ def closest_boundary_faces(
         distance = np.linalg.norm(offset, axis=1)
         best = _first_of_each(point, distance, face)
         best = best[distance[best] <= limit]
-        faces[start + point[best]], distances[start + point[best]] = face[best], distance[best]
-    return faces, distances
+        nearest[start + point[best]], distances[start + point[best]] = face[best], distance[best]
+    return nearest, distances
 
 
 def least_extrapolated(

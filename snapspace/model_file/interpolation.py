@@ -7,19 +7,17 @@ from typing import Any
 import numpy as np
 
 from ..energy import StVK
-from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, Poses
 from ..reduction import InterpolationModel, coefficient_count
 from ..subspace import AffineSubspace
+from . import shown_surface
 from .container import Arrays, check_shapes
 
 DTYPES: dict[str, type] = {
     "poses": np.float64,
     "tets": np.int32,
     "mean_shape": np.float64,
-    "surface_faces": np.int32,
-    "surface_corners": np.int32,
-    "surface_weights": np.float64,
+    **shown_surface.DTYPES,
     "basis": np.float64,
     "eigenvalues": np.float64,
     "quartics": np.float64,
@@ -34,9 +32,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
         "poses": model.problem.poses.shapes,
         "tets": model.problem.poses.tets,
         "mean_shape": model.subspace.tau,
-        "surface_faces": model.surface.faces,
-        "surface_corners": model.surface.corners,
-        "surface_weights": model.surface.weights,
+        **shown_surface.surface_arrays(model.surface),
         # (d, 3n): a mode is contiguous, and fewer modes are a prefix
         "basis": model.subspace.basis.T,
         "eigenvalues": model.subspace.eigenvalues,
@@ -76,39 +72,23 @@ def interpolation_model(
     )
     n = len(problem.mesh.vertices)
     d, k = len(arrays["basis"]), len(arrays["training_parameters"])
-    s = len(arrays["surface_corners"])
     check_shapes(
         arrays,
         {
             "mean_shape": (3 * n,),
             "basis": (d, 3 * n),
             "quartics": (len(poses), coefficient_count(d)),
-            "surface_corners": (s, 4),
-            "surface_weights": (s, 4),
             "training_parameters": (k, problem.parameter_count),
             "training_coordinates": (k, d),
         },
     )
-    _check_surface(arrays, n)
     mass = problem.mass(lumped=content["lumped_mass"])
     return InterpolationModel(
         problem=problem,
         subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"]),
         coefficients=arrays["quartics"],
-        surface=EmbeddedSurface(
-            arrays["surface_faces"], arrays["surface_corners"], arrays["surface_weights"]
-        ),
+        surface=shown_surface.surface(arrays, problem.mesh),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,
     )
-
-
-def _check_surface(arrays: Arrays, vertices: int) -> None:
-    for name, count in (
-        ("surface_faces", len(arrays["surface_corners"])),
-        ("surface_corners", vertices),
-    ):
-        indices = arrays[name]
-        if indices.size and (indices.min() < 0 or indices.max() >= count):
-            raise ValueError(f"'{name}' has an index that is not between 0 and {count - 1}")

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
-from . import error_estimator, interpolation, posing
+from . import error_estimator, interpolation, posing, shown_surface
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
@@ -81,7 +81,8 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: a model of kind '{kind}', this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    check_dtypes(path, arrays, _DTYPES[kind] | error_estimator.dtypes(arrays))
+    optional = error_estimator.dtypes(arrays) | shown_surface.dtypes(arrays)
+    check_dtypes(path, arrays, _DTYPES[kind] | optional)
     if header.get("checksum") != checksum(arrays, header):
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"

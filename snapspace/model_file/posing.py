@@ -11,6 +11,7 @@ from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
 from ..subspace import AffineSubspace
+from . import shown_surface
 from .container import Arrays, check_shapes
 
 _COMMON: dict[str, type] = {
@@ -32,8 +33,12 @@ CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.
 
 
 def posing_arrays(model: PosingModel) -> Arrays:
-    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES."""
+    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES.
+
+    And those of a surface, unless it is that of the tets.
+    """
     problem = model.problem
+    is_own = not model.surface.is_boundary(problem.mesh)
     sizes = [len(handle.vertices) for handle in problem.handles]
     return {
         "vertices": problem.mesh.vertices,
@@ -49,6 +54,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "handle_S": model.handles.S,
         "training_parameters": model.training_parameters,
         "training_coordinates": model.training_coordinates,
+        **(shown_surface.surface_arrays(model.surface) if is_own else {}),
     }
 
 
@@ -95,6 +101,7 @@ def posing_model(
         subspace=subspace,
         elastic=_elastic(arrays, problem, subspace),
         handles=HandleQuadric(arrays["handle_K"], arrays["handle_L"], arrays["handle_S"]),
+        surface=shown_surface.surface(arrays, problem.mesh),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,

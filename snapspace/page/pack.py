@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh import EmbeddedSurface
 from ..model_file.container import Arrays, container_bytes
 from ..reduction import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
 from .estimator import estimator_arrays
@@ -85,20 +86,15 @@ def _posing_about(model: PosingModel) -> dict[str, Any]:
 
 
 def _posing_arrays(model: PosingModel) -> Arrays:
-    problem, mesh = model.problem, model.problem.mesh
-    surface = mesh.surface_vertices
-    handle_of = np.full(len(mesh.vertices), -1, np.int32)
+    problem, surface = model.problem, model.surface
+    handle_of = np.full(len(problem.mesh.vertices), -1, np.int32)
     for index, handle in enumerate(problem.handles):
         handle_of[handle.vertices] = index
-
-    def on_surface(rows: FloatArray) -> FloatArray:
-        return rows.reshape(len(rows), -1, 3)[:, surface].reshape(len(rows), -1)
-
     return {
-        "base": on_surface(model.subspace.tau[None])[0].astype(np.float32),
-        "faces": np.searchsorted(surface, mesh.surface).astype(np.int32),
-        "handle_of_vertex": handle_of[surface],
-        **_modes("space", on_surface(model.subspace.basis.T)),
+        "base": _on_surface(surface, model.subspace.tau[None])[0].astype(np.float32),
+        "faces": surface.faces,
+        "handle_of_vertex": handle_of[surface.nearest],
+        **_modes("space", _on_surface(surface, model.subspace.basis.T)),
         **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
@@ -113,21 +109,21 @@ def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
 
 
 def _interpolation_arrays(model: InterpolationModel) -> Arrays:
-    problem, tau = model.problem, model.subspace.tau
-
-    def on_surface(rows: FloatArray) -> FloatArray:
-        shapes = [model.surface.vertices(row.reshape(-1, 3)).reshape(-1) for row in rows]
-        return np.array(shapes)
-
+    problem, surface, tau = model.problem, model.surface, model.subspace.tau
     return {
-        "base": on_surface(tau[None])[0].astype(np.float32),
-        "faces": model.surface.faces,
-        **_modes("space", on_surface(model.subspace.basis.T)),
-        **_modes("poses", on_surface(problem.pose_shapes - tau)),
+        "base": _on_surface(surface, tau[None])[0].astype(np.float32),
+        "faces": surface.faces,
+        **_modes("space", _on_surface(surface, model.subspace.basis.T)),
+        **_modes("poses", _on_surface(surface, problem.pose_shapes - tau)),
         "quartics": model.coefficients.astype(np.float32),
         "sample_weights": model.training_parameters.astype(np.float32),
         "sample_coordinates": model.training_coordinates.astype(np.float32),
     }
+
+
+def _on_surface(surface: EmbeddedSurface, rows: FloatArray) -> FloatArray:
+    """Of each row (3n,) what the surface's vertices follow, (k, 3s)."""
+    return np.array([surface.vertices(row).reshape(-1) for row in rows])
 
 
 def _modes(name: str, rows: FloatArray) -> Arrays:

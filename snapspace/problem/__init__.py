@@ -7,7 +7,7 @@ from .motion import affine_offset, euler_of_rotation, rigid_offset, rotation_mat
 from .poses import Poses
 from .posing_problem import PosingProblem
 from .problem import Problem, solutions_beyond_tau
-from .problem_file import problem_content, read_problem
+from .problem_file import problem_content, read_problem, read_problem_surface
 from .region import in_box, in_sphere
 from .simplex import Simplex
 
@@ -26,6 +26,7 @@ __all__ = [
     "in_sphere",
     "problem_content",
     "read_problem",
+    "read_problem_surface",
     "rigid_offset",
     "rotation_matrix",
     "solutions_beyond_tau",

@@ -10,14 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..energy import StVK
-from ..mesh import TetMesh, read_tets
+from ..mesh import EmbeddedSurface, TetMesh, compact_surface, embed_surface, read_surface, read_tets
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
 from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three
 from .posing_problem import PosingProblem
 from .region import in_box, in_sphere
 
-_KEYS = {"mesh", "material", "stiffness", "domain", "handles"}
+_KEYS = {"mesh", "surface", "material", "stiffness", "domain", "handles"}
+# Diagonals of the mesh: a surface in another unit is refused, and nothing that was filled.
+_FARTHEST = 1.0
 _Mask = NDArray[np.bool_]
 
 
@@ -29,7 +31,8 @@ def read_problem(
     Parameters
     ----------
     path : path of a JSON file
-        {"mesh": path relative to the file, "material": {"model": "stvk", "lam", "mu"}, "stiffness",
+        {"mesh": path relative to the file, "surface": path of the surface that models show, see
+        `read_problem_surface`, "material": {"model": "stvk", "lam", "mu"}, "stiffness",
         "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
         "vertices", "domain"}, ...]}. A handle is the union of its boxes [[min corner], [max
         corner]] (null: unbounded), spheres [[x, y, z], radius] and vertices. The first handle is
@@ -57,7 +60,42 @@ def read_problem(
         raise ValueError(message if str(path) in message else f"{path}: {message}") from None
 
 
-def problem_content(problem: PosingProblem, mesh_path: str | None = None) -> dict[str, Any]:
+def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | None:
+    """Reads the surface that a problem file names, and embeds it in the problem's mesh.
+
+    Parameters
+    ----------
+    path : path of a JSON file, see `read_problem`
+    mesh : TetMesh
+        That of the problem, filled into the surface.
+
+    Returns
+    -------
+    EmbeddedSurface or None
+        For `reduce`; vertices without faces are left out. None if the file names no surface.
+
+    Raises
+    ------
+    ValueError
+        If a file cannot be read, or the surface is not that of the mesh: farther from it than its
+        diagonal.
+    """
+    path = Path(path)
+    content = _load(path)
+    if "surface" not in content:
+        return None
+    try:
+        file = path.parent / as_text(content["surface"], "surface")
+        vertices, faces = compact_surface(*read_surface(file))
+        return embed_surface(vertices, faces, mesh, farthest=_FARTHEST)
+    except ValueError as error:
+        message = str(error)
+        raise ValueError(message if str(path) in message else f"{path}: {message}") from None
+
+
+def problem_content(
+    problem: PosingProblem, mesh_path: str | None = None, surface_path: str | None = None
+) -> dict[str, Any]:
     """The problem as the JSON content that `read_problem` takes, handles by vertices."""
     common = problem.domain.common.bounds[0]
     content: dict[str, Any] = {
@@ -72,7 +110,8 @@ def problem_content(problem: PosingProblem, mesh_path: str | None = None) -> dic
     for handle, bounds in zip(content["handles"][1:], problem.domain.bounds, strict=True):
         if (bounds != common).any():
             handle["domain"] = domain_content(bounds)
-    return content if mesh_path is None else {"mesh": mesh_path, **content}
+    files = {"mesh": mesh_path, "surface": surface_path}
+    return {key: file for key, file in files.items() if file is not None} | content
 
 
 def _load(path: Path) -> dict[str, Any]:

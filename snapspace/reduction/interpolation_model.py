@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem
 from .quartic import Quartic, coefficient_count
 from .reduced_model import ReducedModel
@@ -25,7 +24,6 @@ class InterpolationModel(ReducedModel):
 
     Fields as for `ReducedModel`, and
     coefficients : (poses, C(d + 4, 4)), the quartic of every pose as in `Quartic`
-    surface : EmbeddedSurface, the user's surface in the tets
 
     The subspace is M-orthogonal to the translations and infinitesimal rotations of the mean shape,
     because all its snapshots were registered there: the reduced problem has no rigid null
@@ -34,7 +32,6 @@ class InterpolationModel(ReducedModel):
 
     problem: InterpolationProblem
     coefficients: FloatArray
-    surface: EmbeddedSurface
 
     def elastic(self, weights: ArrayLike) -> Quartic:
         """The reduced energy for weights (poses,): the weighted sum of the poses' quartics."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, overload
 
-from ..mesh import EmbeddedSurface, boundary_surface
+from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
@@ -12,6 +12,7 @@ from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
 from .quartic import pose_quartics, reduced_quartic
+from .shown_surface import surface_in
 from .training import check_attached, training
 
 
@@ -21,7 +22,7 @@ def reduce(
     subspace: AffineSubspace,
     *,
     snapshots: Snapshots | None = None,
-    surface: None = None,
+    surface: EmbeddedSurface | None = None,
     threads: int | None = None,
     provenance: dict[str, Any] | None = None,
 ) -> PosingModel: ...
@@ -54,7 +55,7 @@ def reduce(
     snapshots : Snapshots, optional
         Recorded in the model by parameters and coordinates.
     surface : EmbeddedSurface, optional
-        Interpolation only: the surface that sessions and files show. Default: that of the tets.
+        That pages and files show. Default: that of the tets.
     threads : int, optional
         Default: all. The result does not depend on it.
     provenance : dict, optional
@@ -73,24 +74,18 @@ def reduce(
         of another mesh.
     """
     check_attached(problem, subspace, who="reduce")
+    shown = surface_in(problem.mesh, surface, who="reduce")
     parameters, coordinates = training(problem, subspace, snapshots)
     if isinstance(problem, PosingProblem):
-        if surface is not None:
-            raise ValueError("reduce: posing shows the surface of its tets; leave surface out")
         return PosingModel(
             problem=problem,
             subspace=subspace,
             elastic=reduced_quartic(problem.energy, subspace, threads=threads),
             handles=handle_quadric(problem, subspace),
+            surface=shown,
             training_parameters=parameters,
             training_coordinates=coordinates,
             provenance=provenance or {},
-        )
-    shown = surface or boundary_surface(problem.mesh)
-    if len(shown.corners) and shown.corners.max() >= len(problem.mesh.vertices):
-        raise ValueError(
-            f"reduce: the surface follows vertex {shown.corners.max()}, but the mesh has "
-            f"{len(problem.mesh.vertices)} vertices; embed it in the problem's mesh"
         )
     return InterpolationModel(
         problem=problem,

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..certificate import ErrorEstimator
+from ..mesh import EmbeddedSurface
 from ..problem import Problem
 from ..subspace import AffineSubspace
 
@@ -27,6 +28,7 @@ class ReducedModel(ABC):
 
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace, attached to the problem's tau
+    surface : EmbeddedSurface, what pages and files show: the user's surface, or that of the tets
     training_parameters : (k, p) of the solutions that the subspace was made from, or (0, p)
     training_coordinates : (k, d) of their projections, or (0, d)
     provenance : what made it: versions, seeds, options, timings
@@ -35,6 +37,7 @@ class ReducedModel(ABC):
 
     problem: Problem
     subspace: AffineSubspace
+    surface: EmbeddedSurface
     training_parameters: FloatArray
     training_coordinates: FloatArray
     provenance: dict[str, Any] = field(default_factory=dict)

@@ -22,6 +22,7 @@ from .selection import (
     selection_of,
 )
 from .solved_samples import SolvedSamples
+from .surface_regions import SurfaceRegions
 from .turns import Turns
 
 
@@ -42,6 +43,8 @@ class Bench:
         self._savings = Savings()
         self._problem = body.problem
         self._selection: Selection | None = None
+        surface = body.surface
+        self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
         if body.problem is not None:
             self._selection = Selection(body.problem.handles, body.problem.domain)
 
@@ -63,9 +66,10 @@ class Bench:
         if problem is None:
             return known
         bounds = problem.domain.common.bounds[0]
+        choices = choices_of(problem)
         return replace(
             known,
-            handles=choices_of(problem),
+            handles=choices if self._regions is None else self._regions.shown(choices),
             translation=as_vector(bounds[:3]),
             angle=as_vector(bounds[3:]),
         )
@@ -73,6 +77,8 @@ class Bench:
     def choose(self, choice: messages.Choose) -> messages.Chosen:
         """Takes the handles of a message; ValueError if no problem can have them."""
         selection = selection_of(choice)
+        if self._regions is not None:
+            selection = replace(selection, handles=self._regions.in_tets(selection.handles))
         problem = self._of(selection, self._stiffness, self._material)
         self._selection = selection
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
@@ -88,7 +94,13 @@ class Bench:
             material = _with_poisson(material, order.poisson)
         problem = self._of(self._selection, order.stiffness, material)
         computation = Computation(
-            problem, order, turns=turns, solved=self._solved, report=report, publish=publish
+            problem,
+            order,
+            turns=turns,
+            solved=self._solved,
+            report=report,
+            surface=self.body.surface,
+            publish=publish,
         )
         self._problem = problem
         return computation

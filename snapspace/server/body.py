@@ -8,13 +8,24 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..interruptible import check_stop
-from ..mesh import SURFACE_SUFFIXES, TET_SUFFIXES, TetMesh, read_surface, read_tets
+from ..mesh import (
+    SURFACE_SUFFIXES,
+    TET_SUFFIXES,
+    EmbeddedSurface,
+    TetMesh,
+    compact_surface,
+    embed_surface,
+    read_surface,
+    read_tets,
+)
 from ..mesh.input_path import existing_file
-from ..problem import PosingProblem, read_problem
+from ..problem import PosingProblem, read_problem, read_problem_surface
 from .surface_filling import SurfaceFilling
 
 PROBLEM_SUFFIX = ".json"
 MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
+# Diagonals: all of a surface is carried along, also a crumb that filling has lost.
+_FARTHEST = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +37,8 @@ class Body:
     file : Path of the tets, or None if they are in no file of the user
     folder : Path where files are saved
     problem : PosingProblem with the handles to begin with, or None
+    surface : EmbeddedSurface that was filled, which is shown in place of the tets'; or None
+    surface_file : Path of the surface, or None if it is in no file of the user
     """
 
     name: str
@@ -33,17 +46,23 @@ class Body:
     file: Path | None
     folder: Path
     problem: PosingProblem | None = None
+    surface: EmbeddedSurface | None = None
+    surface_file: Path | None = None
 
 
 def problem_body(path: Path) -> Body:
-    """The mesh and the handles of a problem file; ValueError if it cannot be read."""
+    """Mesh, handles and surface of a problem file; ValueError if something cannot be read."""
     problem = read_problem(path)
+    surface = read_problem_surface(path, problem.mesh)
+    files = json.loads(path.read_text(encoding="utf-8"))
     return Body(
         name=path.stem,
         mesh=problem.mesh,
-        file=(path.parent / json.loads(path.read_text(encoding="utf-8"))["mesh"]).resolve(),
+        file=(path.parent / files["mesh"]).resolve(),
         folder=path.resolve().parent,
         problem=problem,
+        surface=surface,
+        surface_file=None if surface is None else (path.parent / files["surface"]).resolve(),
     )
 
 
@@ -70,10 +89,18 @@ def mesh_body(
     stage("reading")
     if path.suffix.lower() in TET_SUFFIXES:
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
-    vertices, faces = read_surface(path)
+    vertices, faces = compact_surface(*read_surface(path))
     check_stop()
     try:
         mesh = (filling or SurfaceFilling()).fill(vertices, faces, stage=stage)
+        surface = embed_surface(vertices, faces, mesh, farthest=_FARTHEST)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
-    return Body(name=path.stem, mesh=mesh, file=None, folder=folder)
+    return Body(
+        name=path.stem,
+        mesh=mesh,
+        file=None,
+        folder=folder,
+        surface=surface,
+        surface_file=path.resolve(),
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 from ..growing import Growth, growing_models
+from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..sampling import sample
 from ..snapshots import Interrupted, SolveProgress
@@ -31,6 +32,8 @@ class Computation:
     solved : SolvedSamples
         What is known, and where finished samples are kept, also when this is stopped.
     report : Reporter
+    surface : EmbeddedSurface or None
+        That the models show, in place of the tets'.
     publish : callable
         Gets each model, the expected error of unseen samples or None, and the seconds.
 
@@ -48,12 +51,13 @@ class Computation:
         turns: Turns,
         solved: SolvedSamples,
         report: Reporter,
+        surface: EmbeddedSurface | None,
         publish: Publish,
     ) -> None:
         _check(order)
         self._problem, self._order = problem, order
         self._turns, self._solved = turns, solved
-        self._report, self._publish = report, publish
+        self._report, self._surface, self._publish = report, surface, publish
         self._before = 0  # samples of earlier stages, which the present one does not solve
         self._error: float | None = None
 
@@ -81,6 +85,7 @@ class Computation:
             progress=self._solving,
             known=self._solved.starts(self._problem),
             begins=self._begins,
+            surface=self._surface,
         )
 
     def _take(self, growth: Growth) -> None:

@@ -6,37 +6,38 @@ import json
 
 import numpy as np
 
-from ..mesh import TetMesh
 from ..model_file.container import container_bytes
 from ..page.pack import FORMAT, VERSION
+from .body import Body
 
 
-def packed_mesh(mesh: TetMesh, *, name: str, up: str) -> bytes:
-    """All vertices, also those inside, and the faces of the surface.
+def packed_mesh(body: Body, *, up: str) -> bytes:
+    """The vertices that handles are chosen of, and the faces of the surface.
 
     Parameters
     ----------
-    mesh : TetMesh
-    name : str
-        Shown as the title.
+    body : Body
+        Of a surface all vertices and its own faces. Else all vertices of the tets, also those
+        inside, and the faces of their surface.
     up : "x", "y" or "z"
         Axis that points up at first.
 
     Returns
     -------
     bytes
-        safetensors layout: vertices (n, 3) float32, faces (f, 3) int32, outward, with indices among
-        all vertices.
+        safetensors layout: vertices (n, 3) float32, faces (f, 3) int32 with indices among all
+        vertices.
     """
-    about = {"name": name, "up": up, "diagonal": mesh.diagonal}
+    mesh, surface = body.mesh, body.surface
+    vertices, faces = mesh.vertices, mesh.surface
+    if surface is not None:
+        vertices, faces = surface.vertices(mesh.vertices), surface.faces
+    about = {"name": body.name, "up": up, "diagonal": mesh.diagonal}
     header = {
         "format": FORMAT,
         "version": str(VERSION),
         "kind": "mesh",
         "about": json.dumps(about, sort_keys=True),
     }
-    arrays = {
-        "vertices": mesh.vertices.astype(np.float32),
-        "faces": mesh.surface.astype(np.int32),
-    }
+    arrays = {"vertices": vertices.astype(np.float32), "faces": faces.astype(np.int32)}
     return container_bytes(arrays, header)

@@ -18,7 +18,7 @@ class HandleChoice:
     """A handle as the page chose it, or as a problem file has it.
 
     name : unique among the handles
-    vertices : indices among all vertices of the mesh, also those inside
+    vertices : indices among all vertices of the packed mesh, also those inside
     moving : whether it moves while sampling; one handle at least does not
     translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
         common ones
@@ -88,7 +88,7 @@ class Cancel:
 
 @dataclass(frozen=True, kw_only=True)
 class Save:
-    """Page: save the problem, the newest model, and a mesh that was filled. Answered by `Saved`.
+    """Page: save the problem, the newest model, and what is in no file yet. Answered by `Saved`.
 
     name : of the files, without folder or ending; null: the mesh's
     """
@@ -231,13 +231,14 @@ class Failed:
 class Saved:
     """Server: what was written.
 
-    problem, model, mesh : paths; null for what there is not
+    problem, model, mesh, surface : paths; null for what there is not
     """
 
     request: int
     problem: str | None
     model: str | None
     mesh: str | None
+    surface: str | None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..reduction import InterpolationModel, ReducedModel
+from ..reduction import ReducedModel
 from ..session import BlendingSession, PosingSession
 from .messages import Polish, Polished
 
@@ -48,7 +48,7 @@ class Polishing:
         elif isinstance(session, BlendingSession):
             session.put(order.weights, order.q)
         done = session.polish(iterations=order.iterations)
-        shown = self._shown(done.vertices).astype("<f4")
+        shown = self.model.surface.vertices(done.vertices).astype("<f4")
         request = np.array([order.request], "<i4")
         return request.tobytes() + shown.tobytes(), Polished(
             request=order.request,
@@ -57,9 +57,3 @@ class Polishing:
             status=done.report.status,
             seconds=done.seconds,
         )
-
-    def _shown(self, vertices: np.ndarray) -> np.ndarray:
-        """Of all vertices those that the packed model has, in its order."""
-        if isinstance(self.model, InterpolationModel):
-            return self.model.surface.vertices(vertices)
-        return vertices[self.model.problem.mesh.surface_vertices]

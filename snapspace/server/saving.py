@@ -9,9 +9,10 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
-from ..mesh import write_tets
+from ..mesh import EmbeddedSurface, TetMesh, write_surface, write_tets
 from ..mesh.atomic_file import atomic_file
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
@@ -19,7 +20,7 @@ from ..reduction import ReducedModel
 from .body import PROBLEM_SUFFIX, Body
 from .messages import Saved
 
-MESH_SUFFIX = ".msh"
+MESH_SUFFIX, SURFACE_SUFFIX = ".msh", ".obj"
 LONGEST = 100
 
 
@@ -41,7 +42,7 @@ class Savings:
         name: str | None,
         request: int,
     ) -> Saved:
-        """Writes problem file, model, and the mesh if it is in no file yet.
+        """Writes problem file, model, and mesh and surface if they are in no file yet.
 
         Parameters
         ----------
@@ -68,12 +69,22 @@ class Savings:
         suffixes = [PROBLEM_SUFFIX]
         suffixes += [] if model is None else [SUFFIX]
         suffixes += [] if body.file is not None else [MESH_SUFFIX]
+        surface = None if body.surface_file is not None else body.surface
+        suffixes += [] if surface is None else [SURFACE_SUFFIX]
         named = body.name if name is None else checked_name(name)
         with self._held(folder, named, suffixes) as stem:
             mesh = folder / f"{stem}{MESH_SUFFIX}" if body.file is None else body.file
             if body.file is None:
                 self._write(mesh, lambda path: write_tets(path, body.mesh))
-            content = problem_content(problem, os.path.relpath(mesh, folder))
+            shown = body.surface_file
+            if surface is not None:
+                shown = folder / f"{stem}{SURFACE_SUFFIX}"
+                self._write(shown, partial(_write_surface, surface, body.mesh))
+            content = problem_content(
+                problem,
+                os.path.relpath(mesh, folder),
+                None if shown is None else os.path.relpath(shown, folder),
+            )
             file = folder / f"{stem}{PROBLEM_SUFFIX}"
             self._write(file, lambda path: _write_text(path, json.dumps(content) + "\n"))
             model_file = folder / f"{stem}{SUFFIX}"
@@ -84,6 +95,7 @@ class Savings:
             problem=str(file),
             model=None if model is None else str(model_file),
             mesh=str(mesh) if body.file is None else None,
+            surface=None if surface is None else str(shown),
         )
 
     @contextlib.contextmanager
@@ -150,6 +162,10 @@ def plain_name(name: str) -> str:
     last = re.split(r"[/\\]", name)[-1]
     cleaned = re.sub(r"[^\w .+()-]", "_", last).strip(" .-")
     return cleaned[-LONGEST:].lstrip(" .-") or "mesh"
+
+
+def _write_surface(surface: EmbeddedSurface, mesh: TetMesh, path: Path) -> None:
+    write_surface(path, surface.vertices(mesh.vertices), surface.faces)
 
 
 def _write_text(path: Path, text: str) -> None:

@@ -73,7 +73,7 @@ class Workspace:
                 raise ValueError(str(error).replace(str(path), path.name)) from None
             finally:
                 shutil.rmtree(path.parent, ignore_errors=True)
-            return replace(body, file=None, folder=self._site.folder)
+            return replace(body, file=None, surface_file=None, folder=self._site.folder)
 
         with self._lock:
             if self._closed:  # the page went while its file came
@@ -94,7 +94,7 @@ class Workspace:
         bench = self._bench
         if bench is None or number != self._meshes:
             return None
-        return packed_mesh(bench.body.mesh, name=bench.body.name, up=self._site.up)
+        return packed_mesh(bench.body, up=self._site.up)
 
     def model_content(self, number: int) -> bytes | None:
         """The packed model of an address; None if it is not kept any more."""

@@ -38,8 +38,8 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "subspace",
     },
-    "cubature": {"blas", "problem", "reduction", "snapshots", "subspace"},
-    "growing": {"problem", "snapshots", "subspace", "reduction"},
+    "cubature": {"blas", "mesh", "problem", "reduction", "snapshots", "subspace"},
+    "growing": {"mesh", "problem", "snapshots", "subspace", "reduction"},
     "greedy": {
         "_core",
         "interruptible",

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from safetensors.numpy import load_file
 
-from snapspace import load, read_problem, sample, write_tets
+from snapspace import load, read_problem, sample, write_surface, write_tets
 
+from ..shapes import surface_around
 from .conftest import Run
 from .files import bar_mesh, contents, write_problem, write_raw
 
@@ -78,6 +79,20 @@ def test_a_mesh_argument_replaces_the_mesh_of_the_problem(run: Run, tmp_path: Pa
     words = ("build", "--problem", problem, tmp_path / "finer.vtu", *SMALL, "-o", path, "--json")
     assert run(*words).json["tets"] == 240
     assert load(path).provenance["mesh"] == "finer.vtu"
+
+
+@pytest.mark.parametrize("method", ["quartic", "cubature"])
+def test_a_surface_that_the_problem_names_is_in_the_model(
+    run: Run, tmp_path: Path, method: str
+) -> None:
+    surface, mesh = surface_around(bar_mesh()), bar_mesh()
+    write_surface(tmp_path / "own.obj", surface.vertices(mesh.vertices), surface.faces)
+    problem, path = write_problem(tmp_path, surface="own.obj"), tmp_path / "m.snapspace"
+    assert run("build", "--problem", problem, *SMALL, "--method", method, "-o", path).code == 0
+    found = load(path).surface
+    assert np.array_equal(found.faces, surface.faces)
+    moved = found.vertices(1.5 * mesh.vertices + 1.0)
+    assert moved == pytest.approx(1.5 * surface.vertices(mesh.vertices) + 1.0, abs=1e-9)
 
 
 def test_energy_fraction_chooses_the_dimension(run: Run, tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from snapspace import load, read_surface, read_tets
+from snapspace import PosingModel, load, read_surface, read_tets
 from snapspace.pictures import render
 from snapspace.problem import rotation_matrix
 
@@ -30,6 +30,21 @@ def test_a_pose_is_that_of_the_session(run: Run, model: Path, tmp_path: Path) ->
     assert figures["value"] == report.value
     assert 0 < figures["solve_ms"] <= figures["frame_ms"]
     assert figures["inverted_tets"] == load(model).problem.energy.inverted_tets(session.vertices)
+
+
+def test_the_surface_of_the_user_is_posed_and_pictured(
+    run: Run, own_surface_model: PosingModel, tmp_path: Path
+) -> None:
+    path = own_surface_model.save(tmp_path / "own.snapspace")
+    motion = ("--handle", "head", "--translate", "0,0,0.3")
+    run("pose", path, *motion, "-o", tmp_path / "out.obj", "--png", tmp_path / "out.png")
+    session, surface = own_surface_model.session(), own_surface_model.surface
+    session.pose(np.array([0, 0, 0.3, *[0] * 9]))
+    vertices, faces = read_surface(tmp_path / "out.obj")
+    assert np.array_equal(faces, surface.faces)
+    expected = surface.vertices(session.vertices)
+    assert np.abs(vertices - expected).max() < 1e-9 * own_surface_model.problem.mesh.diagonal
+    assert (tmp_path / "out.png").stat().st_size > 1000
 
 
 @pytest.mark.parametrize(

@@ -118,6 +118,19 @@ def test_units_and_frames_do_not_matter() -> None:
     assert moved.weights == pytest.approx(surface.weights, abs=1e-9)
 
 
+def test_what_is_far_outside_is_carried_along_where_that_is_allowed() -> None:
+    mesh = box_mesh((3, 2, 2), (1.0, 0.7, 0.9))
+    points = near(mesh, 80, seed=8, outside=0.5)
+    with pytest.raises(ValueError, match="outside of the tets"):
+        embed_surface(points, NO_FACES, mesh)
+    surface = embed_surface(points, NO_FACES, mesh, farthest=1.0)
+    matrix, shift = affine(8)
+    moved = surface.vertices(mesh.vertices @ matrix.T + shift)
+    assert moved == pytest.approx(points @ matrix.T + shift, abs=1e-11)
+    # within two edges of a tet its coordinates are of the order of two
+    assert np.abs(surface.weights).max() < 4.0
+
+
 @pytest.mark.parametrize(
     ("vertices", "faces", "message"),
     [

@@ -4,7 +4,13 @@ import numpy as np
 import pytest
 from numpy.typing import ArrayLike
 
-from snapspace.mesh import EmbeddedSurface, boundary_surface, compact_surface, vertex_normals
+from snapspace.mesh import (
+    EmbeddedSurface,
+    boundary_surface,
+    compact_surface,
+    embed_surface,
+    vertex_normals,
+)
 
 from .boxes import box_mesh, irregular_mesh
 
@@ -129,3 +135,19 @@ def test_refuses_shapes_of_another_mesh(shape: np.ndarray, message: str) -> None
         surface.vertices(shape)
     with pytest.raises(ValueError, match="has 4 vertices"):
         surface.matrix(4)
+
+
+def test_each_vertex_follows_the_corner_of_its_largest_weight_most() -> None:
+    assert EmbeddedSurface(FACE, CORNERS, WEIGHTS).nearest.tolist() == [0, 4, 2]
+    mesh = irregular_mesh()
+    assert np.array_equal(boundary_surface(mesh).nearest, mesh.surface_vertices)
+
+
+def test_only_the_boundary_is_the_boundary() -> None:
+    mesh = irregular_mesh()
+    own = boundary_surface(mesh)
+    assert own.is_boundary(mesh)
+    assert EmbeddedSurface(own.faces, own.corners, own.weights).is_boundary(mesh)
+    assert not own.is_boundary(box_mesh())
+    assert not EmbeddedSurface(own.faces[::-1], own.corners, own.weights).is_boundary(mesh)
+    assert not embed_surface(own.vertices(mesh.vertices) * 0.99, own.faces, mesh).is_boundary(mesh)

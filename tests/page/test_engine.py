@@ -44,7 +44,6 @@ def posing_frames(model: PosingModel) -> dict[str, Any]:
     first = {"training_parameters": model.training_parameters[:1]}
     first["training_coordinates"] = model.training_coordinates[:1]
     session, names = replace(model, **first).session(), model.problem.handles.names
-    surface = model.problem.mesh.surface_vertices
     turn, shift = model.problem.domain.half_widths[3:6], model.problem.domain.half_widths[:3]
     frames = []
     for motions in (
@@ -61,7 +60,7 @@ def posing_frames(model: PosingModel) -> dict[str, Any]:
                 "value": report.value,
                 "q": session.q.tolist(),
                 "certificate": certificate(session),
-                "surface": session.vertices[surface].ravel().tolist(),
+                "surface": model.surface.vertices(session.vertices).ravel().tolist(),
                 "outside": [names.index(name) for name in session.outside],
             }
         )
@@ -150,6 +149,7 @@ def surface_energies(model: PosingModel) -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def expected(
     posing_model: PosingModel,
+    own_surface_model: PosingModel,
     cubature_model: PosingModel,
     blending_model: InterpolationModel,
     tmp_path_factory: pytest.TempPathFactory,
@@ -158,6 +158,7 @@ def expected(
     own_boxes = with_own_boxes(posing_model)
     models = {
         "posing": calibrated(posing_model, samples=12, threads=1),
+        "own_surface": own_surface_model,
         "cubature": cubature_model,
         "blending": calibrated(blending_model, samples=12, threads=1),
         "own_boxes": own_boxes,
@@ -167,6 +168,7 @@ def expected(
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
     frames = {
         "posing": posing_frames(models["posing"]),
+        "own_surface": posing_frames(models["own_surface"]),
         "cubature": posing_frames(models["cubature"]),
         "blending": blending_frames(models["blending"]),
         "own_boxes": box_frames(own_boxes),

@@ -62,6 +62,21 @@ def test_a_posing_model_keeps_its_surface(posing_model: PosingModel, tmp_path: P
     assert bounds == [[0.0] * 6, *problem.domain.bounds.tolist()]
 
 
+def test_a_posing_model_shows_the_surface_of_the_user(
+    own_surface_model: PosingModel, tmp_path: Path
+) -> None:
+    model = own_surface_model
+    arrays, _ = unpacked(model, tmp_path)
+    session = model.session()
+    session.pose(0.7 * model.problem.domain.half_widths)
+    shown, expected = shapes(arrays, "space", session.q), model.surface.vertices(session.vertices)
+    assert np.abs(shown - expected).max() < 2e-5 * model.problem.mesh.diagonal
+    assert np.array_equal(arrays["faces"], model.surface.faces)
+    for index, handle in enumerate(model.problem.handles):
+        mine = arrays["handle_of_vertex"] == index
+        assert np.array_equal(mine, np.isin(model.surface.nearest, handle.vertices)) and mine.any()
+
+
 def test_an_interpolation_model_keeps_poses_and_blends(
     blending_model: InterpolationModel, tmp_path: Path
 ) -> None:

@@ -24,7 +24,7 @@ def expected(model: PosingModel, page: Page) -> np.ndarray:
                 for handle, (euler, shift) in page.motions().items()
             }
         )
-    return session.vertices[model.problem.mesh.surface_vertices]
+    return model.surface.vertices(session.vertices)
 
 
 def assert_shown(model: PosingModel, page: Page) -> None:

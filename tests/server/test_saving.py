@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from snapspace import PosingModel, PosingProblem, load, read_problem, write_tets
-from snapspace.server.body import Body, mesh_body
+from snapspace.server.body import Body, mesh_body, problem_body
 from snapspace.server.messages import Saved
 from snapspace.server.saving import Savings, checked_name, plain_name
 
@@ -47,6 +48,24 @@ def test_a_mesh_that_is_in_no_file_is_saved_too(posing_model: PosingModel, tmp_p
     assert (done.mesh, done.model) == (str(tmp_path / "filled.msh"), None)
     assert done.problem is not None
     assert_same(read_problem(done.problem), posing_model.problem)
+
+
+def test_a_surface_that_was_filled_is_saved_with_its_tets(
+    own_surface_model: PosingModel, tmp_path: Path
+) -> None:
+    mesh, surface = own_surface_model.problem.mesh, own_surface_model.surface
+    filled = Body(name="own", mesh=mesh, file=None, folder=tmp_path, surface=surface)
+    done = saved(Savings(), filled, own_surface_model)
+    assert done.surface == str(tmp_path / "own.obj") and done.problem is not None
+    again = problem_body(Path(done.problem))
+    assert again.surface_file == tmp_path / "own.obj" and again.surface is not None
+    assert np.array_equal(again.surface.faces, surface.faces)
+    points = surface.vertices(mesh.vertices)
+    assert again.surface.vertices(mesh.vertices) == pytest.approx(points, abs=1e-12)
+    there = saved(Savings(), again, own_surface_model, name="other")
+    assert there.surface is None, "it lies there already"
+    assert there.problem is not None
+    assert problem_body(Path(there.problem)).surface_file == tmp_path / "own.obj"
 
 
 def test_own_files_are_replaced_and_others_never(body: Body, posing_model: PosingModel) -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from snapspace.generators import bar
-from snapspace.mesh import write_surface
+from snapspace.mesh import compact_surface, write_surface
 
 from .running import Running
 
@@ -35,15 +35,28 @@ def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) ->
         assert (told["kind"], told["name"]) == ("mesh", "drop me")
         stages = [m["stage"] for m in page.seen if m["type"] == "progress"]
         assert stages[-1] == "filling"
-        x = empty.fetch(told["mesh"])["vertices"][:, 0]
+        shown = empty.fetch(told["mesh"])
+        vertices, faces = compact_surface(thin.vertices, thin.surface)
+        np.testing.assert_allclose(shown["vertices"], vertices, atol=1e-6)
+        assert np.array_equal(shown["faces"], faces), "the user's own surface"
+        x = shown["vertices"][:, 0]
         handles = [
             {"name": "foot", "vertices": np.flatnonzero(x < 0.2).tolist(), "moving": False},
             {"name": "head", "vertices": np.flatnonzero(x > 3.8).tolist()},
         ]
         ranges = {"translation": told["translation"], "angle": told["angle"]}
+        far = [*handles, {"name": "far", "vertices": [len(vertices)]}]
+        page.send("choose", request=7, handles=far, **ranges)
+        assert "'far' has vertex index" in page.take("failed")["message"]
         page.ask("choose", "chosen", handles=handles, **ranges)
         page.send("compute", **{**ORDER, "stiffness": told["stiffness"], "poisson": 0.4})
-        assert page.take("model", "failed")["type"] == "model"
+        model = page.take("model", "failed")
+        assert model["type"] == "model"
+        packed = empty.fetch(model["address"])
+        assert np.array_equal(packed["faces"], faces)
+        np.testing.assert_allclose(packed["base"].reshape(-1, 3), vertices, atol=1e-6)
+        assert (packed["handle_of_vertex"][x < 0.2] == 0).all()
+        assert (packed["handle_of_vertex"][x > 3.8] == 1).all()
 
 
 def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: Path) -> None:

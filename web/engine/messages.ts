@@ -6,7 +6,7 @@ export type Matrix = readonly [number, number, number, number, number, number, n
 /** A handle as the page chose it, or as a problem file has it.
  *
  * name : unique among the handles
- * vertices : indices among all vertices of the mesh, also those inside
+ * vertices : indices among all vertices of the packed mesh, also those inside
  * moving : whether it moves while sampling; one handle at least does not
  * translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
  *     common ones
@@ -69,7 +69,7 @@ export interface Cancel {
   readonly request: number;
 }
 
-/** Page: save the problem, the newest model, and a mesh that was filled. Answered by `Saved`.
+/** Page: save the problem, the newest model, and what is in no file yet. Answered by `Saved`.
  *
  * name : of the files, without folder or ending; null: the mesh's
  */
@@ -204,7 +204,7 @@ export interface Failed {
 
 /** Server: what was written.
  *
- * problem, model, mesh : paths; null for what there is not
+ * problem, model, mesh, surface : paths; null for what there is not
  */
 export interface Saved {
   readonly type: "saved";
@@ -212,6 +212,7 @@ export interface Saved {
   readonly problem: string | null;
   readonly model: string | null;
   readonly mesh: string | null;
+  readonly surface: string | null;
 }
 
 /** Server: the shape of the binary frame before this message.

@@ -14,7 +14,8 @@ import {
 import { registered } from "./registration.ts";
 import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
-import { boundaryFaces, diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
+import { boundary, ownSurface } from "./read_surface.ts";
+import { diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
 
 /** Reads a .snapspace file (snapspace/model_file); `name` is shown where the file has none. */
 export function readFile(container: Container, name: string): Model {
@@ -49,21 +50,22 @@ function readPosing(container: Container, name: string): Model {
     handles.push({ name: String(about.handles[handle]), center: centroid(own, rest, masses) });
   }
 
-  const faces = boundaryFaces(tets, vertices);
-  const { surface, compact } = compacted(faces, vertices);
+  const { faces, nearest, embedded } = container.has("surface_faces")
+    ? ownSurface(container, vertices)
+    : boundary(tets, vertices);
   const diagonal = diagonalOf(rest);
   return {
     kind: "posing",
     name,
     dimension,
-    faces: compact,
-    space: quantised(picked(rest, surface, vertices), picked(basis, surface, vertices)),
+    faces,
+    space: quantised(embedded(rest), embedded(basis)),
     ...scales(about.material, volumes, diagonal),
     estimator: estimatorOf(container, { tets, basis, tau: rest, rests: [rest] }, (corners, isSampled) =>
       pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
     ),
     handles,
-    handleOfVertex: Int32Array.from(surface, (vertex) => handleOf[vertex]),
+    handleOfVertex: Int32Array.from(nearest, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
     elastic: readElastic(container, rest, tets, basis),
     K: container.doubles("handle_K", dimension, dimension),
@@ -78,15 +80,11 @@ function readInterpolation(container: Container, name: string): Model {
   const [dimension] = container.shape("basis", 2);
   const [, vertices] = container.shape("poses", 3);
   const [tetCount] = container.shape("tets", 2);
-  const [faceCount] = container.shape("surface_faces", 2);
-  const [surfaceCount] = container.shape("surface_corners", 2);
   const [samples] = container.shape("training_parameters", 2);
   const tets = container.indices("tets", vertices, [tetCount, 4]);
   const mean = container.doubles("mean_shape", 3 * vertices);
   const shapes = container.doubles("poses", poses.length, vertices, 3);
-  const corners = container.indices("surface_corners", vertices, [surfaceCount, 4]);
-  const weights = container.doubles("surface_weights", surfaceCount, 4);
-  const embedded = (rows: Float64Array) => onSurface(rows, vertices, corners, weights);
+  const { faces, embedded } = ownSurface(container, vertices);
 
   const meanVolumes = tetVolumes(mean, tets);
   const offsets = new Float64Array(shapes.length); // of the registered poses from the mean shape
@@ -107,7 +105,7 @@ function readInterpolation(container: Container, name: string): Model {
     kind: "interpolation",
     name,
     dimension,
-    faces: Uint32Array.from(container.indices("surface_faces", surfaceCount, [faceCount, 3])),
+    faces,
     space: quantised(base, embedded(basis)),
     ...scales(about.material, tetVolumes(first, tets), diagonalOf(first)),
     estimator: estimatorOf(container, { tets, basis, tau: mean, rests: registeredPoses }, () => NO_PINS),
@@ -159,45 +157,4 @@ function centroid(members: Int32Array, rest: Float64Array, masses: Float64Array)
     sum[3] += masses[vertex];
   }
   return [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]];
-}
-
-/** The vertices that faces use, in order, and the faces numbered by them. */
-function compacted(faces: Uint32Array, vertices: number) {
-  const number = new Int32Array(vertices).fill(-1);
-  faces.forEach((vertex) => (number[vertex] = 0));
-  const surface: number[] = [];
-  number.forEach((used, vertex) => {
-    if (used === 0) number[vertex] = surface.push(vertex) - 1;
-  });
-  return { surface, compact: Uint32Array.from(faces, (vertex) => number[vertex]) };
-}
-
-/** Rows of 3 * vertices numbers, at some of the vertices only. */
-function picked(rows: Float64Array, chosen: number[], vertices: number): Float64Array {
-  const count = rows.length / (3 * vertices);
-  const out = new Float64Array(count * 3 * chosen.length);
-  let next = 0;
-  for (let row = 0; row < count; row++)
-    for (const vertex of chosen)
-      for (let axis = 0; axis < 3; axis++) out[next++] = rows[(row * vertices + vertex) * 3 + axis];
-  return out;
-}
-
-/** Rows of 3 * vertices numbers, at points that are weighted sums of four vertices each. */
-function onSurface(
-  rows: Float64Array,
-  vertices: number,
-  corners: Int32Array,
-  weights: Float64Array,
-): Float64Array {
-  const points = corners.length / 4;
-  const count = rows.length / (3 * vertices);
-  const out = new Float64Array(count * 3 * points);
-  for (let row = 0; row < count; row++)
-    for (let corner = 0; corner < corners.length; corner++) {
-      const to = 3 * (row * points + (corner >> 2));
-      const from = 3 * (row * vertices + corners[corner]);
-      for (let axis = 0; axis < 3; axis++) out[to + axis] += weights[corner] * rows[from + axis];
-    }
-  return out;
 }

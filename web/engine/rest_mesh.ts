@@ -7,7 +7,7 @@ export interface RestMesh {
   /** Axis that points up at first. */
   readonly up: "x" | "y" | "z";
   readonly diagonal: number;
-  /** All vertices, those inside too: x0 y0 z0 x1 ... */
+  /** Vertices to choose from: of the user's surface, or all of the tets, those inside too. x0 y0 z0 x1 ... */
   readonly shape: Float32Array<ArrayBuffer>;
   /** Triangles of the surface, outward. */
   readonly faces: Uint32Array<ArrayBuffer>;

@@ -16,6 +16,16 @@ export function inBall(shape: Float32Array, [x, y, z]: Vector, radius: number): 
   });
 }
 
+/** The vertex nearest to a place. */
+export function nearestTo(shape: Float32Array, [x, y, z]: Vector): Int32Array {
+  let [nearest, least] = [0, Infinity];
+  for (let i = 0; i < shape.length; i += 3) {
+    const square = (shape[i] - x) ** 2 + (shape[i + 1] - y) ** 2 + (shape[i + 2] - z) ** 2;
+    if (square < least) [nearest, least] = [i / 3, square];
+  }
+  return Int32Array.of(nearest);
+}
+
 /** Where a camera shows vertices: `matrix` takes them to clip space (column by column). NaN behind the camera. */
 export function placesOf(
   shape: Float32Array,

@@ -3,8 +3,17 @@ import { Color, Raycaster, Vector2, Vector3 } from "three";
 import { NOTHING, type Choice } from "../engine/choice.ts";
 import type { Vector } from "../engine/motion.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
-import { inBall, inLasso, inRectangle, placesOf, seenFrom, union, without } from "../engine/selecting.ts";
-import type { Place } from "../engine/selecting.ts";
+import {
+  inBall,
+  inLasso,
+  inRectangle,
+  nearestTo,
+  placesOf,
+  seenFrom,
+  union,
+  without,
+  type Place,
+} from "../engine/selecting.ts";
 import { TriangleTree } from "../engine/triangle_tree.ts";
 import { ownerColors } from "./choosing_colors.ts";
 import { History } from "./history.ts";
@@ -124,8 +133,11 @@ export class Choosing {
     return found && origin.addScaledVector(direction, found.along).toArray();
   }
 
+  /** One vertex at least: in the middle of a large triangle the brush takes its nearest corner. */
   inBrush(center: Vector): Int32Array {
-    return inBall(this.mesh.shape, center, this.radius * this.mesh.diagonal);
+    const { shape, diagonal } = this.mesh;
+    const found = inBall(shape, center, this.radius * diagonal);
+    return found.length > 0 ? found : nearestTo(shape, center);
   }
 
   /** How large the brush is on the screen where it hits, in pixels. */

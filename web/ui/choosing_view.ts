@@ -55,7 +55,9 @@ export function choosingView(
   choosing.changed();
 
   const inside = space.vertices - new Set(mesh.faces).size;
-  const counted = `${space.vertices.toLocaleString("en")} vertices, ${inside.toLocaleString("en")} of them inside`;
+  const counted =
+    `${space.vertices.toLocaleString("en")} vertices` +
+    (inside > 0 ? `, ${inside.toLocaleString("en")} of them inside` : "");
   return {
     choosing,
     hud: {

@@ -90,8 +90,8 @@ export class ComputePanel {
     this.#model.hidden = false;
   }
 
-  saved({ problem, model, mesh }: Saved, folder: string): void {
-    const names = [problem, model, mesh]
+  saved({ problem, model, mesh, surface }: Saved, folder: string): void {
+    const names = [problem, model, mesh, surface]
       .filter((path) => path !== null)
       .map((path) => path.replace(/^.*[\\/]/, ""));
     this.#told.textContent = `Saved ${names.join(", ")} in ${folder}.`;

@@ -13,7 +13,7 @@ import {
 import type { Membrane, ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 import { GpuEnergies } from "./gpu_energies.ts";
-import { disposePass, floatTarget, integers, pass, Passes, type Pass } from "./gpu_pass.ts";
+import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
 /** Modes that the shader takes: a WebGL 2 texture has at least so many layers. */
@@ -72,11 +72,14 @@ export class GpuDeformer implements Deformer {
   readonly #renderer: WebGLRenderer;
   readonly #space: ShapeSpace;
   readonly #membrane: Membrane | null;
-  readonly #targets: readonly WebGLRenderTarget[];
+  readonly #positions: Pass;
+  readonly #normals: Pass;
   readonly #passes: readonly Pass[];
-  readonly #both: Passes;
+  readonly #coefficients: Float32Array;
+  readonly #goal: DataTexture;
+  readonly #ranges: DataTexture;
+  readonly #pairs: DataTexture;
   readonly #textures: readonly Texture[];
-  readonly #target: DataTexture;
   #energies: GpuEnergies | null = null;
 
   /** Whether this browser can draw into float textures, and takes so many modes and vertices. */
@@ -99,44 +102,29 @@ export class GpuDeformer implements Deformer {
     this.#renderer = renderer;
     this.#space = space;
     this.#membrane = membrane;
-    this.#targets = [floatTarget(width, height), floatTarget(width, height)];
+    this.#coefficients = new Float32Array(MOST_MODES);
     const base = floats(space.base, width, height);
-    this.#target = floats(space.base, width, height);
     const modes = layers(space, width, height);
     const around = rings(faces, space.vertices);
-    const ranges = integers(around.ranges, width, height);
-    const pairs = integers(around.pairs, ...textureSize(around.pairs.length / 2));
-    this.#textures = [base, this.#target, modes, ranges, pairs];
+    this.#goal = floats(space.base, width, height);
+    this.#ranges = integers(around.ranges, width, height);
+    this.#pairs = integers(around.pairs, ...textureSize(around.pairs.length / 2));
+    this.#textures = [base, this.#goal, modes, this.#ranges, this.#pairs];
     for (const texture of this.#textures) texture.needsUpdate = true;
-    const places = {
-      positions: { value: this.positions },
-      ranges: { value: ranges },
-      pairs: { value: pairs },
-    };
-    this.#passes = [
-      pass(POSITIONS, {
-        base: { value: base },
-        modes: { value: modes },
-        coefficients: { value: new Float32Array(MOST_MODES) },
-        count: { value: 0 },
-        goal: { value: this.#target },
-        share: { value: 0 },
-      }),
-      pass(NORMALS, places),
-    ];
-    this.#both = new Passes(
-      renderer,
-      this.#passes.map((mesh, i) => [mesh, this.#targets[i]]),
-    );
+    const make = (shader: string, textures: Record<string, Texture>) =>
+      new Pass(renderer, shader, textures, floatTarget(width, height));
+    this.#positions = make(POSITIONS, { base, modes, goal: this.#goal });
+    this.#normals = make(NORMALS, this.#places);
+    this.#passes = [this.#positions, this.#normals];
     this.update([]);
   }
 
   get positions(): Texture {
-    return this.#targets[0].texture;
+    return this.#positions.target.texture;
   }
 
   get normals(): Texture {
-    return this.#targets[1].texture;
+    return this.#normals.target.texture;
   }
 
   get energies(): Texture | null {
@@ -144,35 +132,30 @@ export class GpuDeformer implements Deformer {
   }
 
   set goal(positions: Float32Array) {
-    asTexels(positions, this.#target.image.data as Float32Array);
-    this.#target.needsUpdate = true;
+    asTexels(positions, this.#goal.image.data as Float32Array);
+    this.#goal.needsUpdate = true;
   }
 
   update(coefficients: ArrayLike<number>, share = 0): void {
-    const { uniforms } = this.#passes[0].material;
-    for (let i = 0; i < coefficients.length; i++)
-      uniforms.coefficients.value[i] = coefficients[i] * this.#space.scales[i];
-    uniforms.count.value = coefficients.length;
-    uniforms.share.value = share;
-    this.#both.run();
+    const { length } = coefficients;
+    for (let i = 0; i < length; i++) this.#coefficients[i] = coefficients[i] * this.#space.scales[i];
+    this.#positions.setVectors("coefficients", this.#coefficients, Math.ceil(length / 4));
+    this.#positions.setInteger("count", length);
+    this.#positions.setFloat("share", share);
+    runPasses(this.#renderer, this.#passes);
     this.#energies?.update();
   }
 
   weigh(weights: readonly number[] | null): void {
     if (weights && !this.#energies && this.#membrane) {
-      const { ranges, pairs } = this.#passes[1].material.uniforms;
-      const { width, height } = this.#targets[0];
-      this.#energies = new GpuEnergies(this.#renderer, this.#membrane, width, height, {
-        positions: { value: this.positions },
-        ranges,
-        pairs,
-      });
+      const { width, height } = this.#positions.target;
+      this.#energies = new GpuEnergies(this.#renderer, this.#membrane, width, height, this.#places);
     }
     this.#energies?.weigh(weights);
   }
 
   read(): Float32Array {
-    return this.#readFrom(this.#targets[0]);
+    return this.#readFrom(this.#positions.target);
   }
 
   readEnergies(): Float32Array {
@@ -181,10 +164,17 @@ export class GpuDeformer implements Deformer {
   }
 
   dispose(): void {
-    this.#targets.forEach((target) => target.dispose());
     this.#textures.forEach((texture) => texture.dispose());
-    this.#passes.forEach(disposePass);
+    for (const pass of this.#passes) {
+      pass.target.dispose();
+      pass.dispose();
+    }
     this.#energies?.dispose();
+  }
+
+  /** Where vertices are, and their neighbours. */
+  get #places(): Record<string, Texture> {
+    return { positions: this.positions, ranges: this.#ranges, pairs: this.#pairs };
   }
 
   #readFrom(target: WebGLRenderTarget): Float32Array {

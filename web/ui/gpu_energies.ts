@@ -2,7 +2,6 @@ import {
   DataArrayTexture,
   FloatType,
   RGBAFormat,
-  type RawShaderMaterial,
   type Texture,
   type WebGLRenderer,
   type WebGLRenderTarget,
@@ -10,7 +9,7 @@ import {
 
 import type { Membrane } from "../engine/index.ts";
 import { asTexels } from "./deformer.ts";
-import { disposePass, floatTarget, pass, Passes, type Pass } from "./gpu_pass.ts";
+import { floatTarget, Pass, runPasses } from "./gpu_pass.ts";
 
 /** As web/engine/membrane_energy.ts, a vertex at a time. */
 const ENERGIES = `
@@ -55,18 +54,25 @@ void main() {
   result = vec4(sums.y > 0.0 ? sums.x / sums.y : 0.0, 0.0, 0.0, 1.0);
 }`;
 
-type Places = RawShaderMaterial["uniforms"];
-
 /** Strain energy densities of a surface, over mu, on the graphics processor; in the red of each texel. */
 export class GpuEnergies {
-  readonly target: WebGLRenderTarget;
+  readonly #renderer: WebGLRenderer;
   readonly #pass: Pass;
-  readonly #only: Passes;
+  readonly #only: readonly Pass[];
+  readonly #membrane: Membrane;
   readonly #rests: DataArrayTexture;
-  #isOn = false;
+  #weights: Float32Array | null = null;
 
   /** `places` has positions, ranges and pairs of a deformer. */
-  constructor(renderer: WebGLRenderer, membrane: Membrane, width: number, height: number, places: Places) {
+  constructor(
+    renderer: WebGLRenderer,
+    membrane: Membrane,
+    width: number,
+    height: number,
+    places: Record<string, Texture>,
+  ) {
+    this.#renderer = renderer;
+    this.#membrane = membrane;
     const count = membrane.rests.length;
     const texels = new Float32Array(4 * width * height * count);
     membrane.rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
@@ -74,15 +80,17 @@ export class GpuEnergies {
     this.#rests.format = RGBAFormat;
     this.#rests.type = FloatType;
     this.#rests.needsUpdate = true;
-    this.target = floatTarget(width, height);
-    this.#pass = pass(ENERGIES.replace("MOST_RESTS", String(count)), {
-      ...places,
-      rests: { value: this.#rests },
-      weights: { value: new Float32Array(count) },
-      count: { value: count },
-      ratio: { value: membrane.ratio },
-    });
-    this.#only = new Passes(renderer, [[this.#pass, this.target]]);
+    this.#pass = new Pass(
+      renderer,
+      ENERGIES.replace("MOST_RESTS", String(count)),
+      { ...places, rests: this.#rests },
+      floatTarget(width, height),
+    );
+    this.#only = [this.#pass];
+  }
+
+  get target(): WebGLRenderTarget {
+    return this.#pass.target;
   }
 
   get texture(): Texture {
@@ -91,17 +99,20 @@ export class GpuEnergies {
 
   /** Weights of the shapes at rest, or null while nothing is asked for. */
   weigh(weights: readonly number[] | null): void {
-    this.#isOn = weights !== null;
-    if (weights) this.#pass.material.uniforms.weights.value.set(weights);
+    this.#weights = weights && Float32Array.from(weights);
   }
 
   update(): void {
-    if (this.#isOn) this.#only.run();
+    if (!this.#weights) return;
+    this.#pass.setFloats("weights", this.#weights);
+    this.#pass.setInteger("count", this.#weights.length);
+    this.#pass.setFloat("ratio", this.#membrane.ratio);
+    runPasses(this.#renderer, this.#only);
   }
 
   dispose(): void {
     this.target.dispose();
     this.#rests.dispose();
-    disposePass(this.#pass);
+    this.#pass.dispose();
   }
 }

@@ -36,7 +36,8 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-for (const file of ["posing.snapspace", "posing.packed", "cubature.snapspace", "cubature.packed"])
+const models = ["posing", "own_surface", "cubature"];
+for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]))
   test(`a drag is that of Session: ${file}`, async () => {
     const { frames, leading } = expected<Drag>(`${file.split(".")[0]}.json`);
     const model = readModel(bytes(file), "bar") as PosingModel;

@@ -7,6 +7,7 @@ import {
   inBall,
   inLasso,
   inRectangle,
+  nearestTo,
   placesOf,
   seenFrom,
   union,
@@ -82,6 +83,7 @@ test("a ball takes what is as near as its radius", () => {
   const line = Float32Array.from([0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0]);
   assert.deepEqual([...inBall(line, [1, 0, 0], 1)], [0, 1, 2]);
   assert.deepEqual([...inBall(line, [1, 5, 0], 1)], []);
+  assert.deepEqual([...nearestTo(line, [0.9, 5, 0])], [1]);
 });
 
 test("places are those of a camera, and nothing behind it is in a box", () => {

@@ -1,0 +1,16 @@
+"""The surface that a model shows."""
+
+from __future__ import annotations
+
+from ..mesh import EmbeddedSurface, TetMesh, boundary_surface
+
+
+def surface_in(mesh: TetMesh, surface: EmbeddedSurface | None, *, who: str) -> EmbeddedSurface:
+    """The surface, or that of the tets; ValueError if it is of another mesh."""
+    shown = boundary_surface(mesh) if surface is None else surface
+    if len(shown.corners) and shown.corners.max() >= len(mesh.vertices):
+        raise ValueError(
+            f"{who}: the surface follows vertex {shown.corners.max()}, but the mesh has "
+            f"{len(mesh.vertices)} vertices; embed it in the problem's mesh"
+        )
+    return shown

@@ -1,0 +1,131 @@
+"""A closed surface from its file to a model that is dragged: the page shows that surface."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel, export_html, load, read_problem, read_surface
+from snapspace.generators import bar
+from snapspace.mesh import write_surface
+
+from .choosing_page import ends_as_handles, handles, press, set_number, wait_for_text
+from .pages import OpenPage, Page
+from .serving import served
+from .test_posing_page import assert_shown
+
+# Coarser than the tets, and its edges are sharp: quick tets cut them off.
+BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+TETS = ("--edge-length", "0.06")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("own")
+    write_surface(folder / "bar.obj", BAR.vertices, BAR.surface)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path, chromium: object) -> Iterator[str]:
+    with served(folder / "bar.obj", *TETS, cwd=folder) as address:
+        yield address
+
+
+def polished(page: Page, model: PosingModel) -> np.ndarray:
+    """What a session's polish makes of the page's frame, on the user's surface."""
+    session = model.session()
+    motions = [
+        (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
+        for handle, (_, shift) in page.motions().items()
+    ]
+    session.put(motions, page.run("[...snapspace.session.q]"))
+    return model.surface.vertices(session.polish(iterations=10).vertices)
+
+
+def test_it_is_chosen_on_computed_dragged_polished_and_saved(
+    address: str, folder: Path, opened: OpenPage
+) -> None:
+    vertices, faces = read_surface(folder / "bar.obj")
+    page = opened(address, size=(1000, 640))
+    page.wait("snapspace.kind === 'choosing'")
+    shape = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)
+    np.testing.assert_allclose(shape, vertices, atol=1e-6)
+    assert page.run("[...snapspace.choosing.mesh.faces]") == faces.ravel().tolist()
+    assert "inside" not in page.text(".hud p")
+    ends_as_handles(page)
+    chosen = handles(page)
+    foot = vertices[sorted(chosen["foot"]), 0]
+    assert foot.max() < 1.7 and len(foot) >= np.count_nonzero(vertices[:, 0] < 0.5)
+
+    set_number(page, "Samples", 40)
+    set_number(page, "Dimensions", 16)
+    press(page, "Compute")
+    page.wait("snapspace.kind === 'posing'")
+    wait_for_text(page, "#panel", "Done in")
+    assert page.run("snapspace.session.model.space.vertices") == len(vertices)
+    np.testing.assert_allclose(page.shown(), vertices, atol=1e-5)
+    owners = np.array(page.run("[...snapspace.session.model.handleOfVertex]"))
+    for index, name in enumerate(("foot", "head")):
+        assert chosen[name] <= set(np.flatnonzero(owners == index).tolist())
+
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
+    page.page.wait_for_timeout(200)
+    after_polish = page.shown()
+    press(page, "Save")
+    wait_for_text(page, "#panel", f"in {folder}")
+    model = load(folder / "bar.snapspace")
+    assert isinstance(model, PosingModel)
+    diagonal = model.problem.mesh.diagonal
+    assert np.abs(after_polish - polished(page, model)).max() < 1e-4 * diagonal
+    press(page, "Polish")  # off: the live shape
+    page.drag(page.run("snapspace.handle(1)"), 20, 10)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.1
+    assert_shown(model, page)
+
+
+def test_what_was_saved_shows_the_surface_again(
+    address: str, folder: Path, opened: OpenPage
+) -> None:
+    problem, model = read_problem(folder / "bar.json"), load(folder / "bar.snapspace")
+    content = json.loads((folder / "bar.json").read_text(encoding="utf-8"))
+    assert (content["mesh"], content["surface"]) == ("bar.msh", "bar.obj")
+    vertices, _ = read_surface(folder / "bar.obj")
+    with served(folder / "bar.json", cwd=folder) as again:
+        page = opened(again)
+        page.wait("snapspace.kind === 'choosing'")
+        assert page.run("snapspace.choosing.mesh.shape.length") == vertices.size
+        shown = handles(page)
+        nearest = model.surface.nearest
+        for handle in problem.handles:
+            follow = np.flatnonzero(np.isin(nearest, handle.vertices))
+            assert shown[handle.name] == set(follow.tolist())
+        page.close()  # before its server, which it would miss
+    assert isinstance(model, PosingModel)
+    page = opened(export_html(model, folder / "bar.html").as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 40, -30)
+    assert len(page.shown()) == len(vertices)
+    assert_shown(model, page)
+
+
+def test_one_that_is_dropped_on_the_page_is_saved_with_its_tets(
+    tmp_path: Path, folder: Path, opened: OpenPage, chromium: object
+) -> None:
+    with served(*TETS, cwd=tmp_path) as empty:
+        page = opened(empty, size=(1000, 640))
+        wait_for_text(page, "#message", "Drop a mesh here")
+        page.page.set_input_files("#message input", folder / "bar.obj")
+        page.wait("snapspace.kind === 'choosing'")
+        ends_as_handles(page)
+        press(page, "Save handles")
+        wait_for_text(page, "#panel", "Saved bar.json, bar.msh, bar.obj")
+        page.close()
+    own, _ = read_surface(folder / "bar.obj")
+    again, _ = read_surface(tmp_path / "bar.obj")
+    np.testing.assert_allclose(again, own, atol=1e-8)
+    assert json.loads((tmp_path / "bar.json").read_text("utf-8"))["surface"] == "bar.obj"
