@@ -43,7 +43,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--problem", nargs="+", default=["dragon", "elephant"])
     parser.add_argument("--samples", type=int, default=1000)
-    parser.add_argument("--tolerance", type=float, help="of the samples; default: settled shapes")
+    parser.add_argument("--tolerance", type=float, default=1e-5, help="of the samples")
+    parser.add_argument("--settling", type=float, help="of the samples, instead of a tolerance")
     parser.add_argument("--dimensions", type=int, nargs="+", default=[20, 40, 60, 120, 250])
     parser.add_argument("--quartic-up-to", type=int, default=40, help="largest d of the quartic")
     parser.add_argument("--validate", type=int, default=30, help="held-out parameters")
@@ -69,7 +70,8 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
     """A row per model, the largest first solved for the second truth."""
     problem = common.read_problem(name)
     parameters = ss.sample(problem.domain, args.samples, method="sobol", seed=args.seed)
-    snapshots = common.solved(problem, parameters, tolerance=args.tolerance)
+    stop = {"tolerance": args.tolerance} if args.settling is None else {"settling": args.settling}
+    snapshots = common.solved(problem, parameters, **stop)
     snapshots = snapshots.select(snapshots.converged)
     reference = common.references(problem, args.validate)
     reference = reference.select(reference.converged)
