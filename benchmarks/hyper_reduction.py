@@ -43,8 +43,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--problem", nargs="+", default=["dragon", "elephant"])
     parser.add_argument("--samples", type=int, default=1000)
-    parser.add_argument("--tolerance", type=float, help="of the samples; default: settled shapes")
+    parser.add_argument("--tolerance", type=float, default=1e-5, help="of the samples")
+    parser.add_argument("--settling", type=float, help="of the samples, instead of a tolerance")
     parser.add_argument("--dimensions", type=int, nargs="+", default=[20, 40, 60, 120, 250])
+    parser.add_argument("--tets", type=int, help="of each cubature; default: 8 d, at most 1000")
     parser.add_argument("--quartic-up-to", type=int, default=40, help="largest d of the quartic")
     parser.add_argument("--validate", type=int, default=30, help="held-out parameters")
     parser.add_argument("--seed", type=int, default=0)
@@ -69,7 +71,8 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
     """A row per model, the largest first solved for the second truth."""
     problem = common.read_problem(name)
     parameters = ss.sample(problem.domain, args.samples, method="sobol", seed=args.seed)
-    snapshots = common.solved(problem, parameters, tolerance=args.tolerance)
+    stop = {"tolerance": args.tolerance} if args.settling is None else {"settling": args.settling}
+    snapshots = common.solved(problem, parameters, **stop)
     snapshots = snapshots.select(snapshots.converged)
     reference = common.references(problem, args.validate)
     reference = reference.select(reference.converged)
@@ -80,7 +83,7 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
         for method in ("cubature", "quartic"):
             if method == "quartic" and d > args.quartic_up_to:
                 continue
-            model, seconds = built(problem, basis.leading(d), snapshots, method)
+            model, seconds = built(problem, basis.leading(d), snapshots, method, args.tets)
             if truths is None:
                 shapes, _ = solutions(model, reference)
                 lowest = lowest_solutions(model, snapshots, reference, shapes)
@@ -94,12 +97,16 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def built(
-    problem: ss.PosingProblem, subspace: ss.AffineSubspace, snapshots: ss.Snapshots, method: str
+    problem: ss.PosingProblem,
+    subspace: ss.AffineSubspace,
+    snapshots: ss.Snapshots,
+    method: str,
+    tets: int | None,
 ) -> tuple[ss.PosingModel, float]:
     """A model, and the seconds it took."""
     begin = time.perf_counter()
     if method == "cubature":
-        model = ss.hyper_reduce(problem, subspace, snapshots)
+        model = ss.hyper_reduce(problem, subspace, snapshots, tets=tets)
     else:
         model = ss.reduce(problem, subspace, snapshots=snapshots)
     return model, time.perf_counter() - begin

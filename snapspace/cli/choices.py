@@ -40,20 +40,33 @@ class Choices:
     lumped: bool
     include_unconverged: bool
 
-    def solver_options(self) -> SolverOptions:
-        """The solver's options; ValueError if one is out of range."""
+    def solver_options(self, *, tolerance: float | None = None) -> SolverOptions:
+        """The solver's options; ValueError if one is out of range.
+
+        `tolerance` holds if neither it nor settling was given; None leaves it to the problem.
+        """
+        neither = self.tolerance is None and self.settling is None
         return SolverOptions(
             solver=self.solver,
-            tolerance=self.tolerance,
+            tolerance=tolerance if neither else self.tolerance,
             settling=self.settling,
             max_iterations=self.max_iterations,
             clamp=self.clamp,
         )
 
     def recipe(
-        self, domain: Domain, *, dimension: int, threads: int | None, known: int = 0
+        self,
+        domain: Domain,
+        *,
+        dimension: int,
+        threads: int | None,
+        known: int = 0,
+        tolerance: float | None = None,
     ) -> Recipe:
-        """The recipe for a domain; `dimension` holds if neither size was given."""
+        """The recipe for a domain.
+
+        `dimension` holds if neither size was given, `tolerance` as for `solver_options`.
+        """
         # in one dimension even spacing beats all other ways
         method = self.sampling or ("grid" if domain.dimension == 1 else "sobol")
         samples = self._samples(domain, method, dimension)
@@ -67,7 +80,7 @@ class Choices:
                 seed=self.seed,
                 scramble=not self.no_scramble,
             ),
-            solver=self.solver_options(),
+            solver=self.solver_options(tolerance=tolerance),
             dimension=dimension if neither else self.dimension,
             energy_fraction=self.energy_fraction,
             lumped=self.lumped,
@@ -179,13 +192,14 @@ def _options(
             "--tolerance",
             type=float,
             help="Converged: the decrease still expected is below this share of the energy "
-            "[default: 1e-9 for interpolation, and for posing --settling decides].",
+            "[default: 1e-9 for interpolation, 1e-5 for a cubature, and else --settling decides].",
         ),
         click.option(
             "--settling",
             type=float,
             help="Converged: the last 8 directions together are below this share of the "
-            "displacement [default: 0.01 for posing without --tolerance, else 0: never].",
+            "displacement [default: 0.01 for a quartic of posing without --tolerance, else 0: "
+            "never].",
         ),
         click.option(
             "--max-iterations",

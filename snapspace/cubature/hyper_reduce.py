@@ -59,7 +59,8 @@ def hyper_reduce(
         Attached to the rest shape.
     snapshots : Snapshots
         At least 10 of the problem. One in ten is held out for the errors, and recorded like all
-        others in the model.
+        others in the model. For sessions with a closure they should be solved with
+        `SolverOptions(tolerance=1e-5)`, which is not the default.
     tets : int, optional
         The most that may be chosen. Default: 8 d, but at most 1000, or all tets if there are
         fewer.

@@ -40,7 +40,8 @@ class Closure:
 
     with the expected coordinates a and force f. The second term is what variational data
     assimilation calls the background (Lorenc 1986, Q. J. R. Meteorol. Soc. 112). The third is a
-    closure: without it a solve at a sample would not return the sample.
+    closure: without it a solve at a sample would not return the sample. Residual forces say
+    something only where samples are near equilibrium: solved to a tolerance of 1e-5.
 
     Parameters
     ----------

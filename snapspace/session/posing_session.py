@@ -37,10 +37,10 @@ class PosingSession(Session[PosingModel]):
     Parameters and errors as for `Session`, and
 
     closure : bool, default False
-        Also use what the training samples say about the solution, see `Closure`: mean errors in
-        slow drags (d = 120) are then lower by a fifth to a half, for about 0.2 ms a frame. Frames
-        are no minima of the reduced energy any more, though `FrameReport.value` is that energy.
-        Needs 2 (12 m + 1) training samples for m moving handles; with 1000 half a second to make.
+        Also use what the training samples say, see `Closure`: mean errors in slow drags (d = 120)
+        are then lower by a quarter to a third, for about 0.2 ms a frame. Frames are no minima of
+        the reduced energy any more, but `FrameReport.value` is that energy.
+        Needs 2 (12 m + 1) samples for m moving handles, best solved to 1e-5; 1000 take 0.5 s.
 
     Notes
     -----

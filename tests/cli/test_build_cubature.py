@@ -43,3 +43,18 @@ def test_tets_are_for_the_cubature_only(run: Run, tmp_path: Path) -> None:
     assert result.code != 0
     assert "--tets is for --method cubature" in result.err
     assert not path.exists()
+
+
+def test_samples_of_a_cubature_are_near_equilibrium_unless_told(run: Run, tmp_path: Path) -> None:
+    """A closure interpolates forces that are left at the samples; settled ones have others."""
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+
+    def solver(*options: object) -> dict[str, float]:
+        run("build", "--problem", problem, *SMALL[:4], *options, "-o", path)
+        recorded: dict[str, float] = load(path).provenance["solver"]
+        return recorded
+
+    tight = solver(*SMALL[4:])
+    assert (tight["tolerance"], tight["settling"]) == (1e-5, 0.0)
+    assert solver(*SMALL[4:], "--tolerance", 1e-4)["tolerance"] == 1e-4
+    assert solver(*SMALL[4:], "--settling", 0.02) == {**solver(), "settling": 0.02}
