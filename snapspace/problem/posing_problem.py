@@ -153,7 +153,11 @@ class PosingProblem:
 
     def mass(self, *, lumped: bool = False) -> csr_array:
         """Mass matrix (n, n) of the rest shape."""
-        return mass_matrix(self.mesh, lumped=lumped)
+        return mass_matrix(self.mesh, lumped=True) if lumped else self._mass
+
+    @cached_property
+    def _mass(self) -> csr_array:
+        return mass_matrix(self.mesh)
 
     @cached_property
     def fingerprint(self) -> str:
@@ -188,14 +192,12 @@ class PosingProblem:
     @cached_property
     def pin_weights(self) -> FloatArray:
         """stiffness * m_j of the pinned vertices, (p,)."""
-        weights: FloatArray = self.stiffness * self.mesh.vertex_masses[self.pinned]
-        return weights
+        return np.multiply(self.stiffness, self.mesh.vertex_masses[self.pinned])
 
     @cached_property
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
-        mesh, material = self.mesh, self.material
-        elastic = mesh.vertices, mesh.tets, material.lam, material.mu
+        elastic = self.mesh.vertices, self.mesh.tets, self.material.lam, self.material.mu
         pins = self.pinned, self.pin_weights
         return run_abandonable(lambda: core.PosingSystem(*elastic, *pins))
 
@@ -211,8 +213,7 @@ class PosingProblem:
         if w.shape != (self.parameter_count,):
             raise ValueError(
                 f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} "
-                f"moving handles need ({self.parameter_count},): translation, then angles, handle "
-                "by handle"
+                f"moving handles need ({self.parameter_count},): translation, then angles of each"
             )
         if not np.isfinite(w).all():
             bad = int(np.flatnonzero(~np.isfinite(w))[0])
