@@ -14,6 +14,7 @@ from snapspace.generators import bar
 from snapspace.mesh import write_surface
 
 from .choosing_page import ends_as_handles, handles, press, set_number, wait_for_text
+from .frames import session_at_frame
 from .pages import OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
@@ -38,12 +39,7 @@ def address(folder: Path, chromium: object) -> Iterator[str]:
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:
     """What a session's polish makes of the page's frame, on the user's surface."""
-    session = model.session()
-    motions = [
-        (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
-        for handle, (_, shift) in page.motions().items()
-    ]
-    session.put(motions, page.run("[...snapspace.session.q]"))
+    session = session_at_frame(page, model)
     return model.surface.vertices(session.polish(iterations=10).vertices)
 
 

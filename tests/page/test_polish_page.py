@@ -9,6 +9,7 @@ import pytest
 
 from snapspace import PosingModel
 
+from .frames import session_at_frame
 from .pages import OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
@@ -26,12 +27,7 @@ def address(
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:
     """What a session's polish makes of the page's frame, on the surface."""
-    session = model.session()
-    motions = [
-        (np.array(page.run(f"snapspace.session.motion({handle}).rotation")).reshape(3, 3), shift)
-        for handle, (_, shift) in page.motions().items()
-    ]
-    session.put(motions, page.run("[...snapspace.session.q]"))
+    session = session_at_frame(page, model)
     found = session.polish(iterations=10)
     assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")
     shape: np.ndarray = found.vertices[model.problem.mesh.surface_vertices]
