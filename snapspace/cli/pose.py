@@ -118,10 +118,7 @@ def _check_outputs(output: Path | None, png: Path | None) -> None:
 
 def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
     surface = model.surface
-    regions = [
-        np.flatnonzero(np.isin(surface.nearest, handle.vertices))
-        for handle in model.problem.handles
-    ]
+    regions = [surface.following(handle.vertices) for handle in model.problem.handles]
     colors = tint(len(surface.corners), regions)
     return render(surface.vertices(vertices), surface.faces, colors=colors, up=up)
 

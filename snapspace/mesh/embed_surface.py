@@ -12,6 +12,9 @@ from .tet_mesh import TetMesh
 from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
 from .validation import check_indices, check_points
 
+#: `farthest` for a surface that the mesh was filled into: all of it is carried along, also a crumb
+#: that filling has lost, and a surface in another unit is refused.
+WHOLE_DIAGONAL = 1.0
 _SAME = 1e-9  # points closer than this share of the diagonal are one
 
 

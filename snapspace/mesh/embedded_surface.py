@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
 from .arrays import FloatArray, IndexArray, as_indices
@@ -94,6 +94,10 @@ class EmbeddedSurface:
         nearest: IndexArray = self.corners[np.arange(len(largest)), largest]
         nearest.setflags(write=False)
         return nearest
+
+    def following(self, vertices: ArrayLike) -> NDArray[np.intp]:
+        """The surface vertices that follow one of these tet vertices most, ascending."""
+        return np.flatnonzero(np.isin(self.nearest, vertices))
 
     def is_boundary(self, mesh: TetMesh) -> bool:
         """Whether this is `boundary_surface(mesh)`."""

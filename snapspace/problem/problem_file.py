@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..energy import StVK
 from ..mesh import EmbeddedSurface, TetMesh, compact_surface, embed_surface, read_surface, read_tets
+from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
 from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three
@@ -18,8 +19,6 @@ from .posing_problem import PosingProblem
 from .region import in_box, in_sphere
 
 _KEYS = {"mesh", "surface", "material", "stiffness", "domain", "handles"}
-# Diagonals of the mesh: a surface in another unit is refused, and nothing that was filled.
-_FARTHEST = 1.0
 _Mask = NDArray[np.bool_]
 
 
@@ -87,7 +86,7 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
     try:
         file = path.parent / as_text(content["surface"], "surface")
         vertices, faces = compact_surface(*read_surface(file))
-        return embed_surface(vertices, faces, mesh, farthest=_FARTHEST)
+        return embed_surface(vertices, faces, mesh, farthest=WHOLE_DIAGONAL)
     except ValueError as error:
         message = str(error)
         raise ValueError(message if str(path) in message else f"{path}: {message}") from None

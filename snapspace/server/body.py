@@ -18,14 +18,13 @@ from ..mesh import (
     read_surface,
     read_tets,
 )
+from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from .surface_filling import SurfaceFilling
 
 PROBLEM_SUFFIX = ".json"
 MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
-# Diagonals: all of a surface is carried along, also a crumb that filling has lost.
-_FARTHEST = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -93,7 +92,7 @@ def mesh_body(
     check_stop()
     try:
         mesh = (filling or SurfaceFilling()).fill(vertices, faces, stage=stage)
-        surface = embed_surface(vertices, faces, mesh, farthest=_FARTHEST)
+        surface = embed_surface(vertices, faces, mesh, farthest=WHOLE_DIAGONAL)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
     return Body(

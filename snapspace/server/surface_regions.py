@@ -44,7 +44,7 @@ class SurfaceRegions:
     def shown(self, choices: Sequence[HandleChoice]) -> tuple[HandleChoice, ...]:
         """Handles of the tets with the vertices of the surface that follow them most."""
         regions = [np.array(choice.vertices, np.int32) for choice in choices]
-        chosen = [np.flatnonzero(np.isin(self._surface.nearest, region)) for region in regions]
+        chosen = [self._surface.following(region) for region in regions]
         for one, region in enumerate(regions):
             if not chosen[one].size:  # no surface vertex is near: those around it
                 around = self._closest[np.isin(self._mesh.surface_vertices, region)]

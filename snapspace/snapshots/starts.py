@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any, Literal
 
 import numpy as np
@@ -71,16 +72,15 @@ def _interpolation_weights(points: FloatArray, wanted: FloatArray) -> FloatArray
     Thin plates have half the error of the linear functions, and save one in twenty evaluations of
     the Dragon. They need points in all directions, several times as many as there are.
     """
-    linear = _radial_weights(points, wanted, kernel="linear", degree=0)
-    if len(points) < ENOUGH_FOR_PLATES * points.shape[1]:
-        return linear
-    try:
-        plates = _radial_weights(points, wanted, kernel="thin_plate_spline", degree=1)
-    except np.linalg.LinAlgError:  # neighbours in one plane
-        return linear
-    # and in nearly one plane weights are large and of both signs
-    steady = np.abs(plates).sum(axis=1) < WILDEST_WEIGHTS
-    return np.where(steady[:, None], plates, linear)
+    weights, steady = np.zeros((len(wanted), len(points))), np.zeros(len(wanted), bool)
+    if len(points) >= ENOUGH_FOR_PLATES * points.shape[1]:
+        # neighbours in one plane have no plates, in nearly one large weights of both signs
+        with contextlib.suppress(np.linalg.LinAlgError):
+            weights = _radial_weights(points, wanted, kernel="thin_plate_spline", degree=1)
+            steady = np.abs(weights).sum(axis=1) < WILDEST_WEIGHTS
+    if not steady.all():
+        weights[~steady] = _radial_weights(points, wanted[~steady], kernel="linear", degree=0)
+    return weights
 
 
 def _radial_weights(
