@@ -71,6 +71,30 @@ class ScalarFactor:
     def solve_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """The same in single precision, of up to twice as many."""
 
+class TwoGridCycle:
+    """
+    Multigrid cycle for a sparse matrix (n, n), given by its columns with both triangles, in place of its inverse; for x, y and z.
+    """
+
+    def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def coarse_size(self) -> int: ...
+
+    def lowest_eigenvalue(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> float:
+        """
+        Of cycle * matrix, from above, for the matrix that the cycle was made for.
+        """
+
+    def apply(self, right_hand_side: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Cycle times one (1, 3n)."""
+
+    def apply_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """Cycle times up to lane_count (k, 3n), one per lane."""
+
+    def apply_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """The same in single precision, of up to twice as many."""
+
 class SolveStatus(enum.Enum):
     """How a full-space solve ended."""
 
@@ -181,13 +205,22 @@ class PosingSystem:
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64]) -> None: ...
 
     @property
-    def factor_nonzeros(self) -> int: ...
+    def inverse(self) -> str:
+        """
+        What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid cycle.
+        """
+
+    @property
+    def inverse_products(self) -> int:
+        """Multiplications of it per component of a vector."""
 
     @property
     def input_size(self) -> int: ...
 
     def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Inverse of the scalar matrix, applied to x, y and z."""
+        """
+        The inverse of the scalar matrix, or what stands for it, applied to x, y and z.
+        """
 
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
@@ -216,17 +249,26 @@ class InterpolationSystem:
 
     def adapted(self, shapes: NDArray[numpy.float64]) -> InterpolationSystem:
         """
-        The same problem with a factor for solutions near displacements (k, 3n).
+        The same problem with an inverse for solutions near displacements (k, 3n).
         """
 
     @property
-    def factor_nonzeros(self) -> int: ...
+    def inverse(self) -> str:
+        """
+        What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid cycle.
+        """
+
+    @property
+    def inverse_products(self) -> int:
+        """Multiplications of it per component of a vector."""
 
     @property
     def input_size(self) -> int: ...
 
     def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Inverse of the scalar matrix, applied to x, y and z."""
+        """
+        The inverse of the scalar matrix, or what stands for it, applied to x, y and z.
+        """
 
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""

@@ -4,6 +4,7 @@
 namespace snapspace {
 void bind_energy(nb::module_& m);
 void bind_cholesky(nb::module_& m);
+void bind_multigrid(nb::module_& m);
 void bind_snapshots(nb::module_& m);
 void bind_soft_modes(nb::module_& m);
 void bind_polish(nb::module_& m);
@@ -21,6 +22,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   m.attr("lane_count") = snapspace::kWideLanes;
   snapspace::bind_energy(m);
   snapspace::bind_cholesky(m);
+  snapspace::bind_multigrid(m);
   snapspace::bind_snapshots(m);
   snapspace::bind_soft_modes(m);
   snapspace::bind_polish(m);

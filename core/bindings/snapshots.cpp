@@ -64,7 +64,15 @@ void require_fitting(const System& system, const SoftModes* modes) {
 /// What the systems of all problems have in common.
 template <class System>
 void bind_solves(nb::class_<System>& system) {
-  system.def_prop_ro("factor_nonzeros", [](const System& self) { return self.factor.nonzeros(); })
+  system
+      .def_prop_ro(
+          "inverse",
+          [](const System& self) { return self.inverse.is_cycle() ? "cycle" : "factor"; },
+          "What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid "
+          "cycle.")
+      .def_prop_ro(
+          "inverse_products", [](const System& self) { return self.inverse.products(); },
+          "Multiplications of it per component of a vector.")
       .def_prop_ro("input_size", &System::input_size)
       .def(
           "precondition",
@@ -73,11 +81,13 @@ void bind_solves(nb::class_<System>& system) {
             DoublesOut result = new_array<double>({vector.size()});
             std::vector<double> shape(vector.size());
             self.numbering.to_internal(vector.data(), shape.data());
-            self.factor.solve(shape.data(), shape.data());
+            Scratch scratch;
+            self.inverse.apply(shape.data(), shape.data(), scratch);
             self.numbering.to_external(shape.data(), result.data());
             return result;
           },
-          nb::arg("vector"), "Inverse of the scalar matrix, applied to x, y and z.")
+          nb::arg("vector"),
+          "The inverse of the scalar matrix, or what stands for it, applied to x, y and z.")
       .def(
           "value_and_gradient",
           [](const System& self, VectorIn u, VectorIn inputs) {
@@ -282,7 +292,7 @@ void bind_snapshots(nb::module_& m) {
         return self.adapted(renumbered, static_cast<int>(shapes.shape(0)));
       },
       nb::arg("shapes"),
-      "The same problem with a factor for solutions near displacements (k, 3n).");
+      "The same problem with an inverse for solutions near displacements (k, 3n).");
   bind_solves(interpolation);
 }
 

@@ -1,18 +1,31 @@
 #include "cholesky/analysis.h"
 
+#include <utility>
+
 #include "cholesky/orderings.h"
 
 namespace snapspace {
 
-Supernodes analysed(const Eigen::SparseMatrix<double>& A) {
+bool is_dense(const Supernodes& supernodes) {
   // Entries per column: 50 to 70 in the paper's meshes, which are thin, where dissection saves
   // nothing that is worth its time; 130 in a solid body of 75k tets, where it saves a seventh; 270
   // in one of 250k, where it saves a third; and 680 in one of 1M, where it saves a half.
-  constexpr std::int64_t kMany = 140;
-  Supernodes by_degree(A, minimum_degree(A));
-  if (by_degree.entries() <= kMany * A.cols()) return by_degree;
+  constexpr std::size_t kMany = 140;
+  return static_cast<std::size_t>(supernodes.entries()) > kMany * supernodes.order.size();
+}
+
+Supernodes by_minimum_degree(const Eigen::SparseMatrix<double>& A) {
+  return {A, minimum_degree(A)};
+}
+
+Supernodes or_by_dissection(const Eigen::SparseMatrix<double>& A, Supernodes by_degree) {
   Supernodes by_dissection(A, nested_dissection(A));
-  return by_dissection.entries() < by_degree.entries() ? by_dissection : by_degree;
+  return by_dissection.entries() < by_degree.entries() ? by_dissection : std::move(by_degree);
+}
+
+Supernodes analysed(const Eigen::SparseMatrix<double>& A) {
+  Supernodes by_degree = by_minimum_degree(A);
+  return is_dense(by_degree) ? or_by_dissection(A, std::move(by_degree)) : by_degree;
 }
 
 }  // namespace snapspace

@@ -11,7 +11,7 @@ namespace snapspace {
 /// the floating-point operations that they need.
 struct PartTimes {
   double kernel_seconds = 0.0;  ///< objective and gradient
-  double solve_seconds = 0.0;   ///< both triangular solves
+  double solve_seconds = 0.0;   ///< both triangular solves, or a multigrid cycle
   double kernel_flops = 0.0;
   double solve_flops = 0.0;
 };
@@ -41,8 +41,8 @@ template <class Real>
   });
   times.kernel_flops =
       kKernelFlopsPerTet * static_cast<double>(system.energy.rest.tets.size()) * Real::kWidth;
-  // a product and a sum per entry, component, lane and direction
-  times.solve_flops = 12.0 * static_cast<double>(system.factor.nonzeros()) * Real::kWidth;
+  // a product and a sum each, per component and lane
+  times.solve_flops = 6.0 * static_cast<double>(system.inverse.products()) * Real::kWidth;
   return times;
 }
 

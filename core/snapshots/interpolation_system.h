@@ -3,14 +3,13 @@
 #include <utility>
 #include <vector>
 
-#include "cholesky/analysis.h"
 #include "energy/blended_energy.h"
 #include "energy/block_hessian.h"
 #include "energy/scalar_hessian.h"
 #include "mesh/sweep.h"
 #include "simd/lanes.h"
 #include "snapshots/numbering.h"
-#include "snapshots/scalar_factor.h"
+#include "snapshots/scalar_inverse.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
@@ -20,7 +19,7 @@ template <class Real>
 class InterpolationObjective;
 
 /// What all samples of an interpolation problem share: F(u) = sum_k w_k E_k, with u the
-/// displacement from pose 0. Only the weights differ from sample to sample; one factor
+/// displacement from pose 0. Only the weights differ from sample to sample; one inverse
 /// preconditions them all.
 ///
 /// F does not change under rigid motions. Its gradient is orthogonal to translations and rotations
@@ -34,9 +33,7 @@ struct InterpolationSystem {
 
   Numbering numbering;
   std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
-  std::shared_ptr<const Supernodes>
-      supernodes;  ///< shared as well: the pattern is that of the tets
-  ScalarFactor factor;
+  ScalarInverse inverse;
 
   /// @param mesh   pose 0, renumbered
   /// @param poses  count x n x 3 in the internal numbering
@@ -48,11 +45,11 @@ struct InterpolationSystem {
                                             static_cast<int>(mesh.order.size()), mesh.tets.data(),
                                             static_cast<int>(mesh.tets.size() / 4), material)) {}
 
-  /// The same problem with a factor for solutions near the given shapes (count x 3n, internal
+  /// The same problem with an inverse for solutions near the given shapes (count x 3n, internal
   /// displacements): that of the mean of their scalar Hessians at equal weights. Poses that stretch
-  /// a tet much make it stiff, and a factor that knows needs a fourth of the iterations.
+  /// a tet much make it stiff, and one that knows needs a fourth of the iterations.
   [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes, int count) const {
-    return {numbering, energy, scalar_matrix(*energy, shapes, count), supernodes};
+    return {numbering, energy, inverse.of(scalar_matrix(*energy, shapes, count))};
   }
 
   [[nodiscard]] int size() const { return energy->size(); }
@@ -68,16 +65,13 @@ struct InterpolationSystem {
 
  private:
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended)
-      : InterpolationSystem(std::move(numbers), blended,
-                            scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1),
-                            nullptr) {}
+      : InterpolationSystem(
+            std::move(numbers), blended,
+            ScalarInverse(scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1))) {}
 
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      const Eigen::SparseMatrix<double>& A, std::shared_ptr<const Supernodes> known)
-      : numbering(std::move(numbers)),
-        energy(std::move(blended)),
-        supernodes(known ? std::move(known) : std::make_shared<const Supernodes>(analysed(A))),
-        factor(A, *supernodes) {}
+                      ScalarInverse scalar)
+      : numbering(std::move(numbers)), energy(std::move(blended)), inverse(std::move(scalar)) {}
 
   [[nodiscard]] static Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
                                                                  const std::vector<double>& shapes,
@@ -137,8 +131,8 @@ class InterpolationObjective {
   }
 
   template <class Any>
-  Sum<Any> precondition(const Any* vector, Any* result) const {
-    return system_.factor.solve(vector, result);
+  Sum<Any> precondition(const Any* vector, Any* result) {
+    return system_.inverse.apply(vector, result, scratch_);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const {
@@ -162,6 +156,7 @@ class InterpolationObjective {
   std::vector<Real> weights_;
   std::vector<Real> second_half_;  // of the gradient
   double negligible_ = system_.negligible();
+  Scratch scratch_;
 };
 
 }  // namespace snapspace

@@ -10,7 +10,7 @@
 #include "energy/elastic_energy.h"
 #include "simd/lanes.h"
 #include "snapshots/numbering.h"
-#include "snapshots/scalar_factor.h"
+#include "snapshots/scalar_inverse.h"
 
 namespace snapspace {
 
@@ -18,7 +18,8 @@ template <class Real>
 class PosingObjective;
 
 /// What all samples of a posing problem share: F(u) = E(u) + sum_k weight_k |u_k - target_k|^2 over
-/// pinned vertices k. Only the targets differ from sample to sample, so one factor serves them all.
+/// pinned vertices k. Only the targets differ from sample to sample, so one inverse serves them
+/// all.
 struct PosingSystem {
   template <class Real>
   using Objective = PosingObjective<Real>;
@@ -28,7 +29,7 @@ struct PosingSystem {
   std::vector<std::int32_t> pinned;  ///< vertices of the handles, internal
   std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
   std::vector<std::int32_t> pins;    ///< of which pinned[k], weights[k]: by their vertices
-  ScalarFactor factor;               ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
+  ScalarInverse inverse;             ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
 
   PosingSystem(const LocalMesh& mesh, StVK material, std::vector<std::int32_t> pinned_vertices,
                std::vector<double> pin_weights)
@@ -39,7 +40,7 @@ struct PosingSystem {
         pinned(renumbered(std::move(pinned_vertices), mesh.places)),
         weights(std::move(pin_weights)),
         pins(pinned.size()),
-        factor(scalar_matrix()) {
+        inverse(scalar_matrix()) {
     std::iota(pins.begin(), pins.end(), 0);
     std::sort(pins.begin(), pins.end(),
               [&](std::int32_t a, std::int32_t b) { return pinned[a] < pinned[b]; });
@@ -96,11 +97,11 @@ class PosingObjective {
     return elastic + pinning.value;
   }
 
-  /// result = A^{-1} vector with the scalar matrix A of the system; both 3n and of any precision,
-  /// and they may be the same array. Returns vector . result.
+  /// result = A^{-1} vector, or nearly, with the scalar matrix A of the system; both 3n and of any
+  /// precision, and they may be the same array. Returns vector . result.
   template <class Any>
-  Sum<Any> precondition(const Any* vector, Any* result) const {
-    return system_.factor.solve(vector, result);
+  Sum<Any> precondition(const Any* vector, Any* result) {
+    return system_.inverse.apply(vector, result, scratch_);
   }
 
   [[nodiscard]] BlockHessian hessian_pattern() const { return BlockHessian(system_.energy.rest); }
@@ -146,6 +147,7 @@ class PosingObjective {
   const PosingSystem& system_;
   std::vector<Real> targets_;
   double negligible_ = system_.negligible();
+  Scratch scratch_;
 };
 
 }  // namespace snapspace

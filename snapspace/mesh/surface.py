@@ -8,6 +8,8 @@ from .arrays import FloatArray, IndexArray
 
 # Faces of a positive tet, counter-clockwise seen from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+# Three indices below it make one number of 64 bits, which is sorted three times as fast.
+_MOST_IN_A_KEY = 1 << 21
 
 
 def boundary_faces(tets: IndexArray) -> IndexArray:
@@ -25,13 +27,16 @@ def boundary_faces(tets: IndexArray) -> IndexArray:
         often as its reverse.
     """
     faces = tets[:, _FACES].reshape(-1, 3)
-    low_high = np.sort(faces, axis=1).astype(np.int64)
+    corners = np.sort(faces, axis=1).astype(np.int64)
     stride = int(faces.max()) + 1 if faces.size else 1
-    first, second = low_high[:, 0] * stride + low_high[:, 1], low_high[:, 2]
-    order = np.lexsort((second, first))
-    first, second = first[order], second[order]
-    differs = np.ones(len(faces) + 1, dtype=np.bool_)
-    differs[1:-1] = (first[1:] != first[:-1]) | (second[1:] != second[:-1])
+    if stride < _MOST_IN_A_KEY:
+        keys = (corners[:, 0] * stride + corners[:, 1]) * stride + corners[:, 2]
+        order = np.argsort(keys)
+        changes = np.diff(keys[order]) != 0
+    else:
+        order = np.lexsort(corners.T)
+        changes = np.diff(corners[order], axis=0).any(axis=1)
+    differs = np.concatenate([[True], changes, [True]]) if len(faces) else np.ones(1, np.bool_)
     once = differs[:-1] & differs[1:]
     return np.ascontiguousarray(faces[np.sort(order[once])], dtype=np.int32)
 

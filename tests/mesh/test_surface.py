@@ -7,6 +7,9 @@ from snapspace.mesh import TetMesh, boundary_faces, compact_surface, vertex_norm
 
 from .boxes import box_mesh
 
+# Too many vertices for the three indices of a face to be one number of 64 bits.
+MANY = 3_000_000
+
 
 def enclosed_volume(vertices: np.ndarray, faces: np.ndarray) -> float:
     """Divergence theorem: positive only if the faces are closed and outward."""
@@ -82,3 +85,10 @@ def test_tiny_dihedral_angles_keep_their_digits() -> None:
     height = 1e-6
     mesh = TetMesh([[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, 0.5, height]], [[0, 1, 2, 3]])
     assert mesh.dihedral_angles[0, 0] == pytest.approx(np.degrees(height / 0.5), rel=1e-9)
+
+
+def test_faces_do_not_depend_on_how_many_vertices_there_are() -> None:
+    """Of the same tets among the last of so many vertices that faces are sorted in another way."""
+    tets = box_mesh((5, 4, 3)).tets
+    far = (MANY - 1 - tets.max() + tets).astype(np.int32)
+    assert np.array_equal(boundary_faces(far), boundary_faces(tets) + far.min() - tets.min())

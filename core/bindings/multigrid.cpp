@@ -1,0 +1,47 @@
+#include "bindings/lane_solves.h"
+#include "bindings/sparse_matrix.h"
+#include "multigrid/lowest_eigenvalue.h"
+#include "multigrid/two_grid_cycle.h"
+
+namespace snapspace {
+
+namespace {
+
+template <class Real, int Width>
+DoublesOut apply(const TwoGridCycle& cycle, MatrixIn right_hand_sides) {
+  Scratch scratch;
+  return solved_in_lanes<Real, Width>(cycle.size(), right_hand_sides, [&](Real* shape) {
+    (void)cycle.apply(shape, shape, scratch);
+  });
+}
+
+}  // namespace
+
+void bind_multigrid(nb::module_& m) {
+  constexpr int kSingle = 2 * kWideLanes;
+  nb::class_<TwoGridCycle>(m, "TwoGridCycle",
+                           "Multigrid cycle for a sparse matrix (n, n), given by its columns with "
+                           "both triangles, in place of its inverse; for x, y and z.")
+      .def(
+          "__init__",
+          [](TwoGridCycle* self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
+            new (self) TwoGridCycle(sparse_matrix(starts, rows, values));
+          },
+          nb::arg("starts"), nb::arg("rows"), nb::arg("values"))
+      .def_prop_ro("coarse_size", &TwoGridCycle::coarse_size)
+      .def(
+          "lowest_eigenvalue",
+          [](const TwoGridCycle& self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
+            require(starts.size() == self.size() + 1, "the cycle is of another matrix");
+            return lowest_eigenvalue(sparse_matrix(starts, rows, values), self);
+          },
+          nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
+          "Of cycle * matrix, from above, for the matrix that the cycle was made for.")
+      .def("apply", &apply<double, 1>, nb::arg("right_hand_side"), "Cycle times one (1, 3n).")
+      .def("apply_lanes", &apply<Lanes<kWideLanes>, kWideLanes>, nb::arg("right_hand_sides"),
+           "Cycle times up to lane_count (k, 3n), one per lane.")
+      .def("apply_single_lanes", &apply<SingleLanes<kSingle>, kSingle>, nb::arg("right_hand_sides"),
+           "The same in single precision, of up to twice as many.");
+}
+
+}  // namespace snapspace

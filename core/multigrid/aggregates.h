@@ -1,0 +1,20 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+namespace snapspace {
+
+/// A partition of the unknowns of a matrix into small connected sets, each of which becomes an
+/// unknown of a coarser grid.
+struct Aggregates {
+  std::vector<std::int32_t> of;  ///< the aggregate of every unknown
+  std::int32_t count = 0;        ///< numbered by the unknowns that they began with
+};
+
+/// Unknowns with all their neighbours, as far as they do not overlap; what is between them joins
+/// one of them (Vanek, Mandel, Brezina 1996, sec. 5.1, with all neighbours taken for strong).
+/// @param A  both triangles stored; only the pattern is read
+[[nodiscard]] Aggregates aggregated(const Eigen::SparseMatrix<double>& A);
+
+}  // namespace snapspace

@@ -1,0 +1,65 @@
+#include "multigrid/lowest_eigenvalue.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "memory/scratch.h"
+
+namespace snapspace {
+
+namespace {
+
+constexpr int kSteps = 16;
+
+/// The entries of x; y and z are zero, as the right-hand side is a scalar one.
+Eigen::VectorXd applied(const TwoGridCycle& cycle, const Eigen::VectorXd& vector,
+                        Scratch& scratch) {
+  std::vector<double> points(3 * vector.size(), 0.0);
+  for (Eigen::Index i = 0; i < vector.size(); ++i) points[3 * i] = vector[i];
+  cycle.apply(points.data(), points.data(), scratch);
+  return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<3>>(points.data(), vector.size());
+}
+
+Eigen::VectorXd at_random(Eigen::Index size) {
+  Eigen::VectorXd vector(size);
+  std::uint32_t state = 1;
+  for (double& entry : vector) {
+    state = state * 1664525u + 1013904223u;
+    entry = static_cast<double>(state >> 8) / (1 << 23) - 1.0;
+  }
+  return vector;
+}
+
+}  // namespace
+
+double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A, const TwoGridCycle& cycle) {
+  Scratch scratch;
+  Eigen::VectorXd residual = at_random(A.cols()), image = applied(cycle, residual, scratch);
+  Eigen::VectorXd search = image;
+  std::vector<double> diagonal, beside;  // of the tridiagonal matrix of Lanczos' method
+  double norm = residual.dot(image), ratio = 0.0, step = 1.0;
+  const double negligible = 1e-20 * norm;
+  while (static_cast<int>(diagonal.size()) < kSteps && norm > negligible) {
+    const Eigen::VectorXd product = A * search;
+    const double before = ratio / step;
+    step = norm / search.dot(product);
+    if (!diagonal.empty()) beside.push_back(before / std::sqrt(ratio));
+    diagonal.push_back(1.0 / step + before);
+    residual -= step * product;
+    image = applied(cycle, residual, scratch);
+    const double next = residual.dot(image);
+    ratio = next / norm;
+    norm = next;
+    search = image + ratio * search;
+  }
+  const auto size = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
+                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1),
+                                Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff();
+}
+
+}  // namespace snapspace

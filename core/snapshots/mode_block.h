@@ -1,0 +1,56 @@
+#pragma once
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "memory/streamed_vector.h"
+#include "simd/lanes.h"
+#include "threads/parallel.h"
+
+namespace snapspace {
+
+/// Sixteen tall columns beside each other, in packs that this build computes with at once: the
+/// packs of a block are given to different threads where columns do not meet.
+class ModeBlock {
+ public:
+  static constexpr int kColumns = 16;
+  static constexpr int kLanes = kWideLanes < 4 ? 2 * kWideLanes : 8;
+  static constexpr int kPacks = kColumns / kLanes;
+  using Pack = SingleLanes<kLanes>;
+  using Small = Eigen::MatrixXd;
+
+  explicit ModeBlock(std::size_t size) : packs_(kPacks, StreamedVector<Pack>(size, Pack(0))) {}
+
+  [[nodiscard]] std::size_t size() const { return packs_[0].size(); }
+  [[nodiscard]] Pack* pack(int p) { return packs_[p].data(); }
+  [[nodiscard]] const Pack* pack(int p) const { return packs_[p].data(); }
+  [[nodiscard]] float at(std::size_t i, int k) const { return packs_[k / kLanes][i][k % kLanes]; }
+  void set(std::size_t i, int k, double value) {
+    set_lane(packs_[k / kLanes][i], k % kLanes, value);
+  }
+
+  /// sums += this^T other of the entries from begin to before end, in single precision: for a few
+  /// hundred entries.
+  void add_products(const ModeBlock& other, std::size_t begin, std::size_t end,
+                    Eigen::Ref<Small> sums) const;
+
+  /// With the coefficients (48 x 16) of three blocks: this becomes the combination of all, and
+  /// `past` that of the other two.
+  void combine(const Small& coefficients, const ModeBlock& fresh, ModeBlock& past);
+
+ private:
+  std::vector<StreamedVector<Pack>> packs_;
+};
+
+/// Calls work(part, begin, end) for parts of the entries, on all threads. The parts do not depend
+/// on the number of threads: who adds up what they give has the same sum.
+inline constexpr int kModeParts = 16;
+
+template <class Work>
+void for_parts(std::size_t size, Work&& work) {
+  parallel_for(kModeParts, 0, [&](int part) {
+    work(part, size * part / kModeParts, size * (part + 1) / kModeParts);
+  });
+}
+
+}  // namespace snapspace

@@ -1,0 +1,46 @@
+#include "snapshots/scalar_inverse.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "cholesky/analysis.h"
+#include "multigrid/lowest_eigenvalue.h"
+
+namespace snapspace {
+
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+
+/// Of cycle * A. Bodies filled with regular tets have 0.35 to 0.45, and their samples take as many
+/// evaluations as with the factor, or a tenth more; with 0.25 and less it is twice as many.
+constexpr double kNearEnough = 0.3;
+
+/// The cycle of A if it is near; not of a matrix that is not positive definite.
+std::optional<TwoGridCycle> near_cycle(const Matrix& A) {
+  try {
+    std::optional<TwoGridCycle> cycle(std::in_place, A);
+    if (lowest_eigenvalue(A, *cycle) >= kNearEnough) return cycle;
+  } catch (const std::invalid_argument&) {  // of the coarse matrix; the factor of A will say it
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ScalarInverse::ScalarInverse(const Matrix& A) {
+  Supernodes supernodes = by_minimum_degree(A);
+  if (is_dense(supernodes)) {
+    cycle_ = near_cycle(A);
+    if (cycle_) return;
+    supernodes = or_by_dissection(A, std::move(supernodes));
+  }
+  supernodes_ = std::make_shared<const Supernodes>(std::move(supernodes));
+  factor_.emplace(A, *supernodes_);
+}
+
+ScalarInverse ScalarInverse::of(const Matrix& other) const {
+  return factor_ ? ScalarInverse(other, supernodes_) : ScalarInverse(other);
+}
+
+}  // namespace snapspace

@@ -1,0 +1,86 @@
+"""Factor or cycle: what problems choose, and that solutions do not depend on it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from snapspace import (
+    HandleBox,
+    Handles,
+    InterpolationProblem,
+    Poses,
+    PosingProblem,
+    SolverOptions,
+    sample,
+    solve_snapshots,
+)
+from snapspace._core import SolveControl
+from snapspace.generators import creature
+from snapspace.mesh import TetMesh
+
+from ..snapshots.creatures import posing_creature
+
+
+def solid_block(*, flat: float = 1.0) -> PosingProblem:
+    """A full body of so many vertices that its factor is dense; thinner for flat < 1."""
+    mesh = creature(110_000)
+    vertices = mesh.vertices * (1.0, 1.0, flat)
+    x = vertices[:, 0]
+    handles = Handles([x < np.quantile(x, 0.1), x > np.quantile(x, 0.9)])
+    domain = HandleBox(translation=0.1, angle=0.3)
+    return PosingProblem(TetMesh(vertices, mesh.tets), handles, domain=domain)
+
+
+@pytest.fixture(scope="module")
+def solid() -> PosingProblem:
+    return solid_block()
+
+
+def test_small_bodies_have_a_factor() -> None:
+    assert posing_creature(5000).system.inverse == "factor"
+
+
+def test_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
+    """Of well-shaped tets: the factor has more than 140 entries per column, so that its two solves
+    would multiply by 280; a cycle multiplies by a few dozen."""
+    assert solid.system.inverse == "cycle"
+    assert solid.system.inverse_products < 60 * len(solid.mesh.vertices)
+
+
+def test_flat_tets_get_a_factor() -> None:
+    flat = solid_block(flat=0.05)
+    assert flat.system.inverse == "factor"
+    assert flat.system.inverse_products > 200 * len(flat.mesh.vertices)
+
+
+def test_samples_end_where_the_gradient_vanishes(solid: PosingProblem) -> None:
+    """With the cycle and its soft modes, in few evaluations."""
+    samples = sample(solid.domain, 2, seed=1)
+    tight = solve_snapshots(solid, samples, options=SolverOptions(tolerance=1e-9))
+    assert tight.converged.all()
+    for u, inputs in zip(tight.displacements.array(), solid.inputs(samples), strict=True):
+        _, before = solid.system.value_and_gradient(np.zeros_like(u), inputs)
+        _, after = solid.system.value_and_gradient(u, inputs)
+        assert np.linalg.norm(after) < 1e-3 * np.linalg.norm(before)
+    settled = solve_snapshots(solid, samples)
+    assert max(report.evaluations for report in settled.reports) < 80
+
+
+def test_blends_of_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
+    """For the poses and, adapted, near a blend; both lead to the same minimum."""
+    mesh = solid.mesh
+    x = mesh.vertices[:, 0] / np.ptp(mesh.vertices[:, 0])
+    bent = mesh.vertices + np.outer(0.2 * x**2, [0.0, 0.0, 1.0])
+    problem = InterpolationProblem(Poses(np.stack([mesh.vertices, bent]), mesh.tets))
+    weights = np.array([[0.5, 0.5]])
+    start = (problem.tau - problem.base)[None]
+    energies = []
+    for system in (problem.system, problem.system_near(start[0])):
+        assert system.inverse == "cycle"
+        batch = system.solve_fast(
+            weights, start, tolerance=1e-7, max_iterations=500, threads=2, control=SolveControl()
+        )
+        assert batch.reports[0].status.name == "converged"
+        energies.append(batch.reports[0].value)
+    assert energies[0] == pytest.approx(energies[1], rel=1e-4)
