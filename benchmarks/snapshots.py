@@ -104,11 +104,11 @@ def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     u = 0.01 * np.random.default_rng(args.seed).standard_normal(problem.base.size)
     result: dict[str, Any] = {
         "read_bytes_per_second": core.read_bandwidth(1 << 28),
-        "inverse": problem.system.inverse,
+        "inverse": problem.system.inverse.name,
         "inverse_products": problem.system.inverse_products,
     }
     rows: Rows = [("reads from memory, GB/s", result["read_bytes_per_second"] / 1e9, "")]
-    solves = "triangular solves" if problem.system.inverse == "factor" else "multigrid cycle"
+    solves = "triangular solves" if problem.system.inverse.name == "factor" else "multigrid cycle"
     for single in (True, False):
         name = "single" if single else "double"
         peak = core.peak_flops(single=single)
@@ -143,7 +143,7 @@ def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     for tets in args.sizes:
         problem = common.creature_problem(tets)
         begin = time.perf_counter()
-        inverse, products = problem.system.inverse, problem.system.inverse_products
+        inverse, products = problem.system.inverse.name, problem.system.inverse_products
         inverse_seconds = time.perf_counter() - begin
         samples = ss.sample(problem.domain, args.samples, seed=args.seed)
         begin = time.perf_counter()

@@ -71,6 +71,15 @@ class ScalarFactor:
     def solve_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """The same in single precision, of up to twice as many."""
 
+class InverseKind(enum.Enum):
+    """What stands for the inverse of a scalar matrix."""
+
+    automatic = 0
+
+    factor = 1
+
+    cycle = 2
+
 class TwoGridCycle:
     """
     Multigrid cycle for a sparse matrix (n, n), given by its columns with both triangles, in place of its inverse; for x, y and z.
@@ -202,17 +211,18 @@ class PosingSystem:
     What all samples of a posing problem share, with its scalar factor. Inputs are displacements of the pinned vertices.
     """
 
-    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, inverse: InverseKind = InverseKind.automatic) -> None: ...
 
     @property
-    def inverse(self) -> str:
-        """
-        What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid cycle.
-        """
+    def inverse(self) -> InverseKind:
+        """What stands for the inverse of the scalar matrix."""
 
     @property
-    def inverse_products(self) -> int:
-        """Multiplications of it per component of a vector."""
+    def inverse_products(self) -> int: ...
+
+    @property
+    def lowest_eigenvalue(self) -> float | None:
+        """Of cycle * scalar matrix, where a cycle was made."""
 
     @property
     def input_size(self) -> int: ...
@@ -253,14 +263,15 @@ class InterpolationSystem:
         """
 
     @property
-    def inverse(self) -> str:
-        """
-        What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid cycle.
-        """
+    def inverse(self) -> InverseKind:
+        """What stands for the inverse of the scalar matrix."""
 
     @property
-    def inverse_products(self) -> int:
-        """Multiplications of it per component of a vector."""
+    def inverse_products(self) -> int: ...
+
+    @property
+    def lowest_eigenvalue(self) -> float | None:
+        """Of cycle * scalar matrix, where a cycle was made."""
 
     @property
     def input_size(self) -> int: ...

@@ -3,7 +3,7 @@
 #include "bindings/lane_solves.h"
 #include "bindings/sparse_matrix.h"
 #include "cholesky/orderings.h"
-#include "snapshots/scalar_factor.h"
+#include "cholesky/scalar_factor.h"
 
 namespace snapspace {
 

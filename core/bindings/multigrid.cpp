@@ -2,6 +2,7 @@
 #include "bindings/sparse_matrix.h"
 #include "multigrid/lowest_eigenvalue.h"
 #include "multigrid/two_grid_cycle.h"
+#include "snapshots/scalar_inverse.h"
 
 namespace snapspace {
 
@@ -19,6 +20,10 @@ DoublesOut apply(const TwoGridCycle& cycle, MatrixIn right_hand_sides) {
 
 void bind_multigrid(nb::module_& m) {
   constexpr int kSingle = 2 * kWideLanes;
+  nb::enum_<InverseKind>(m, "InverseKind", "What stands for the inverse of a scalar matrix.")
+      .value("automatic", InverseKind::automatic)
+      .value("factor", InverseKind::factor)
+      .value("cycle", InverseKind::cycle);
   nb::class_<TwoGridCycle>(m, "TwoGridCycle",
                            "Multigrid cycle for a sparse matrix (n, n), given by its columns with "
                            "both triangles, in place of its inverse; for x, y and z.")

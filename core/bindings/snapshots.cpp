@@ -66,13 +66,12 @@ template <class System>
 void bind_solves(nb::class_<System>& system) {
   system
       .def_prop_ro(
-          "inverse",
-          [](const System& self) { return self.inverse.is_cycle() ? "cycle" : "factor"; },
-          "What stands for the inverse of the scalar matrix: its Cholesky factor, or a multigrid "
-          "cycle.")
+          "inverse", [](const System& self) { return self.inverse.kind(); },
+          "What stands for the inverse of the scalar matrix.")
+      .def_prop_ro("inverse_products", [](const System& self) { return self.inverse.products(); })
       .def_prop_ro(
-          "inverse_products", [](const System& self) { return self.inverse.products(); },
-          "Multiplications of it per component of a vector.")
+          "lowest_eigenvalue", [](const System& self) { return self.inverse.lowest_eigenvalue(); },
+          "Of cycle * scalar matrix, where a cycle was made.")
       .def_prop_ro("input_size", &System::input_size)
       .def(
           "precondition",
@@ -245,7 +244,7 @@ void bind_snapshots(nb::module_& m) {
   posing.def(
       "__init__",
       [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, double lam, double mu,
-         IndexVectorIn pinned, VectorIn weights) {
+         IndexVectorIn pinned, VectorIn weights, InverseKind inverse) {
         require(vertices.shape(1) == 3, "vertices must be (n, 3)");
         require(pinned.size() == weights.size(), "one weight per pinned vertex is needed");
         const auto n = static_cast<std::int32_t>(vertices.shape(0));
@@ -254,10 +253,11 @@ void bind_snapshots(nb::module_& m) {
         const nb::gil_scoped_release release;
         const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
         new (self) PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
-                                {weights.data(), weights.data() + weights.size()});
+                                {weights.data(), weights.data() + weights.size()}, inverse);
       },
       nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
-      nb::arg("pinned").noconvert(), nb::arg("weights"));
+      nb::arg("pinned").noconvert(), nb::arg("weights"), nb::kw_only(),
+      nb::arg("inverse") = InverseKind::automatic);
   bind_solves(posing);
 
   nb::class_<InterpolationSystem> interpolation(

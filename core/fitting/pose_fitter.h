@@ -1,11 +1,11 @@
 #pragma once
 #include <vector>
 
+#include "cholesky/scalar_factor.h"
 #include "cholesky/supernodes.h"
 #include "fitting/fitting_system.h"
 #include "fitting/symmetric_dirichlet.h"
 #include "snapshots/conjugate_gradients.h"
-#include "snapshots/scalar_factor.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {

@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "cholesky/point.h"
+#include "cholesky/scalar_factor.h"
 #include "memory/scratch.h"
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
-#include "snapshots/point.h"
-#include "snapshots/scalar_factor.h"
 
 namespace snapspace {
 

@@ -32,7 +32,7 @@ struct PosingSystem {
   ScalarInverse inverse;             ///< of (2 mu + lam) * Laplacian + 2 * weights on the diagonal
 
   PosingSystem(const LocalMesh& mesh, StVK material, std::vector<std::int32_t> pinned_vertices,
-               std::vector<double> pin_weights)
+               std::vector<double> pin_weights, InverseKind kind = InverseKind::automatic)
       : numbering(mesh.order),
         energy{RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()),
                          mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4)),
@@ -40,7 +40,7 @@ struct PosingSystem {
         pinned(renumbered(std::move(pinned_vertices), mesh.places)),
         weights(std::move(pin_weights)),
         pins(pinned.size()),
-        inverse(scalar_matrix()) {
+        inverse(scalar_matrix(), kind) {
     std::iota(pins.begin(), pins.end(), 0);
     std::sort(pins.begin(), pins.end(),
               [&](std::int32_t a, std::int32_t b) { return pinned[a] < pinned[b]; });

@@ -16,27 +16,32 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// evaluations as with the factor, or a tenth more; with 0.25 and less it is twice as many.
 constexpr double kNearEnough = 0.3;
 
-/// The cycle of A if it is near; not of a matrix that is not positive definite.
-std::optional<TwoGridCycle> near_cycle(const Matrix& A) {
-  try {
-    std::optional<TwoGridCycle> cycle(std::in_place, A);
-    if (lowest_eigenvalue(A, *cycle) >= kNearEnough) return cycle;
-  } catch (const std::invalid_argument&) {  // of the coarse matrix; the factor of A will say it
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
-ScalarInverse::ScalarInverse(const Matrix& A) {
+ScalarInverse::ScalarInverse(const Matrix& A, InverseKind kind) {
+  if (kind == InverseKind::cycle) {
+    make_cycle(A);
+    return;
+  }
   Supernodes supernodes = by_minimum_degree(A);
   if (is_dense(supernodes)) {
-    cycle_ = near_cycle(A);
-    if (cycle_) return;
+    if (kind == InverseKind::automatic) {
+      try {
+        make_cycle(A);
+        if (*lowest_ >= kNearEnough) return;
+      } catch (const std::invalid_argument&) {  // of the coarse matrix; the factor of A will say it
+      }
+      cycle_.reset();
+    }
     supernodes = or_by_dissection(A, std::move(supernodes));
   }
   supernodes_ = std::make_shared<const Supernodes>(std::move(supernodes));
   factor_.emplace(A, *supernodes_);
+}
+
+void ScalarInverse::make_cycle(const Matrix& A) {
+  cycle_.emplace(A);
+  lowest_ = snapspace::lowest_eigenvalue(A, *cycle_);
 }
 
 ScalarInverse ScalarInverse::of(const Matrix& other) const {

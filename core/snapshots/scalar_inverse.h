@@ -4,12 +4,15 @@
 #include <optional>
 #include <utility>
 
+#include "cholesky/scalar_factor.h"
 #include "cholesky/supernodes.h"
 #include "memory/scratch.h"
 #include "multigrid/two_grid_cycle.h"
-#include "snapshots/scalar_factor.h"
 
 namespace snapspace {
+
+/// What stands for an inverse; automatic leaves the choice to ScalarInverse.
+enum class InverseKind { automatic, factor, cycle };
 
 /// The inverse of a scalar n x n matrix, or what is as good for a preconditioner: its Cholesky
 /// factor where that is small; a multigrid cycle in solid bodies of many vertices, where factors
@@ -19,12 +22,17 @@ class ScalarInverse {
   /// @param A  symmetric positive definite, both triangles and the diagonal stored, numbered so
   ///           that neighbours are near each other
   /// @throws std::invalid_argument if A is not positive definite
-  explicit ScalarInverse(const Eigen::SparseMatrix<double>& A);
+  explicit ScalarInverse(const Eigen::SparseMatrix<double>& A,
+                         InverseKind kind = InverseKind::automatic);
 
   /// The same for another matrix of A's pattern, of which as much is reused as can be.
   [[nodiscard]] ScalarInverse of(const Eigen::SparseMatrix<double>& other) const;
 
-  [[nodiscard]] bool is_cycle() const { return cycle_.has_value(); }
+  [[nodiscard]] InverseKind kind() const {
+    return cycle_ ? InverseKind::cycle : InverseKind::factor;
+  }
+  /// Of cycle * A, where a cycle was made, also if it was not taken then.
+  [[nodiscard]] std::optional<double> lowest_eigenvalue() const { return lowest_; }
   /// Multiplications per component of a right-hand side, but for the diagonals.
   [[nodiscard]] std::size_t products() const {
     return cycle_ ? cycle_->products() : 2 * factor_->nonzeros();
@@ -42,9 +50,12 @@ class ScalarInverse {
   ScalarInverse(const Eigen::SparseMatrix<double>& A, std::shared_ptr<const Supernodes> known)
       : supernodes_(std::move(known)), factor_(std::in_place, A, *supernodes_) {}
 
+  void make_cycle(const Eigen::SparseMatrix<double>& A);
+
   std::shared_ptr<const Supernodes> supernodes_;  // of the factor
   std::optional<ScalarFactor> factor_;
   std::optional<TwoGridCycle> cycle_;
+  std::optional<double> lowest_;
 };
 
 }  // namespace snapspace

@@ -15,7 +15,7 @@ from snapspace import (
     sample,
     solve_snapshots,
 )
-from snapspace._core import SolveControl
+from snapspace._core import InverseKind, PosingSystem, SolveControl
 from snapspace.generators import creature
 from snapspace.mesh import TetMesh
 
@@ -38,20 +38,50 @@ def solid() -> PosingProblem:
 
 
 def test_small_bodies_have_a_factor() -> None:
-    assert posing_creature(5000).system.inverse == "factor"
+    assert posing_creature(5000).system.inverse == InverseKind.factor
 
 
 def test_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
     """Of well-shaped tets: the factor has more than 140 entries per column, so that its two solves
     would multiply by 280; a cycle multiplies by a few dozen."""
-    assert solid.system.inverse == "cycle"
+    assert solid.system.inverse == InverseKind.cycle
     assert solid.system.inverse_products < 60 * len(solid.mesh.vertices)
 
 
 def test_flat_tets_get_a_factor() -> None:
     flat = solid_block(flat=0.05)
-    assert flat.system.inverse == "factor"
+    assert flat.system.inverse == InverseKind.factor
     assert flat.system.inverse_products > 200 * len(flat.mesh.vertices)
+
+
+def test_both_lead_to_the_same_shapes() -> None:
+    """What stands for the inverse decides on the way, not on where it ends."""
+    problem = posing_creature(8000)
+    samples = sample(problem.domain, 3, seed=2)
+    shapes = []
+    for kind in (InverseKind.factor, InverseKind.cycle):
+        system = PosingSystem(
+            problem.mesh.vertices,
+            problem.mesh.tets,
+            problem.material.lam,
+            problem.material.mu,
+            problem.pinned,
+            problem.pin_weights,
+            inverse=kind,
+        )
+        assert system.inverse == kind
+        assert (system.lowest_eigenvalue is None) == (kind == InverseKind.factor)
+        batch = system.solve_fast(
+            problem.inputs(0.3 * samples),
+            np.zeros((3, 3 * len(problem.mesh.vertices))),
+            tolerance=1e-10,
+            max_iterations=2000,
+            threads=2,
+            control=SolveControl(),
+        )
+        assert all(report.status.name == "converged" for report in batch.reports)
+        shapes.append(batch.shapes)
+    np.testing.assert_allclose(shapes[1], shapes[0], rtol=0, atol=1e-3 * np.abs(shapes[0]).max())
 
 
 def test_samples_end_where_the_gradient_vanishes(solid: PosingProblem) -> None:
@@ -77,7 +107,7 @@ def test_blends_of_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None
     start = (problem.tau - problem.base)[None]
     energies = []
     for system in (problem.system, problem.system_near(start[0])):
-        assert system.inverse == "cycle"
+        assert system.inverse == InverseKind.cycle
         batch = system.solve_fast(
             weights, start, tolerance=1e-7, max_iterations=500, threads=2, control=SolveControl()
         )

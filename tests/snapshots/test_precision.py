@@ -69,7 +69,8 @@ def assert_single_is_good_enough(
 @pytest.mark.parametrize("bound", [0.05, 0.25, 0.7])
 def test_bars(bound: float) -> None:
     problem = posing_bar(bound=bound)
-    assert_single_is_good_enough(problem, parameters(problem, 16))
+    # a line search that is decided by a hair, on some processors, leaves one further apart
+    assert_single_is_good_enough(problem, parameters(problem, 16), share=0.9)
 
 
 def test_with_soft_modes() -> None:

@@ -146,7 +146,7 @@ def test_errors_vanish_in_the_span_of_the_training() -> None:
     """Also when the training rows depend on each other, and nothing is divided by noise."""
     rows = decaying(40, 6)
     errors = gram(MASSES["consistent"], rows).held_out_error(range(30), range(30, 40), 20)
-    np.testing.assert_allclose(errors, 0.0, atol=1e-7)
+    np.testing.assert_allclose(errors, 0.0, atol=3e-7)  # roots of what rounding leaves
 
 
 def test_rows_are_chosen_by_numbers_or_masks_in_any_order() -> None:

@@ -16,7 +16,7 @@ from snapspace import _core as core
 from snapspace.generators import bar, creature
 from snapspace.problem import HandleBox, Handles, PosingProblem
 
-from ..cholesky.matrices import MATRICES, by_columns, mesh_matrix, random_matrices
+from .matrices import MATRICES, by_columns, mesh_matrix, random_matrices
 
 FloatArray = NDArray[np.float64]
 LANES = {"solve_lanes": core.lane_count, "solve_single_lanes": 2 * core.lane_count}

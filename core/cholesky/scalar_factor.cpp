@@ -1,4 +1,4 @@
-#include "snapshots/scalar_factor.h"
+#include "cholesky/scalar_factor.h"
 
 #include <algorithm>
 #include <stdexcept>

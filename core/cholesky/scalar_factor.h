@@ -5,10 +5,10 @@
 #include <type_traits>
 #include <vector>
 
+#include "cholesky/point.h"
 #include "cholesky/supernodes.h"
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
-#include "snapshots/point.h"
 
 namespace snapspace {
 
