@@ -9,8 +9,8 @@
 
 namespace snapspace {
 
-/// Sixteen tall columns beside each other, in packs that this build computes with at once: the
-/// packs of a block are given to different threads where columns do not meet.
+/// Sixteen tall columns beside each other, in packs of eight (four without AVX): where columns do
+/// not meet, packs can be given to different threads.
 class ModeBlock {
  public:
   static constexpr int kColumns = 16;
@@ -42,10 +42,10 @@ class ModeBlock {
   std::vector<StreamedVector<Pack>> packs_;
 };
 
-/// Calls work(part, begin, end) for parts of the entries, on all threads. The parts do not depend
-/// on the number of threads: who adds up what they give has the same sum.
 inline constexpr int kModeParts = 16;
 
+/// Calls work(part, begin, end) for kModeParts parts of the entries, on all threads. Parts do not
+/// depend on the number of threads: who adds up what they give has the same sum.
 template <class Work>
 void for_parts(std::size_t size, Work&& work) {
   parallel_for(kModeParts, 0, [&](int part) {
