@@ -13,8 +13,8 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 
 /// Of cycle * A. Bodies filled with regular tets have 0.35 to 0.45: their samples take a tenth more
-/// evaluations than with the factor, and the first ones, from rest, a quarter. With 0.25 and less it
-/// is twice as many.
+/// evaluations than with the factor, and the first ones, from rest, a quarter. With 0.25 and less
+/// it is twice as many.
 constexpr double kNearEnough = 0.3;
 
 }  // namespace
