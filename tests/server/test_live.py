@@ -14,6 +14,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from snapspace import HandleBox, Handles, PosingProblem, load, read_problem, write_tets
 from snapspace.generators import bar
+from snapspace.growing import FIRST_SAMPLES
 from snapspace.problem import problem_content
 
 from .running import PATIENCE, Message, Page, Running
@@ -83,7 +84,7 @@ def test_models_come_and_become_better(server: Running, page: Page) -> None:
     models = [page.take("model", "failed"), page.take("model", "failed")]
     assert [model["final"] for model in models] == [False, True], models
     assert [model["number"] for model in models] == [1, 2]
-    assert [model["samples"] for model in models] == [32, 40]
+    assert [model["samples"] for model in models] == [FIRST_SAMPLES, 40]
     for model in models:
         assert model["request"] == 5 and model["error"] > 0
         assert len(server.fetch(model["address"])["space_scales"]) == model["dimension"] == 8
