@@ -185,8 +185,8 @@ def _options(
             type=click.Choice(SOLVERS),
             default="fast",
             show_default=True,
-            help="fast: L-BFGS on one factor for all samples. newton: the paper's method, as a "
-            "reference.",
+            help="fast: L-BFGS on one preconditioner for all samples. newton: the paper's method, "
+            "as a reference.",
         ),
         click.option(
             "--tolerance",
