@@ -2,7 +2,7 @@
 
     python benchmarks/inverse.py --problem creature:250000 spot
 
-Both are made and used for every problem; the last column says which one a problem takes by itself.
+Both are made and used for every problem; the last row says which one a problem takes by itself.
 """
 
 from __future__ import annotations

@@ -2,10 +2,10 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 #include "memory/scratch.h"
+#include "multigrid/pseudo_random.h"
 
 namespace snapspace {
 
@@ -24,11 +24,8 @@ Eigen::VectorXd applied(const TwoGridCycle& cycle, const Eigen::VectorXd& vector
 
 Eigen::VectorXd at_random(Eigen::Index size) {
   Eigen::VectorXd vector(size);
-  std::uint32_t state = 1;
-  for (double& entry : vector) {
-    state = state * 1664525u + 1013904223u;
-    entry = static_cast<double>(state >> 8) / (1 << 23) - 1.0;
-  }
+  PseudoRandom next;
+  for (double& entry : vector) entry = next();
   return vector;
 }
 

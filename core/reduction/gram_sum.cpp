@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+
 namespace snapspace {
 
 namespace {

@@ -3,11 +3,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "multigrid/pseudo_random.h"
 #include "snapshots/mode_block.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
@@ -107,14 +107,10 @@ std::optional<Ritz> rayleigh_ritz(const Gram& gram) {
   return Ritz{inverse * solver.eigenvectors().leftCols(kBlock), solver.eigenvalues().head(kBlock)};
 }
 
-/// Numbers in [-1, 1), the same everywhere.
 void fill_at_random(ModeBlock& block) {
-  std::uint32_t state = 1;
+  PseudoRandom next;
   for (std::size_t i = 0; i < block.size(); ++i)
-    for (int k = 0; k < kBlock; ++k) {
-      state = state * 1664525u + 1013904223u;
-      block.set(i, k, static_cast<double>(state >> 8) / (1 << 23) - 1.0);
-    }
+    for (int k = 0; k < kBlock; ++k) block.set(i, k, next());
 }
 
 /// Lanes over the square roots of `squares`.

@@ -36,7 +36,8 @@ def boundary_faces(tets: IndexArray) -> IndexArray:
     else:
         order = np.lexsort(corners.T)
         changes = np.diff(corners[order], axis=0).any(axis=1)
-    differs = np.concatenate([[True], changes, [True]]) if len(faces) else np.ones(1, np.bool_)
+    differs = np.ones(len(faces) + 1, dtype=np.bool_)
+    differs[1:-1] = changes
     once = differs[:-1] & differs[1:]
     return np.ascontiguousarray(faces[np.sort(order[once])], dtype=np.int32)
 

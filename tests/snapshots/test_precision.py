@@ -66,11 +66,11 @@ def assert_single_is_good_enough(
         assert abs(ours.iterations - theirs.iterations) <= 1
 
 
-@pytest.mark.parametrize("bound", [0.05, 0.25, 0.7])
-def test_bars(bound: float) -> None:
+# a line search decided by a hair leaves one of the second further apart on some processors
+@pytest.mark.parametrize(("bound", "share"), [(0.05, 1.0), (0.25, 0.9), (0.7, 1.0)])
+def test_bars(bound: float, share: float) -> None:
     problem = posing_bar(bound=bound)
-    # a line search that is decided by a hair, on some processors, leaves one further apart
-    assert_single_is_good_enough(problem, parameters(problem, 16), share=0.9)
+    assert_single_is_good_enough(problem, parameters(problem, 16), share=share)
 
 
 def test_with_soft_modes() -> None:
