@@ -7,6 +7,7 @@
 
 #include "polish/coarse_space.h"
 #include "simd/lanes.h"
+#include "snapshots/pair_products.h"
 
 namespace snapspace {
 
@@ -27,6 +28,9 @@ template <class System>
 struct TwoLevelSystem {
   template <class Real>
   using Objective = TwoLevelObjective<System, Real>;
+
+  /// B has the right scale already.
+  static constexpr LbfgsMemory kMemory{.pairs = 2, .scaled = false};
 
   const System& system;
   const CoarseSpace& coarse;

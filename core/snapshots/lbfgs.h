@@ -24,7 +24,8 @@
 
 namespace snapspace {
 
-/// @tparam System  has an Objective<Real> with size(), negligible(), load(lane, input),
+/// @tparam System  has kMemory, and an Objective<Real> with size(), negligible(), load(lane,
+/// input),
 ///                 value_and_gradient(u, g, visitor) (see mesh/sweep.h), and
 ///                 precondition(v, result), which returns v . result
 /// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
@@ -78,13 +79,15 @@ class LaneLbfgs {
   /// has the same bits.
   using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
-  static constexpr int kPairs = PairProducts::kPairs;
+  static constexpr int kPairs = System::kMemory.pairs;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
-  using Products = typename LbfgsVectors<Real>::Products;
-  using Outcome = typename LbfgsVectors<Real>::Outcome;
+  using Pairs = PairProducts<System::kMemory>;
+  using Vectors = LbfgsVectors<Real, System::kMemory>;
+  using Products = typename Vectors::Products;
+  using Outcome = typename Vectors::Outcome;
   using Verdict = Lane::Verdict;
 
   /// Takes over the samples of a wider pack that has at most kWidth.
@@ -220,7 +223,7 @@ class LaneLbfgs {
   void turn(const Products& products, Total itself) {
     for (int lane = 0; lane < kWidth; ++lane) {
       if (verdicts_[lane] == Verdict::refused) continue;
-      typename PairProducts::Trial trial{products.direction[lane], {}, {}, itself[lane]};
+      typename Pairs::Trial trial{products.direction[lane], {}, {}, itself[lane]};
       for (int k = 0; k < kPairs; ++k) trial.images[k] = products.images[k][lane];
       for (int k = 0; k < kPairs - 1; ++k) trial.steps[k] = products.steps[k][lane];
       if (verdicts_[lane] == Verdict::moved)
@@ -276,16 +279,16 @@ class LaneLbfgs {
   int threads_;
   typename System::template Objective<Real> objective_;
   int size_;
-  LbfgsVectors<Real> vectors_;
-  PairProducts pairs_[kWidth];
+  Vectors vectors_;
+  Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
   Verdict verdicts_[kWidth];  // on the last trials
   bool pending_ = false;      // the vectors are not told of these verdicts yet
   Total scale_ = 1.0;         // A^-1 gradient = scale_ * single_gradient() in the last trials
   Total steps_ = 0.0;         // that lead to the trials, as shares of the directions
-  typename LbfgsVectors<Real>::Lengths lengths_;  // of these directions, and of the trials
-  StreamedVector<Real> trial_, gradient_;         // and the gradient there
-  StreamedVector<Single> work_;                   // of the gradients in double precision
+  typename Vectors::Lengths lengths_;      // of these directions, and of the trials
+  StreamedVector<Real> trial_, gradient_;  // and the gradient there
+  StreamedVector<Single> work_;            // of the gradients in double precision
 };
 
 }  // namespace snapspace

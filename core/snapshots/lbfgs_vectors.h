@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -18,17 +19,19 @@ namespace snapspace {
 /// precision, which perturbs the approximation of the inverse Hessian by 1e-7 and the result of the
 /// solve not at all. The steps are those that the points have made, with their rounding: that is
 /// what stiff handles answer.
-template <class Real>
+template <class Real, LbfgsMemory memory>
 class LbfgsVectors {
  public:
   static constexpr int kWidth = Real::kWidth;
-  static constexpr int kPairs = PairProducts::kPairs;
+  static constexpr int kPairs = memory.pairs;
+  static constexpr int kSteps = kPairs - 1;  // kept; the newest is what a trial differs by
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
 
   /// Inner products with the gradient of a trial.
   struct Products {
-    Total itself{0.0}, direction{0.0}, steps[kPairs - 1], images[kPairs];
+    Total itself{0.0}, direction{0.0}, images[kPairs];
+    std::array<Total, kSteps> steps;
     Products() {
       for (Total& sum : steps) sum = 0.0;
       for (Total& sum : images) sum = 0.0;
@@ -42,8 +45,9 @@ class LbfgsVectors {
     Total scale{1.0};  ///< A^-1 gradient = scale * image
 
     /// Coefficients of the new directions.
-    Real step_weights[kPairs]{}, image_weights[kPairs]{};
-    void weigh(int lane, const PairProducts& pairs) {
+    Real seed{1}, step_weights[kPairs]{}, image_weights[kPairs]{};
+    void weigh(int lane, const PairProducts<memory>& pairs) {
+      set_lane(seed, lane, pairs.seed);
       for (int k = 0; k < kPairs; ++k) {
         set_lane(step_weights[k], lane, pairs.step[k]);
         set_lane(image_weights[k], lane, pairs.image[k]);
@@ -64,7 +68,7 @@ class LbfgsVectors {
 
   /// Takes over everything from the lanes of wider vectors.
   template <class Wide>
-  void take_lanes(const LbfgsVectors<Wide>& from, const std::vector<int>& lanes) {
+  void take_lanes(const LbfgsVectors<Wide, memory>& from, const std::vector<int>& lanes) {
     for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
       const int there = lanes[lane];
       for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -73,7 +77,7 @@ class LbfgsVectors {
         to.u.set(lane, source.u[there]);
         to.direction.set(lane, source.direction[there]);
         for (int k = 0; k < kPairs; ++k) to.images[k].set(lane, source.images[k][there]);
-        for (int k = 0; k < kPairs - 1; ++k) to.steps[k].set(lane, source.steps[k][there]);
+        for (int k = 0; k < kSteps; ++k) to.steps[k].set(lane, source.steps[k][there]);
       }
     }
   }
@@ -96,14 +100,15 @@ class LbfgsVectors {
                Lengths& lengths);
 
  private:
-  template <class>
+  template <class, LbfgsMemory>
   friend class LbfgsVectors;
 
   struct Entry {
     Real u{0};
-    Single direction{0};         // from u
-    Single images[kPairs]{};     // A^-1 gradient at u, and at the points before
-    Single steps[kPairs - 1]{};  // that led to u, and to the points before; newest first, as images
+    Single direction{0};      // from u
+    Single images[kPairs]{};  // A^-1 gradient at u, and at the points before
+    /// That led to u, and to the points before; newest first, as images.
+    [[no_unique_address]] std::array<Single, kSteps> steps{};
   };
 
   /// In the precision of shapes.
@@ -116,14 +121,15 @@ class LbfgsVectors {
   StreamedVector<Entry> entries_;
 };
 
-template <class Real>
-void LbfgsVectors<Real>::add_products(int begin, int end, const Real* gradient, Total shrink,
-                                      Single* scaled, Products& all) const {
+template <class Real, LbfgsMemory memory>
+void LbfgsVectors<Real, memory>::add_products(int begin, int end, const Real* gradient,
+                                              Total shrink, Single* scaled, Products& all) const {
   const Real factor = narrowed(shrink);
   Products sums = all;  // in registers
   for (std::size_t vertex = begin; vertex < std::size_t(end); ++vertex) {
     // The products are energies, of one vertex here: they may be added in the precision of shapes.
-    Real direction(0), images[kPairs], steps[kPairs - 1];
+    Real direction(0), images[kPairs];
+    std::array<Real, kSteps> steps;
     for (Real& image : images) image = Real(0);
     for (Real& step : steps) step = Real(0);
     for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
@@ -131,27 +137,27 @@ void LbfgsVectors<Real>::add_products(int begin, int end, const Real* gradient, 
       const Real g = gradient[i];
       direction += g * narrowed(entry.direction);
       for (int k = 0; k < kPairs; ++k) images[k] += g * narrowed(entry.images[k]);
-      for (int k = 0; k < kPairs - 1; ++k) steps[k] += g * narrowed(entry.steps[k]);
+      for (int k = 0; k < kSteps; ++k) steps[k] += g * narrowed(entry.steps[k]);
       sums.itself += widened(g) * widened(g);
       scaled[i] = cast<float>(g * factor);
     }
     sums.direction += widened(direction);
     for (int k = 0; k < kPairs; ++k) sums.images[k] += widened(images[k]);
-    for (int k = 0; k < kPairs - 1; ++k) sums.steps[k] += widened(steps[k]);
+    for (int k = 0; k < kSteps; ++k) sums.steps[k] += widened(steps[k]);
   }
   all = sums;
 }
 
-template <class Real>
-void LbfgsVectors<Real>::combine(int begin, int end, const Outcome& outcome, const Single* image,
-                                 Real* trial, Lengths& all) {
+template <class Real, LbfgsMemory memory>
+void LbfgsVectors<Real, memory>::combine(int begin, int end, const Outcome& outcome,
+                                         const Single* image, Real* trial, Lengths& all) {
   const Outcome now = outcome;  // which no store can change
   const Real scale = narrowed(now.scale), accepted = now.accepted;
   const Real next_length = narrowed(now.next_length);
   const auto turn = [&](std::size_t i) {
     Entry& entry = entries_[i];
     const Real z = scale * narrowed(image[i]), s = trial[i] - entry.u;
-    Real direction = -z, newer = z;
+    Real direction = -now.seed * z, newer = z;
     for (int k = 0; k < kPairs; ++k) {
       const Real older = narrowed(entry.images[k]);
       const Real step = k == 0 ? s : narrowed(entry.steps[k - 1]);
@@ -162,9 +168,9 @@ void LbfgsVectors<Real>::combine(int begin, int end, const Outcome& outcome, con
       held = cast<float>(select(accepted, fresh, narrowed(held)));
     };
     for (int k = kPairs - 1; k > 0; --k) accept(entry.images[k], narrowed(entry.images[k - 1]));
-    for (int k = kPairs - 2; k > 0; --k) accept(entry.steps[k], narrowed(entry.steps[k - 1]));
+    for (int k = kSteps - 1; k > 0; --k) accept(entry.steps[k], narrowed(entry.steps[k - 1]));
     accept(entry.images[0], z);
-    accept(entry.steps[0], s);
+    if constexpr (kSteps > 0) accept(entry.steps[0], s);
     accept(entry.direction, direction);
     entry.u = select(accepted, trial[i], entry.u);
     trial[i] = entry.u + next_length * narrowed(entry.direction);

@@ -1,31 +1,38 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 
 namespace snapspace {
 
+/// What L-BFGS keeps of the way to a point, which depends on how long that way is.
+struct LbfgsMemory {
+  int pairs;    ///< of steps and changes of the gradient; each adds to the cost of an evaluation
+  bool scaled;  ///< whether the newest pair scales the seed (Nocedal & Wright 2006, eq. 7.20)
+};
+
 /// The recursion of L-BFGS of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
 ///
-/// The seed is a fixed inverse A^-1. With z = A^-1 g for the gradient at every point, and
-/// p_k = A^-1 y_k, the difference of two z, beside the step s_k, all that the two loops (Nocedal &
-/// Wright 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
-///   direction = -z + sum_k (image[k] p_k + step[k] s_k).
+/// The seed is a fixed inverse A^-1, or seed * A^-1 where it is scaled. With z = A^-1 g for the
+/// gradient at every point, and p_k = A^-1 y_k, the difference of two z, beside the step s_k, all
+/// that the two loops (Nocedal & Wright 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
+///   direction = -seed z + sum_k (image[k] p_k + step[k] s_k).
 /// Which is why z and s_k are all that is kept, and one pass over them gives all products that are
 /// new. Pairs and vectors are numbered from the newest.
+template <LbfgsMemory memory>
 class PairProducts {
  public:
-  /// On 32 samples of the Dragon 2 and 3 pairs need 121 and 126 evaluations, on a creature of
-  /// 250,000 tets 111 and 116, and every pair adds to the cost of each.
-  static constexpr int kPairs = 2;
+  static constexpr int kPairs = memory.pairs;
 
   /// Of the gradient at a trial.
   struct Trial {
-    double direction;          // with the direction that led there
-    double images[kPairs];     // with the z of the point where it began, and those before
-    double steps[kPairs - 1];  // with s_k
-    double itself;             // with the z of the trial
+    double direction;       // with the direction that led there
+    double images[kPairs];  // with the z of the point where it began, and those before
+    double steps[kPairs];   // with s_k; the last is not used
+    double itself;          // with the z of the trial
   };
 
-  double step[kPairs] = {};   ///< coefficients of the direction
+  double seed = 1.0;          ///< coefficients of the direction
+  double step[kPairs] = {};   ///< the same
   double image[kPairs] = {};  ///< the same
 
   void forget() { *this = {}; }
@@ -37,7 +44,7 @@ class PairProducts {
   void move(const Trial& trial, double length) {
     double change[kPairs];  // y_j . direction
     for (int j = 0; j < kPairs; ++j) {
-      change[j] = -gradient_images_[j];
+      change[j] = -seed * gradient_images_[j];
       for (int k = 0; k < kPairs; ++k)
         change[j] += image[k] * images_[k][j] + step[k] * steps_[k][j];
     }
@@ -69,16 +76,20 @@ class PairProducts {
       for (int newer = 0; newer < k; ++newer) product -= first[newer] * steps_[k][newer];
       first[k] = curvature_[k] * product;
     }
+    seed = 1.0;
+    if (memory.scaled && curvature_[0] > 0.0)
+      seed = std::clamp(steps_[0][0] / images_[0][0], kLeastSeed, 1.0);
     double second[kPairs];
     for (int k = kPairs - 1; k >= 0; --k) {
       double product = gradient_images_[k];
       for (int j = 0; j < kPairs; ++j) product -= first[j] * images_[k][j];
+      product *= seed;
       for (int older = k + 1; older < kPairs; ++older) product += second[older] * steps_[older][k];
       second[k] = first[k] - curvature_[k] * product;
     }
-    slope_ = -gradient_image_;
+    slope_ = -seed * gradient_image_;
     for (int k = 0; k < kPairs; ++k) {
-      image[k] = first[k];
+      image[k] = seed * first[k];
       step[k] = -second[k];
       slope_ += image[k] * gradient_images_[k] + step[k] * gradient_steps_[k];
     }
@@ -88,6 +99,9 @@ class PairProducts {
  private:
   /// Least change of the slope that is no rounding, as a share of it.
   static constexpr double kFlat = 1e-6;
+  /// Steps of single tets that fold may be a hundred times stiffer than the rest: the whole shape
+  /// must not crawl for their sake. On the Dragon 0.02 and 0.15 are worse.
+  static constexpr double kLeastSeed = 0.05;
 
   /// Every pair becomes the next older one.
   void age() {

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "simd/lanes.h"
+#include "snapshots/pair_products.h"
 #include "snapshots/soft_modes.h"
 
 namespace snapspace {
@@ -15,6 +16,7 @@ template <class System>
 struct SoftenedSystem {
   template <class Real>
   using Objective = SoftenedObjective<System, Real>;
+  static constexpr LbfgsMemory kMemory = System::kMemory;
 
   const System& system;
   const SoftModes& modes;

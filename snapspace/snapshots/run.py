@@ -204,8 +204,10 @@ class Run:
         # missing depends on where an earlier run was interrupted
         inputs = self.problem.inputs(self.samples[block])
         starts = self._starts(index, inputs)
-        which = np.subtract(missing, block.start)
-        backend.submit(missing, inputs[which], starts[which])
+        if len(missing) < len(block):
+            which = np.subtract(missing, block.start)
+            inputs, starts = inputs[which], starts[which]
+        backend.submit(missing, inputs, starts)
 
     def _starts(self, index: int, inputs: FloatArray) -> FloatArray:
         """Guesses for a block from converged samples before it, and from what is known anyway."""

@@ -16,8 +16,8 @@ FloatArray = NDArray[np.float64]
 def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     """Restores U^T M U = I for rows (d, 3n), the columns of U, which are nearly orthonormal.
 
-    Two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed since the
-    Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out
+    Cholesky-QR passes, two at most; they are triangular, so bases stay nested. They are needed since
+    the Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out
     orthonormal only to eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
 
     Raises
@@ -25,17 +25,24 @@ def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     ValueError
         If the last directions are noise.
     """
+    gram = _gram(directions, mass)
     for _ in range(2):
-        factor = cholesky(_gram(directions, mass))
+        if _error(gram) <= 1e-13:
+            return
+        factor = cholesky(gram)
         for start in range(0, directions.shape[1], BLOCK):
             block = directions[:, start : start + BLOCK]
             block[:] = solve_triangular(factor, block, trans="T")
-    error = float(np.abs(_gram(directions, mass) - np.eye(len(directions))).max())
-    if error > 1e-10:
+        gram = _gram(directions, mass)
+    if _error(gram) > 1e-10:
         raise ValueError(
-            f"pca: the basis is orthonormal only to {error:.1e}; the last directions are noise, "
-            "take a smaller dimension"
+            f"pca: the basis is orthonormal only to {_error(gram):.1e}; the last directions are "
+            "noise, take a smaller dimension"
         )
+
+
+def _error(gram: FloatArray) -> float:
+    return float(np.abs(gram - np.eye(len(gram))).max())
 
 
 def _gram(directions: FloatArray, mass: csr_array) -> FloatArray:
