@@ -54,12 +54,14 @@ void StrainRows::fill_strain(int a, int b, double* row) const {
   const auto crosses = [&](int j, int packs, double* out, auto begin_with) {
     Wide left[3], right[3];
     for (int k = 0; k < 3; ++k) {
-      left[k] = Wide(0.5 * gradient(k, b, j));
+      left[k] = Wide((a == b ? 1.0 : 0.5) * gradient(k, b, j));
       right[k] = Wide(0.5 * gradient(k, a, j));
     }
     for (int p = 0; p < packs; ++p) {
       Wide sum = begin_with(p);
-      for (int k = 0; k < 3; ++k) sum += left[k] * gradient(k, a)[p] + right[k] * gradient(k, b)[p];
+      for (int k = 0; k < 3; ++k) sum += left[k] * gradient(k, a)[p];
+      if (a != b)
+        for (int k = 0; k < 3; ++k) sum += right[k] * gradient(k, b)[p];
       store(out + p * kWideLanes, sum);
     }
   };

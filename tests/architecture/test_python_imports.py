@@ -39,7 +39,7 @@ ALLOWED: dict[str, set[str]] = {
         "subspace",
     },
     "cubature": {"blas", "mesh", "problem", "reduction", "snapshots", "subspace"},
-    "growing": {"mesh", "problem", "snapshots", "subspace", "reduction"},
+    "growing": {"interruptible", "mesh", "problem", "snapshots", "subspace", "reduction"},
     "greedy": {
         "_core",
         "interruptible",
