@@ -26,8 +26,8 @@ FIRST_SAMPLES, FIRST_DIMENSION = 36, 15
 #: Dimension of the second model: its coefficients take an eighth of the time of d = 40.
 MIDDLE_DIMENSION = 24
 #: Times the tolerance, for the first model's samples; they are solved to the end afterwards. On the
-#: Dragon 36 samples with 1500 leave an error of 0.092; d = 16 with 2000 as well, which takes longer,
-#: and 32 samples with 1300 leave 0.096.
+#: Dragon 36 samples with 1500 leave an error of 0.092. So do d = 16 and 2000, which take longer; 32
+#: samples with 1300 leave 0.096.
 FIRST_SLACK = 1500.0
 
 

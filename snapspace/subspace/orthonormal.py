@@ -16,9 +16,9 @@ FloatArray = NDArray[np.float64]
 def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     """Restores U^T M U = I for rows (d, 3n), the columns of U, which are nearly orthonormal.
 
-    Cholesky-QR passes, two at most; they are triangular, so bases stay nested. They are needed since
-    the Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes out
-    orthonormal only to eps * lambda_1 / lambda_i, which is far from 1e-12 for the last of forty.
+    At most two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed
+    since the Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes
+    out orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty.
 
     Raises
     ------
