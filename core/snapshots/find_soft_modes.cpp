@@ -22,7 +22,7 @@ constexpr int kBlock = ModeBlock::kColumns;
 static_assert(kBlock == 2 * SoftModes::kCount);
 constexpr int kMostSteps = 40;
 /// Change of the sum of the wanted eigenvalues in a step that ends the search, as a share.
-constexpr double kEnough = 0.1;
+constexpr double kEnough = 0.06;
 /// Solutions are bent and stretched, and stiffer along the modes than the rest shape: by 8 to 60 in
 /// the mean on the Dragon. With too small a factor directions overshoot; beyond 40 little changes.
 constexpr double kStiffening = 40.0;
