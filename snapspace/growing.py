@@ -26,9 +26,9 @@ FIRST_SAMPLES, FIRST_DIMENSION = 36, 15
 #: Dimension of the second model: its coefficients take an eighth of the time of d = 40.
 MIDDLE_DIMENSION = 24
 #: Times the tolerance, for the first model's samples; they are solved to the end afterwards. On the
-#: Dragon 36 samples with 1500 leave an error of 0.092. So do d = 16 and 2000, which take longer; 32
-#: samples with 1300 leave 0.096.
-FIRST_SLACK = 1500.0
+#: Dragon 36 samples leave a median error of 0.088 with 1500, 0.092 with 2500 and 0.098 with 3000,
+#: after 33, 31 and 30 evaluations each.
+FIRST_SLACK = 2500.0
 
 
 @dataclass(frozen=True)
