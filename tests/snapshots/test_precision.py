@@ -84,7 +84,9 @@ def test_with_soft_modes() -> None:
     assert np.abs(values(single) / values(double) - 1.0).max() < 1e-6
 
 
-@pytest.mark.parametrize("stiffness", [1.0, 1e6])
+# softer ones than 10 hardly hold the shape: rounding decides line searches, and shapes differ by as
+# much as the tolerance leaves
+@pytest.mark.parametrize("stiffness", [10.0, 1e6])
 def test_soft_and_hard_handles(stiffness: float) -> None:
     problem = posing_bar(stiffness=stiffness)
     assert_single_is_good_enough(problem, parameters(problem, 8))
