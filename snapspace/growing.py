@@ -64,7 +64,7 @@ def growing_models(
 ) -> Iterator[Growth]:
     """Models of more and more samples: the first after 36 loosely solved ones, the last after all.
 
-    Stages: 36 loosely solved samples; a third of the samples, where these are 72 or more; all of
+    Stages: 36 loosely solved samples; a third of the samples, where these are 54 or more; all of
     them. What a stage has solved the next one does not solve again, and the loose samples go on
     from where they are.
 
@@ -160,6 +160,6 @@ def _stages(samples: int, dimension: int) -> list[_Stage]:
     if samples <= FIRST_SAMPLES:
         return [last]
     first = _Stage(FIRST_SAMPLES, min(dimension, FIRST_DIMENSION), loose=True)
-    if samples < 6 * FIRST_SAMPLES:
+    if samples // 3 < 3 * FIRST_SAMPLES // 2:
         return [first, last]
     return [first, _Stage(samples // 3, min(dimension, MIDDLE_DIMENSION)), last]
