@@ -99,8 +99,8 @@ class PairProducts {
  private:
   /// Least change of the slope that is no rounding, as a share of it.
   static constexpr double kFlat = 1e-6;
-  /// Steps of single tets that fold may be a hundred times stiffer than the rest: the whole shape
-  /// must not crawl for their sake. On the Dragon 0.02 and 0.15 are worse.
+  /// A few stiff tets must not make the whole shape crawl. With 0.02 the Dragon's samples take 2 %
+  /// more evaluations, with 0.15 an eighth more.
   static constexpr double kLeastSeed = 0.05;
 
   /// Every pair becomes the next older one.

@@ -74,7 +74,7 @@ def test_both_lead_to_the_same_shapes() -> None:
         batch = system.solve_fast(
             problem.inputs(0.3 * samples),
             np.zeros((3, 3 * len(problem.mesh.vertices))),
-            tolerance=1e-10,
+            tolerance=1e-11,
             max_iterations=2000,
             threads=2,
             control=SolveControl(),
