@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -12,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .interruptible import POLL_SECONDS, check_stop
+from .interruptible import begin_abandonable
 from .mesh import EmbeddedSurface
 from .problem import InterpolationProblem, PosingProblem
 from .reduction import InterpolationModel, PosingModel, reduce
@@ -98,10 +96,9 @@ def growing_models(
     done: Snapshots | None = None
     starts = known
     tell = begins or (lambda part: None)
+    finish_parts = begin_abandonable(lambda: _make_parts(problem))
     for stage in _stages(len(samples), dimension):
         tell("snapshots")
-        if executor is None:
-            _prepare(problem)
         first = 0 if done is None else len(done)
         snapshots = solve_snapshots(
             problem,
@@ -118,25 +115,18 @@ def growing_models(
             done = snapshots
         starts = snapshots if known is None else known.joined(snapshots)
         tell("subspace")
+        finish_parts()
         subspace = snapshot_pca(snapshots, dimension=stage.dimension)
         tell("energy")
         model = reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=threads)
         yield Growth(model, snapshots, time.perf_counter() - begin, stage.final, stage.loose)
 
 
-def _prepare(problem: PosingProblem | InterpolationProblem) -> None:
-    """Makes what every stage needs: mass matrix and surface beside the system, on two cores."""
-
-    def beside() -> None:
-        with contextlib.suppress(Exception):  # raised again where it is asked for
-            _ = problem.mass(), problem.mesh.surface
-
-    helper = threading.Thread(target=beside, daemon=True)
-    helper.start()
-    _ = problem.system
-    while helper.is_alive():
-        helper.join(POLL_SECONDS)
-        check_stop()
+def _make_parts(problem: PosingProblem | InterpolationProblem) -> None:
+    """Makes what every stage needs beside the system, and what can be made without it."""
+    _ = problem.mesh.surface
+    if isinstance(problem, PosingProblem):  # others have the mass of the mean, a solution
+        problem.mass()
 
 
 def _loosened(
@@ -160,6 +150,7 @@ def _stages(samples: int, dimension: int) -> list[_Stage]:
     if samples <= FIRST_SAMPLES:
         return [last]
     first = _Stage(FIRST_SAMPLES, min(dimension, FIRST_DIMENSION), loose=True)
-    if samples // 3 < 3 * FIRST_SAMPLES // 2:
+    third = samples // 3
+    if third < 1.5 * FIRST_SAMPLES:  # hardly better than the first
         return [first, last]
-    return [first, _Stage(samples // 3, min(dimension, MIDDLE_DIMENSION)), last]
+    return [first, _Stage(third, min(dimension, MIDDLE_DIMENSION)), last]

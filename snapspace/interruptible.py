@@ -49,6 +49,11 @@ def run_abandonable(work: Callable[[], Result]) -> Result:
     For compiled work without a way to tell it to stop, such as a factorisation. On Ctrl-C its
     thread is left alone until it is done, and what it finds is lost.
     """
+    return begin_abandonable(work)()
+
+
+def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
+    """As `run_abandonable`, in two parts: calling what is returned waits for the work."""
     outcome: Future[Result] = Future()
 
     def run() -> None:
@@ -57,10 +62,13 @@ def run_abandonable(work: Callable[[], Result]) -> Result:
         except BaseException as error:  # raised again by `result`
             outcome.set_exception(error)
 
+    def finish() -> Result:
+        while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
+            check_stop()
+        return outcome.result()
+
     threading.Thread(target=run, daemon=True).start()
-    while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
-        check_stop()
-    return outcome.result()
+    return finish
 
 
 def run_interruptible(

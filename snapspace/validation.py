@@ -19,7 +19,7 @@ FloatArray = NDArray[np.float64]
 #: The reference is solved until twice the predicted decrease is below this share of F, or a
 #: hundredth of the tolerance that snapshots have. On the Dragon its shapes are then within 1e-4 of
 #: the limit, relative to the displacement.
-REFERENCE_TOLERANCE = 1e-9
+REFERENCE_TOLERANCE = 1e-10
 
 
 @dataclass(frozen=True)

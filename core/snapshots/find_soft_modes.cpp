@@ -53,7 +53,13 @@ struct Gram {
 };
 
 /// Two blocks of a span, the later one first.
-using BlockPairs = std::vector<std::array<int, 2>>;
+using BlockPair = std::array<int, 2>;
+using BlockPairs = std::vector<BlockPair>;
+
+/// Their products in one of the Gram matrices.
+auto products_of(const BlockPair& pair, Small& all) {
+  return all.block(pair[0] * kBlock, pair[1] * kBlock, kBlock, kBlock);
+}
 
 /// The part of some entries. All products of a chunk of entries find them in a cache.
 Gram partial_gram(const Span& span, const BlockPairs& pairs, std::size_t begin, std::size_t end) {
@@ -61,12 +67,10 @@ Gram partial_gram(const Span& span, const BlockPairs& pairs, std::size_t begin, 
   Gram gram;
   for (; begin < end; begin += kChunk) {
     const std::size_t stop = std::min(end, begin + kChunk);
-    for (const auto& [a, b] : pairs) {
-      const auto here = [&](Small& all) {
-        return all.block(a * kBlock, b * kBlock, kBlock, kBlock);
-      };
-      span[a].shapes.add_products(span[b].scalar, begin, stop, here(gram.scalar));
-      span[a].shapes.add_products(span[b].forces, begin, stop, here(gram.hessian));
+    for (const BlockPair& pair : pairs) {
+      const Columns &a = span[pair[0]], &b = span[pair[1]];
+      a.shapes.add_products(b.scalar, begin, stop, products_of(pair, gram.scalar));
+      a.shapes.add_products(b.forces, begin, stop, products_of(pair, gram.hessian));
     }
   }
   return gram;
@@ -78,15 +82,13 @@ void measure(const Span& span, const BlockPairs& pairs, Gram& gram) {
   for_parts(span.x.shapes.size(), [&](int part, std::size_t begin, std::size_t end) {
     parts[part] = partial_gram(span, pairs, begin, end);
   });
-  for (const auto& [a, b] : pairs) {
-    const auto here = [a = a, b = b](Small& all) {
-      return all.block(a * kBlock, b * kBlock, kBlock, kBlock);
-    };
-    here(gram.scalar).setZero();
-    here(gram.hessian).setZero();
+  for (const BlockPair& pair : pairs) {
+    auto scalar = products_of(pair, gram.scalar), hessian = products_of(pair, gram.hessian);
+    scalar.setZero();
+    hessian.setZero();
     for (Gram& part : parts) {
-      here(gram.scalar) += here(part.scalar);
-      here(gram.hessian) += here(part.hessian);
+      scalar += products_of(pair, part.scalar);
+      hessian += products_of(pair, part.hessian);
     }
   }
 }

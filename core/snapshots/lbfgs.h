@@ -24,9 +24,8 @@
 
 namespace snapspace {
 
-/// @tparam System  has kMemory, and an Objective<Real> with size(), negligible(), load(lane,
-/// input),
-///                 value_and_gradient(u, g, visitor) (see mesh/sweep.h), and
+/// @tparam System  has kMemory, and an Objective<Real> with size(), negligible(),
+///                 load(lane, input), value_and_gradient(u, g, visitor) (see mesh/sweep.h), and
 ///                 precondition(v, result), which returns v . result
 /// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
 ///                 in double precision anyway

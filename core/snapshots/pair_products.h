@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace snapspace {
@@ -25,10 +26,10 @@ class PairProducts {
 
   /// Of the gradient at a trial.
   struct Trial {
-    double direction;       // with the direction that led there
-    double images[kPairs];  // with the z of the point where it began, and those before
-    double steps[kPairs];   // with s_k; the last is not used
-    double itself;          // with the z of the trial
+    double direction;                      // with the direction that led there
+    double images[kPairs];                 // with the z of the point where it began, and before
+    std::array<double, kPairs - 1> steps;  // with s_k
+    double itself;                         // with the z of the trial
   };
 
   double seed = 1.0;          ///< coefficients of the direction
