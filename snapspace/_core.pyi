@@ -313,6 +313,18 @@ class SoftModes:
     def weights(self) -> list[float]:
         """Of the modes in the seed, 8 numbers; zero where no mode was found."""
 
+class LinearResponse:
+    """
+    Displacements that a posing system at rest answers with to small displacements (count, input_size) asked of its handles.
+    """
+
+    def __init__(self, system: PosingSystem, inputs: NDArray[numpy.float64]) -> None: ...
+
+    def warped(self, system: PosingSystem, coordinates: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+        """
+        Displacements (samples, 3n) near the solutions for inputs that the combinations with these coordinates are the linear part of.
+        """
+
 class CoarseSpace:
     """Modes (d, 3n) in the numbering of a system, in single precision."""
 

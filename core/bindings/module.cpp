@@ -7,6 +7,7 @@ void bind_cholesky(nb::module_& m);
 void bind_multigrid(nb::module_& m);
 void bind_snapshots(nb::module_& m);
 void bind_soft_modes(nb::module_& m);
+void bind_linear_response(nb::module_& m);
 void bind_polish(nb::module_& m);
 void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
@@ -25,6 +26,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_multigrid(m);
   snapspace::bind_snapshots(m);
   snapspace::bind_soft_modes(m);
+  snapspace::bind_linear_response(m);
   snapspace::bind_polish(m);
   snapspace::bind_fitting(m);
   snapspace::bind_reduction(m);

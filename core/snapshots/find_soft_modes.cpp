@@ -105,16 +105,6 @@ Gram combined(const Gram& gram, const Small& coefficients) {
   return {of(gram.scalar), of(gram.hessian)};
 }
 
-/// Hessian at rest, with the handles: elastic forces of small displacements.
-void rest_forces(const PosingSystem& system, const Pack* shapes, Pack* forces) {
-  system.energy.rest_hessian_product(shapes, forces);
-  for (std::size_t k = 0; k < system.pinned.size(); ++k)
-    for (int c = 0; c < 3; ++c) {
-      const std::size_t i = 3 * static_cast<std::size_t>(system.pinned[k]) + c;
-      forces[i] += Pack(static_cast<float>(2.0 * system.weights[k])) * shapes[i];
-    }
-}
-
 /// The lowest kBlock pairs of the pencil (H, A) on a span.
 struct Ritz {
   Small coefficients;  // (columns of the span) x kBlock, A-orthonormal
@@ -161,7 +151,7 @@ void precondition(const PosingSystem& system, Columns& columns, std::vector<Scra
     Pack *shapes = columns.shapes.pack(p), *scalar = columns.scalar.pack(p);
     normalize(system.inverse.apply(scalar, shapes, scratch[p]), columns.shapes.size(), shapes,
               scalar);
-    rest_forces(system, shapes, columns.forces.pack(p));
+    system.rest_hessian_product(shapes, columns.forces.pack(p));
   });
 }
 

@@ -60,6 +60,17 @@ struct PosingSystem {
   [[nodiscard]] std::vector<float> masses() const { return energy.rest.lumped_shares(); }
   [[nodiscard]] int inverted_tets(const double* u) const { return energy.inverted_tets(u); }
 
+  /// Hessian of F at rest times v: elastic forces of small displacements, and the handles'.
+  template <class Real>
+  void rest_hessian_product(const Real* v, Real* product) const {
+    energy.rest_hessian_product(v, product);
+    for (std::size_t k = 0; k < pinned.size(); ++k) {
+      const std::size_t at = 3 * static_cast<std::size_t>(pinned[k]);
+      const Real weight(static_cast<typename ScalarOf<Real>::type>(2.0 * weights[k]));
+      for (int c = 0; c < 3; ++c) product[at + c] += weight * v[at + c];
+    }
+  }
+
  private:
   static std::vector<std::int32_t> renumbered(std::vector<std::int32_t> vertices,
                                               const std::vector<std::int32_t>& places) {

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -117,6 +117,10 @@ class Handles:
     def __repr__(self) -> str:
         sizes = ", ".join(f"{handle.name}: {len(handle.vertices)}" for handle in self)
         return f"Handles({sizes})"
+
+    def __reduce__(self) -> tuple[Callable[[Sequence[Handle]], Handles], tuple[tuple[Handle, ...]]]:
+        # checked again, with arrays that are read-only again
+        return _handles, (self._handles,)
 
     def _check_disjoint(self) -> None:
         for i, a in enumerate(self._handles):

@@ -196,6 +196,9 @@ class InterpolationProblem:
         moved: FloatArray = registered(shapes, self.tau, self._mean_mass).T - self.base
         return moved
 
+    def guesses(self, parameters: FloatArray) -> None:
+        """None: blends of the poses' deformations are not made."""
+
     def system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""
         rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]

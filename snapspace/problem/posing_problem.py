@@ -5,10 +5,9 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +18,7 @@ from ..energy import ElasticEnergy, StVK
 from ..interruptible import run_abandonable
 from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
+from .handle_response import HandleResponse
 from .handles import Handles
 from .motion import rigid_offset
 
@@ -207,6 +207,14 @@ class PosingProblem:
         system = self.system
         return run_abandonable(lambda: core.SoftModes(system))
 
+    @cached_property
+    def _response(self) -> HandleResponse:
+        return HandleResponse(self)
+
+    def guesses(self, parameters: FloatArray) -> FloatArray:
+        """Displacements (k, 3n) near the solutions for samples (k, p), see `HandleResponse`."""
+        return self._response.guesses(parameters)
+
     def offsets(self, parameters: ArrayLike) -> FloatArray:
         """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (p,)."""
         w = np.asarray(parameters, np.float64)
@@ -276,25 +284,12 @@ class PosingProblem:
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return np.asarray(moved - wanted)
 
-    def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[Any, ...]]:
+    def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[TetMesh, Handles]]:
         # what defines it travels; the compiled system and other caches are made again where needed
-        regions = [handle.vertices for handle in self.handles]
-        definition = (self.mesh, regions, self.handles.names, self.domain, self.material)
-        return _posing_problem, (*definition, self.stiffness)
+        made = partial(
+            PosingProblem, domain=self.domain, material=self.material, stiffness=self.stiffness
+        )
+        return made, (self.mesh, self.handles)
 
     def __repr__(self) -> str:
         return f"PosingProblem({self.mesh!r}, {self.handles!r}, stiffness {self.stiffness:g})"
-
-
-def _posing_problem(
-    mesh: TetMesh,
-    regions: Sequence[NDArray[np.int32]],
-    names: Sequence[str],
-    domain: HandleBox,
-    material: StVK,
-    stiffness: float,
-) -> PosingProblem:
-    """The problem out of a pickle, checked again and with read-only arrays."""
-    return PosingProblem(
-        mesh, Handles(regions, names=names), domain=domain, material=material, stiffness=stiffness
-    )

@@ -107,6 +107,10 @@ class Problem(Protocol):
         """What the system takes for parameters (k, p)."""
         ...
 
+    def guesses(self, parameters: FloatArray) -> FloatArray | None:
+        """Displacements (k, 3n) from `base` near the solutions for (k, p); None if that is hard."""
+        ...
+
     def known_solutions(self) -> tuple[FloatArray, FloatArray]:
         """Parameters (j, p) and shapes (j, 3n) of solutions that are known beforehand."""
         ...

@@ -17,6 +17,7 @@ from ..problem import Problem
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
 from .displacement_rows import DisplacementRows
 from .executor_backend import ExecutorBackend
+from .guesses import Guesses
 from .held_out import HeldOutError
 from .local_backend import LocalBackend
 from .schedule import Schedule
@@ -120,6 +121,7 @@ class Run:
             known = known.select(known.usable)
             self.known_parameters = np.vstack([given, known.parameters])
             self.known_rows = self.known_rows.followed_by(known.displacements)
+        self.guesses = Guesses(problem, np.vstack([self.known_parameters, samples]))
 
     def solve(self, *, threads: int, executor: Executor | None) -> None:
         """Solves what is missing."""
@@ -211,14 +213,21 @@ class Run:
 
     def _starts(self, index: int, inputs: FloatArray) -> FloatArray:
         """Guesses for a block from converged samples before it, and from what is known anyway."""
-        quick = [i for block in self.schedule.before(index) for i in self.quick[block]]
+        block = self.schedule.samples(index)
+        quick = [i for earlier in self.schedule.before(index) for i in self.quick[earlier]]
         before = [i for i in quick if self.reports[i].converged]
         scaled = self.problem.domain.scaled
         parameters = scaled(np.vstack([self.known_parameters, self.samples[before]]))
         rows = self.known_rows.followed_by([self.rows[i] for i in before])
-        wanted = scaled(self.samples[self.schedule.samples(index)])
+        wanted = scaled(self.samples[block])
         if self.options.solver == "newton":
             return nearest_start(parameters, rows, wanted)
+        given = len(self.known_parameters)
+        corrected = self.guesses.corrected(
+            [given + i for i in block], [*range(given), *(given + i for i in before)], rows
+        )
+        if corrected is not None:
+            return corrected
         interpolated = interpolated_start(parameters, rows, wanted)
         if not self.problem.solutions_far_apart:
             return interpolated

@@ -1,0 +1,44 @@
+#include "snapshots/linear_response.h"
+
+#include "bindings/arrays.h"
+#include "snapshots/warp.h"
+
+namespace snapspace {
+
+void bind_linear_response(nb::module_& m) {
+  nb::class_<LinearResponse>(m, "LinearResponse",
+                             "Displacements that a posing system at rest answers with to small "
+                             "displacements (count, input_size) asked of its handles.")
+      .def(
+          "__init__",
+          [](LinearResponse* self, const PosingSystem& system, MatrixIn inputs) {
+            require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
+                    "inputs must be (count, input_size)");
+            require(inputs.shape(0) > 0, "there must be an input");
+            const nb::gil_scoped_release release;
+            new (self) LinearResponse(system, inputs.data(), static_cast<int>(inputs.shape(0)));
+          },
+          nb::arg("system"), nb::arg("inputs"))
+      .def(
+          "warped",
+          [](const LinearResponse& self, const PosingSystem& system, MatrixIn coordinates,
+             MatrixIn inputs) {
+            require(self.size() == static_cast<std::size_t>(system.size()),
+                    "the responses are of another system");
+            require(coordinates.shape(1) == static_cast<std::size_t>(self.count()),
+                    "coordinates must be (samples, count)");
+            require(inputs.shape(0) == coordinates.shape(0) &&
+                        inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
+                    "inputs must be (samples, input_size)");
+            DoublesOut displacements = new_array<double>({inputs.shape(0), self.size()});
+            const nb::gil_scoped_release release;
+            warp(system, self, coordinates.data(), inputs.data(), static_cast<int>(inputs.shape(0)),
+                 displacements.data());
+            return displacements;
+          },
+          nb::arg("system"), nb::arg("coordinates"), nb::arg("inputs"),
+          "Displacements (samples, 3n) near the solutions for inputs that the combinations with "
+          "these coordinates are the linear part of.");
+}
+
+}  // namespace snapspace

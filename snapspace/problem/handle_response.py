@@ -1,0 +1,60 @@
+"""HandleResponse: shapes near the solutions for moved handles, made without solving."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from .. import _core as core
+from ..interruptible import run_abandonable
+
+if TYPE_CHECKING:
+    from .posing_problem import PosingProblem
+
+FloatArray = NDArray[np.float64]
+
+
+class HandleResponse:
+    """What a problem's rest shape answers to small translations and turns of its handles.
+
+    Those of them whose bounds are zero are taken to be at rest.
+    """
+
+    def __init__(self, problem: PosingProblem) -> None:
+        self._problem = problem
+        self._moving = 1 + np.flatnonzero(problem.domain.bounds.any(axis=1))
+        directions = np.eye(3)
+        asked = []
+        for handle in self._moving:
+            small = np.zeros((6, len(problem.handles), 3, 4))
+            small[:3, handle, :, 3] = directions
+            small[3:, handle, :, :3] = -np.cross(directions[:, None], directions)  # [axis] x
+            asked += [problem.target_displacements(offsets).reshape(-1) for offsets in small]
+        system, inputs = problem.system, np.array(asked)
+        self._response = run_abandonable(lambda: core.LinearResponse(system, inputs))
+
+    def guesses(self, parameters: FloatArray) -> FloatArray:
+        """Displacements near the solutions: the linear response, with finite turns.
+
+        Parameters
+        ----------
+        parameters : (k, p)
+
+        Returns
+        -------
+        ndarray, (k, 3n)
+            In rotation-strain coordinates (Huang et al. 2011): the gradient of the response to t
+            and the logarithm of R is taken for the logarithm of a rotation and a strain in every
+            tet, and these are integrated. Exact where all handles move alike, and off by the square
+            of small motions.
+        """
+        problem = self._problem
+        offsets = np.stack([problem.offsets(w) for w in parameters])[:, self._moving]
+        rotations = (offsets[..., :3] + np.eye(3)).reshape(-1, 3, 3)
+        turns = Rotation.from_matrix(rotations).as_rotvec().reshape(*offsets.shape[:2], 3)
+        motions = np.concatenate([offsets[..., 3], turns], axis=-1).reshape(len(offsets), -1)
+        response, system, inputs = self._response, problem.system, problem.inputs(parameters)
+        return run_abandonable(lambda: response.warped(system, motions, inputs))
