@@ -176,15 +176,16 @@ def test_the_clamp_changes_the_path_not_the_end(minimisers: Snapshots, clamp: fl
 
 def test_warm_starts_change_iterations_not_energies(minimisers: Snapshots) -> None:
     problem = minimisers.problem
-    samples = parameters(problem, 48)
+    samples = parameters(problem, 96)
     cold, warm = (
         solve_snapshots(
             problem, samples, options=SolverOptions(tolerance=1e-10, block=block), threads=1
         )
-        for block in (48, 12)
+        for block in (96, 12)
     )
-    # the first two of four blocks have none before them that they wait for
+    # the first two blocks have none before them that they wait for
     np.testing.assert_array_equal(cold.shapes[:, :24], warm.shapes[:, :24])
     np.testing.assert_allclose(values(warm), values(cold), rtol=1e-10)
-    iterations = [[r.iterations for r in s.reports[24:]] for s in (cold, warm)]
-    assert np.mean(iterations[1]) < np.mean(iterations[0])
+    # the last three have 27 and more; fewer do not help guesses that are as good as those of a bar
+    iterations = [[r.iterations for r in s.reports[60:]] for s in (cold, warm)]
+    assert np.mean(iterations[1]) < 0.97 * np.mean(iterations[0])
