@@ -15,6 +15,7 @@ namespace snapspace {
 /// How far the L-BFGS solve of a lane's sample is.
 struct Lane {
   static constexpr int kWindow = 8;
+  static constexpr int kSettling = 4;
   static constexpr double kPatience = 48.0;  // iterations
   static constexpr int kMaxShortenings = 30;
 
@@ -33,9 +34,9 @@ struct Lane {
   double scale = 1.0;  // A^-1 is applied to the next gradient over this
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
-  double decreases[kWindow] = {};   // of the last accepted steps
-  double directions[kWindow] = {};  // their directions' lengths, as if all steps were full ones
-  double displacement = 0.0;        // length of the sample's
+  double decreases[kWindow] = {};     // of the last accepted steps
+  double directions[kSettling] = {};  // lengths of the last ones, as if all steps were full
+  double displacement = 0.0;          // length of the sample's
   SolveStatus status = SolveStatus::cancelled;
   std::chrono::steady_clock::time_point begin;
 
@@ -95,7 +96,7 @@ struct Lane {
 
   void record(double decrease, double direction, double length) {
     decreases[iterations % kWindow] = decrease;
-    directions[iterations % kWindow] = direction;
+    directions[iterations % kSettling] = direction;
     displacement = length;
     ++iterations;
   }
@@ -108,17 +109,18 @@ struct Lane {
       scale = std::ldexp(1.0, std::clamp(std::ilogb(norm), -100, 100));
   }
 
-  /// A step says how far the solution may still be. Short steps along long directions are no sign
-  /// of a near solution, which is why directions count.
+  /// A step says how far the solution may still be: as far as a window of steps as long as the
+  /// last few. Short steps along long directions are no sign of a near solution, which is why
+  /// directions count.
   ///
   /// A few samples crawl along flat valleys, and the whole run waits for them in the end. For those
   /// that take long the share grows: on the Dragon that saves a tenth of all evaluations, and the
   /// subspace of 300 samples stays as good.
   [[nodiscard]] bool settled(double share) const {
-    if (iterations < kWindow) return false;
+    if (iterations < kSettling) return false;
     const double late = std::max(1.0, iterations / kPatience);
-    return std::accumulate(directions, directions + kWindow, 0.0) <
-           share * late * late * displacement;
+    const double recent = std::accumulate(directions, directions + kSettling, 0.0) / kSettling;
+    return recent * kWindow < share * late * late * displacement;
   }
 
   /// A single small predicted decrease may be luck: the mean of the last actual ones must be

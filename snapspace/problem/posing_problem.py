@@ -185,6 +185,12 @@ class PosingProblem:
         return np.array([np.average(vertices[r], axis=0, weights=masses[r]) for r in regions])
 
     @cached_property
+    def _arms(self) -> list[FloatArray]:
+        """Positions of the handles' vertices at rest from their centroids, handle by handle."""
+        pairs = zip(self.handles, self.centroids, strict=True)
+        return [self.mesh.vertices[handle.vertices] - center for handle, center in pairs]
+
+    @cached_property
     def pinned(self) -> NDArray[np.int32]:
         """Vertices of all handles, handle by handle, (p,)."""
         return np.concatenate([handle.vertices for handle in self.handles])
@@ -234,13 +240,10 @@ class PosingProblem:
 
     def target_displacements(self, offsets: FloatArray) -> FloatArray:
         """Displacements (p, 3) that the offsets (h, 3, 4) ask of the pinned vertices."""
-        vertices = self.mesh.vertices
         return np.concatenate(
             [
-                (vertices[handle.vertices] - center) @ offset[:, :3].T + offset[:, 3]
-                for handle, center, offset in zip(
-                    self.handles, self.centroids, offsets, strict=True
-                )
+                arms @ offset[:, :3].T + offset[:, 3]
+                for arms, offset in zip(self._arms, offsets, strict=True)
             ]
         )
 

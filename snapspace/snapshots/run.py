@@ -192,10 +192,14 @@ class Run:
             self.complete += 1
             if self.unsaved and self.enough == self.options.block:
                 self._save()  # before the Gram matrix takes hold of what is in memory
-            self.held_out.add([self.rows[i] for i in block])
+            # each part of the Gram matrix reads all earlier rows: they come in growing parts
+            learned, last = len(self.held_out.gram), self.complete == len(self.schedule)
+            if not last and block.stop < 1.25 * learned:
+                continue
+            self.held_out.add([self.rows[i] for i in range(learned, block.stop)])
             if self.progress:
                 converged = np.array([self.reports[i].converged for i in range(block.stop)])
-                self.estimate = self.held_out.of_last(converged, len(block))
+                self.estimate = self.held_out.of_last(converged, block.stop - learned)
 
     def _submit(self, backend: Backend, index: int) -> None:
         block = self.schedule.samples(index)

@@ -37,12 +37,12 @@ class SolverOptions:
         and for "fast" the mean decrease of the last 8 iterations is as well. Default: `settling`
         decides where the problem has one, otherwise the problem's `snapshot_tolerance`.
     settling : float, optional
-        "fast" only: converged as well when the last 8 directions, steps of the solver's model to
-        the minimum, together are shorter than this share of the sample's displacement, in the norm
-        of the lumped masses. A subspace needs shapes, not energies: on a fine mesh the energy goes
-        on falling while the surface wrinkles, and nothing else moves. Default: the problem's
-        `snapshot_settling`, a fifth of it without soft modes, whose steps then are too short; 0,
-        which is never, if a tolerance is given.
+        "fast" only: converged as well when 8 directions as long as the last 4, steps of the
+        solver's model to the minimum, together would be shorter than this share of the sample's
+        displacement, in the norm of the lumped masses. A subspace needs shapes, not energies: on a
+        fine mesh the energy goes on falling while the surface wrinkles, and nothing else moves.
+        Default: the problem's `snapshot_settling`, a fifth of it without soft modes, whose steps
+        then are too short; 0, which is never, if a tolerance is given.
     soft_modes : bool, default True
         "fast" only: L-BFGS is seeded with the lowest modes of a posing problem beside the scalar
         factor. Without them it takes half as many steps again, and soft parts stay behind.
