@@ -1,0 +1,105 @@
+"""Starts of samples: how near they are, and what solves from them take; all in one run.
+
+python benchmarks/starts.py --problem dragon --known 0 16 36 100
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from typing import Any
+
+import common
+import numpy as np
+
+import snapspace as ss
+from snapspace import _core as core
+from snapspace.mesh import mass_norms
+from snapspace.snapshots.displacement_rows import DisplacementRows
+from snapspace.snapshots.guesses import Guesses
+from snapspace.snapshots.starts import interpolated_start
+
+Rows = list[tuple[str, Any, str]]
+
+#: Samples that each start is tried on.
+WANTED = 32
+
+
+def starts(
+    problem: ss.PosingProblem, samples: np.ndarray, rows: np.ndarray
+) -> dict[str, Callable[[], np.ndarray]]:
+    """Ways to start the last samples, from the rest shape and those of which rows are known."""
+    known, wanted = range(len(rows)), range(len(rows), len(samples))
+    scaled = problem.domain.scaled(samples)
+    displacements = DisplacementRows(rows, problem.base.size)
+    ways: dict[str, Callable[[], np.ndarray]] = {
+        "rest": lambda: np.zeros((WANTED, problem.base.size)),
+        "guess": lambda: problem.guesses(samples[list(wanted)]),
+    }
+    if len(known) > 1:
+        near, far = scaled[: len(rows)], scaled[len(rows) :]
+        ways["interpolated"] = lambda: interpolated_start(near, displacements, far)
+        corrected = Guesses(problem, samples).corrected(wanted, known, displacements)
+        if corrected is not None:
+            ways["corrected guess"] = lambda: corrected
+    return ways
+
+
+def measured(
+    problem: ss.PosingProblem, samples: np.ndarray, start: np.ndarray, exact: np.ndarray
+) -> dict[str, float]:
+    """The start's error, and the evaluations of a loose solve and of one until it settles."""
+    mass, size = problem.mass(), mass_norms(problem.mass(), exact.T)
+    error = mass_norms(mass, (start - exact).T) / size
+    result = {"error": float(np.median(error))}
+    for name, how in (
+        ("loose", {"tolerance": 1e3 * problem.snapshot_tolerance}),
+        ("settled", {"tolerance": problem.snapshot_tolerance, "settling": 0.01}),
+    ):
+        batch = problem.system.solve_fast(
+            problem.inputs(samples),
+            start,
+            max_iterations=1000,
+            threads=0,
+            control=core.SolveControl(),
+            single=True,
+            modes=problem.soft_modes,
+            **how,
+        )
+        result[name] = float(np.mean([report.evaluations for report in batch.reports]))
+    return result
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--problem", default="dragon")
+    parser.add_argument("--known", type=int, nargs="+", default=[0, 16, 36, 100])
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+    problem = common.read_problem(args.problem)
+    drawn = ss.sample(problem.domain, max(args.known) + WANTED, seed=0)
+    exact = common.solved(problem, drawn, tolerance=1e-7, max_iterations=5000).displacements.array()
+    result: dict[str, Any] = {"problem": args.problem, "known": {}}
+    rows: Rows = []
+    for known in args.known:
+        samples = np.vstack([np.zeros(problem.parameter_count), drawn[: known + WANTED]])
+        finished = np.vstack([np.zeros(problem.base.size), exact[:known]])
+        here = result["known"][known] = {}
+        for name, make in starts(problem, samples, finished).items():
+            wanted = exact[known : known + WANTED]
+            found = here[name] = measured(problem, samples[1 + known :], make(), wanted)
+            rows.append(
+                (
+                    f"{known} finished, {name}",
+                    f"error {found['error']:.3f}, evaluations {found['loose']:.1f} loosely, "
+                    f"{found['settled']:.1f} settled",
+                    "",
+                )
+            )
+    common.show(f"starts: {args.problem}", rows, result, args.json)
+
+
+if __name__ == "__main__":
+    main()
