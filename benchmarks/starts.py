@@ -1,12 +1,13 @@
 """Starts of samples: how near they are, and what solves from them take; all in one run.
 
-python benchmarks/starts.py --problem dragon --known 0 16 36 100
+    python benchmarks/starts.py --problem dragon --known 0 16 36 100
+
+The solutions that starts are compared with are tight ones.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from typing import Any
 
 import common
@@ -27,22 +28,22 @@ WANTED = 32
 
 def starts(
     problem: ss.PosingProblem, samples: np.ndarray, rows: np.ndarray
-) -> dict[str, Callable[[], np.ndarray]]:
-    """Ways to start the last samples, from the rest shape and those of which rows are known."""
+) -> dict[str, np.ndarray]:
+    """Starts of the last samples: from the rest shape, and from those of which rows are known."""
     known, wanted = range(len(rows)), range(len(rows), len(samples))
-    scaled = problem.domain.scaled(samples)
-    displacements = DisplacementRows(rows, problem.base.size)
-    ways: dict[str, Callable[[], np.ndarray]] = {
-        "rest": lambda: np.zeros((WANTED, problem.base.size)),
-        "guess": lambda: problem.guesses(samples[list(wanted)]),
+    found = {
+        "rest": np.zeros((WANTED, problem.base.size)),
+        "guess": problem.guesses(samples[list(wanted)]),
     }
     if len(known) > 1:
+        scaled = problem.domain.scaled(samples)
+        displacements = DisplacementRows(rows, problem.base.size)
         near, far = scaled[: len(rows)], scaled[len(rows) :]
-        ways["interpolated"] = lambda: interpolated_start(near, displacements, far)
+        found["interpolated"] = interpolated_start(near, displacements, far)
         corrected = Guesses(problem, samples).corrected(wanted, known, displacements)
         if corrected is not None:
-            ways["corrected guess"] = lambda: corrected
-    return ways
+            found["corrected guess"] = corrected
+    return found
 
 
 def measured(
@@ -87,9 +88,9 @@ def main() -> None:
         samples = np.vstack([np.zeros(problem.parameter_count), drawn[: known + WANTED]])
         finished = np.vstack([np.zeros(problem.base.size), exact[:known]])
         here = result["known"][known] = {}
-        for name, make in starts(problem, samples, finished).items():
+        for name, start in starts(problem, samples, finished).items():
             wanted = exact[known : known + WANTED]
-            found = here[name] = measured(problem, samples[1 + known :], make(), wanted)
+            found = here[name] = measured(problem, samples[1 + known :], start, wanted)
             rows.append(
                 (
                     f"{known} finished, {name}",

@@ -1,5 +1,5 @@
 #pragma once
-#include "energy/stvk.h"
+#include "simd/lanes.h"
 
 namespace snapspace {
 
@@ -13,7 +13,7 @@ inline void rotation_strain(const Real G[3][3], Real D[3][3]) {
   const Real w[3] = {half * (G[2][1] - G[1][2]), half * (G[0][2] - G[2][0]),
                      half * (G[1][0] - G[0][1])};
   // Cosine of a fourth of the angle, and sine by the angle, as series of its square: ten digits for
-  // two whole turns. Doubled twice they are those of the angle.
+  // a whole turn, five for two. Doubled twice they are those of the angle.
   const Real x = Real(T(1.0 / 16)) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
   const auto series = [&](auto... divisors) {
     Real sum(T(1));

@@ -43,7 +43,7 @@ void solve(const PosingSystem& system, Column& residual, Column& x) {
   const std::size_t size = x.size();
   Column preconditioned(size, Real(0)), search(size, Real(0)), product(size, Real(0));
   Scratch scratch;
-  Total norm(0.0), ratio(0.0), all(0.0);
+  Total norm(0.0), all(0.0);
   for (int step = 0; step < kMostSteps; ++step) {
     const Total next = system.inverse.apply(residual.data(), preconditioned.data(), scratch);
     const Real turn = cast<float>(quotient(next, norm));

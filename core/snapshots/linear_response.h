@@ -8,7 +8,7 @@ namespace snapspace {
 
 /// Displacements that a posing problem at rest answers with to small displacements asked of its
 /// handles: the solutions of H r = 2 weights * target with the Hessian H at rest, in single
-/// precision and to about a tenth of a percent of their energy.
+/// precision and to a few tenths of a percent of their energy.
 class LinearResponse {
  public:
   /// @param inputs  count rows of input_size() displacements asked of the pinned vertices

@@ -9,8 +9,9 @@ namespace snapspace {
 /// that rotation_strain makes of theirs, and the shape is the one of the nearest deformations, in
 /// the norm of the scalar matrix, with the handles where they are asked to be.
 ///
-/// Exact for a rigid motion of all handles, and to second order for small ones. With a multigrid
-/// cycle in place of the inverse the nearest shape is found to about a tenth.
+/// But for what responses are solved to, exact for a rigid motion of all handles, and off by the
+/// square of small ones. With a multigrid cycle in place of the inverse the nearest shape is found
+/// to a few percent.
 ///
 /// @param coordinates    samples x response.count()
 /// @param inputs         samples x system.input_size(), asked of the pinned vertices

@@ -197,8 +197,8 @@ def _options(
         click.option(
             "--settling",
             type=float,
-            help="Converged: the last 8 directions together are below this share of the "
-            "displacement [default: 0.01 for a quartic of posing without --tolerance, else 0: "
+            help="Converged: 8 directions as long as the last 4 together are below this share of "
+            "the displacement [default: 0.01 for a quartic of posing without --tolerance, else 0: "
             "never].",
         ),
         click.option(

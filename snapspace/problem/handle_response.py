@@ -24,7 +24,6 @@ class HandleResponse:
     """
 
     def __init__(self, problem: PosingProblem) -> None:
-        self._problem = problem
         self._moving = 1 + np.flatnonzero(problem.domain.bounds.any(axis=1))
         directions = np.eye(3)
         asked = []
@@ -36,11 +35,14 @@ class HandleResponse:
         system, inputs = problem.system, np.array(asked)
         self._response = run_abandonable(lambda: core.LinearResponse(system, inputs))
 
-    def guesses(self, parameters: FloatArray) -> FloatArray:
+    # The problem is no attribute: it keeps this response, and a cycle would keep both in memory.
+    def guesses(self, problem: PosingProblem, parameters: FloatArray) -> FloatArray:
         """Displacements near the solutions: the linear response, with finite turns.
 
         Parameters
         ----------
+        problem : PosingProblem
+            The one that this is the response of.
         parameters : (k, p)
 
         Returns
@@ -49,9 +51,8 @@ class HandleResponse:
             In rotation-strain coordinates (Huang et al. 2011): the gradient of the response to t
             and the logarithm of R is taken for the logarithm of a rotation and a strain in every
             tet, and these are integrated. Exact where all handles move alike, and off by the square
-            of small motions.
+            of small motions, but for what responses are solved to.
         """
-        problem = self._problem
         offsets = np.stack([problem.offsets(w) for w in parameters])[:, self._moving]
         rotations = (offsets[..., :3] + np.eye(3)).reshape(-1, 3, 3)
         turns = Rotation.from_matrix(rotations).as_rotvec().reshape(*offsets.shape[:2], 3)

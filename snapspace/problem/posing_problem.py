@@ -219,7 +219,7 @@ class PosingProblem:
 
     def guesses(self, parameters: FloatArray) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), see `HandleResponse`."""
-        return self._response.guesses(parameters)
+        return self._response.guesses(self, parameters)
 
     def offsets(self, parameters: ArrayLike) -> FloatArray:
         """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (p,)."""

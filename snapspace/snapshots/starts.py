@@ -38,10 +38,8 @@ def nearest_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray)
     -------
     ndarray, (j, 3n)
     """
-    index = np.atleast_1d(cKDTree(known).query(wanted)[1])
-    if (index == index[0]).all():  # as at the beginning, when only the rest shape is known
-        return np.broadcast_to(rows[int(index[0])], (len(index), rows.size))
-    return np.stack([rows[int(i)] for i in index])
+    _, index = cKDTree(known).query(wanted)
+    return np.stack([rows[int(i)] for i in np.atleast_1d(index)])
 
 
 @single_threaded_blas

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from typing import Any
 
 import numpy as np
@@ -145,6 +147,19 @@ def test_a_cycle_gives_nearly_the_same_guesses() -> None:
     exact = twin.guesses(samples)
     assert inputs.shape[1] == factor.input_size
     assert errors(problem, guesses, exact).max() < 0.05
+
+
+def test_a_problem_that_has_guessed_leaves_the_memory_at_once() -> None:
+    """Its responses do not hold it, as a cycle would until the collector comes."""
+    problem = posing_bar()
+    problem.guesses(parameters(problem, 2))
+    gone = weakref.ref(problem)
+    gc.disable()
+    try:
+        del problem
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 def test_samples_take_fewer_evaluations_from_guesses() -> None:
