@@ -104,6 +104,11 @@ class TwoGridCycle:
     def apply_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """The same in single precision, of up to twice as many."""
 
+def point_product(starts: NDArray[numpy.int32], columns: NDArray[numpy.int32], values: NDArray[numpy.float64], points: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """
+    A sparse matrix (n, n), given row by row, times x, y and z of points (3n,).
+    """
+
 class SolveStatus(enum.Enum):
     """How a full-space solve ended."""
 

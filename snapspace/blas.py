@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import threadpoolctl
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -36,14 +37,23 @@ class _SharedLimit:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._inside = 0
-        self._limits: threadpool_limits | None = None
+        self._limits: Any = None
+        self._controller: ThreadpoolController | None = None
+        self._modules = 0  # that were imported when the controller looked for libraries
 
     def __enter__(self) -> None:
         with self._lock:
             if self._inside == 0:
                 _take_control()
-                self._limits = threadpool_limits(limits=1, user_api="blas")
+                self._limits = self._libraries().limit(limits=1, user_api="blas")
             self._inside += 1
+
+    def _libraries(self) -> ThreadpoolController:
+        """Those of this process. To look for them takes milliseconds: only after imports."""
+        if self._controller is None or self._modules != len(sys.modules):
+            self._modules = len(sys.modules)
+            self._controller = ThreadpoolController()
+        return self._controller
 
     def __exit__(self, *_: object) -> None:
         with self._lock:

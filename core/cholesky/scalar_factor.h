@@ -68,17 +68,29 @@ class ScalarFactor {
                             Real* all);
 
   /// Rows below a block lie anywhere in a large vector: they are asked for a few rows early.
-  /// Compilers drop the call of a function that does nothing else, unless they must inline it.
   static constexpr int kRowsAhead = 6;
-  template <class Real>
-  [[gnu::always_inline]] inline static void ask_for(const Real* all, const std::int32_t* rows,
-                                                    int row, int count) {
+  /// So do the columns of blocks, a few blocks early. On the way back the entries are asked for as
+  /// well: processors look ahead within a panel, but not to the one before it.
+  static constexpr int kBlocksAhead = 2;
+
+  /// Compilers drop the call of a function that does nothing else, unless they must inline it.
+  template <class T>
+  [[gnu::always_inline]] inline static void ask_for([[maybe_unused]] const T* begin,
+                                                    [[maybe_unused]] std::size_t count) {
 #if defined(__GNUC__)
-    if (row + kRowsAhead >= count) return;
-    const auto* at = reinterpret_cast<const char*>(all + 3 * std::size_t(rows[row + kRowsAhead]));
-    for (std::size_t byte = 0; byte < 3 * sizeof(Real); byte += 64)
-      __builtin_prefetch(at + byte, 1);
+    const auto* bytes = reinterpret_cast<const char*>(begin);
+    for (std::size_t at = 0; at < count * sizeof(T); at += 64) __builtin_prefetch(bytes + at);
 #endif
+  }
+  template <class Real>
+  [[gnu::always_inline]] inline static void ask_for_row(const Real* all, const std::int32_t* rows,
+                                                        int row, int count) {
+    if (row + kRowsAhead < count) ask_for(all + 3 * std::size_t(rows[row + kRowsAhead]), 3);
+  }
+  template <class Real>
+  void ask_for_columns(const Block& block, const Real* all) const {
+    for (int j = 0; j < block.columns; ++j)
+      ask_for(all + 3 * std::size_t(vertices_[block.vertices + j]), 3);
   }
 
   /// Calls visit with the number of columns as a constant.
@@ -116,13 +128,19 @@ void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std:
   for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
   vertices += Columns;
   for (int row = 0; row < block.below; ++row, l += Columns) {
-    ask_for(all, vertices, row, block.below);
+    ask_for_row(all, vertices, row, block.below);
     Real* entries = entries_of(vertices[row]);
-    // two sums: a product is ready four cycles after it has begun, and two begin in each
-    Point<Real> y = Point<Real>::at(entries), odd = Point<Real>::zero();
+    Point<Real> y = Point<Real>::at(entries);
+    if constexpr (Columns > 4) {
+      // two sums: a product is ready four cycles after it has begun, and two begin in each
+      Point<Real> odd = Point<Real>::zero();
 #pragma GCC unroll 8
-    for (int j = 0; j < Columns; ++j) (j % 2 ? odd : y).subtract(l[j], x[j]);
-    if constexpr (Columns > 1) y.add(odd);
+      for (int j = 0; j < Columns; ++j) (j % 2 ? odd : y).subtract(l[j], x[j]);
+      y.add(odd);
+    } else {
+#pragma GCC unroll 8
+      for (int j = 0; j < Columns; ++j) y.subtract(l[j], x[j]);
+    }
     y.store(entries);
   }
 }
@@ -146,7 +164,7 @@ Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
   l += Columns;
   const Scalar<Real>* row_entries = l + Columns * (Columns - 1) / 2;
   for (int row = 0; row < block.below; ++row, row_entries += Columns) {
-    ask_for(all, vertices + Columns, row, block.below);
+    ask_for_row(all, vertices + Columns, row, block.below);
     const auto y = Point<Real>::at(entries_of(vertices[Columns + row]));
 #pragma GCC unroll 8
     for (int j = 0; j < Columns; ++j) x[j].subtract(row_entries[j], y);
@@ -164,17 +182,29 @@ template <class Real>
 Sum<Real> ScalarFactor::solve(const Real* right_hand_side, Real* solution) const {
   if (solution != right_hand_side) std::copy_n(right_hand_side, 3 * size_, solution);
   const Scalar<Real>* values = entries<Real>();
-  for (auto block = blocks_.begin(); block != blocks_.end(); ++block)
-    with_columns(block->columns, [&](auto columns) {
-      forward<columns()>(*block, values + block->values, vertices_.data() + block->vertices,
-                         solution);
+  const auto count = static_cast<std::ptrdiff_t>(blocks_.size());
+  for (std::ptrdiff_t b = 0; b < count; ++b) {
+    if (b + kBlocksAhead < count) ask_for_columns(blocks_[b + kBlocksAhead], solution);
+    const Block& block = blocks_[b];
+    with_columns(block.columns, [&](auto columns) {
+      forward<columns()>(block, values + block.values, vertices_.data() + block.vertices, solution);
     });
+  }
   Sum<Real> product(0.0);
-  for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block)
-    with_columns(block->columns, [&](auto columns) {
-      product += backward<columns()>(*block, values + block->values,
-                                     vertices_.data() + block->vertices, solution);
+  for (std::ptrdiff_t b = count - 1; b >= 0; --b) {
+    if (b >= kBlocksAhead) {
+      const Block& soon = blocks_[b - kBlocksAhead];
+      ask_for_columns(soon, solution);
+      ask_for(vertices_.data() + soon.vertices,
+              static_cast<std::size_t>(soon.columns + soon.below));
+      ask_for(values + soon.values, static_cast<std::size_t>((&soon)[1].values - soon.values));
+    }
+    const Block& block = blocks_[b];
+    with_columns(block.columns, [&](auto columns) {
+      product += backward<columns()>(block, values + block.values,
+                                     vertices_.data() + block.vertices, solution);
     });
+  }
   return product;
 }
 

@@ -1,4 +1,11 @@
 #pragma once
+#include <cstring>
+#include <type_traits>
+
+#if defined(__GNUC__) && defined(__AVX__)
+#include <immintrin.h>
+#endif
+
 /// One sample per SIMD lane.
 ///
 /// A pack holds the same quantity of `Width` independent samples. Every operation is elementwise,
@@ -16,6 +23,11 @@ inline constexpr int kWideLanes = 4;
 inline constexpr int kWideLanes = 2;
 #endif
 
+/// Whether a pack needs more than one register. Such packs are two halves: compilers that are given
+/// a longer vector keep it in memory, and its sums wait for stores.
+template <class T, int Width>
+concept WiderThanRegister = Width * sizeof(T) > kWideLanes * sizeof(double);
+
 #if defined(__GNUC__)
 // Compilers drop the attribute where the size depends on a template parameter: every size is named.
 template <class T, int Width>
@@ -31,10 +43,6 @@ struct VectorOf<double, 4> {
 template <>
 struct VectorOf<double, 8> {
   typedef double type __attribute__((vector_size(64)));
-};
-template <>
-struct VectorOf<double, 16> {
-  typedef double type __attribute__((vector_size(128)));
 };
 template <>
 struct VectorOf<float, 2> {
@@ -106,21 +114,101 @@ struct alignas(Width * sizeof(T)) Pack {
   Pack& operator*=(Pack b) { return *this = *this * b; }
 };
 
+template <class T, int Width>
+  requires WiderThanRegister<T, Width>
+struct alignas(Width * sizeof(T)) Pack<T, Width> {
+  static constexpr int kWidth = Width;
+  using Scalar = T;
+  using Half = Pack<T, Width / 2>;
+  Half low, high;
+  Pack() = default;
+  Pack(T s) : low(s), high(s) {}
+  Pack(Half first, Half second) : low(first), high(second) {}
+  friend Pack operator+(Pack a, Pack b) { return {a.low + b.low, a.high + b.high}; }
+  friend Pack operator-(Pack a, Pack b) { return {a.low - b.low, a.high - b.high}; }
+  friend Pack operator*(Pack a, Pack b) { return {a.low * b.low, a.high * b.high}; }
+  friend Pack operator-(Pack a) { return {-a.low, -a.high}; }
+  friend Pack select(Pack mask, Pack a, Pack b) {
+    return {select(mask.low, a.low, b.low), select(mask.high, a.high, b.high)};
+  }
+  T operator[](int i) const { return i < Width / 2 ? low[i] : high[i - Width / 2]; }
+  void set(int i, T s) { i < Width / 2 ? low.set(i, s) : high.set(i - Width / 2, s); }
+  Pack& operator+=(Pack b) { return *this = *this + b; }
+  Pack& operator-=(Pack b) { return *this = *this - b; }
+  Pack& operator*=(Pack b) { return *this = *this * b; }
+};
+
 template <int Width>
 using Lanes = Pack<double, Width>;
 template <int Width>
 using SingleLanes = Pack<float, Width>;
 
+/// A half of a pack, and a pack of two halves.
+template <bool High, class T, int Width>
+inline Pack<T, Width / 2> half(Pack<T, Width> pack) {
+  if constexpr (WiderThanRegister<T, Width>) {
+    return High ? pack.high : pack.low;
+  } else {
+    Pack<T, Width / 2> result;
+    std::memcpy(&result, reinterpret_cast<const char*>(&pack) + (High ? sizeof result : 0),
+                sizeof result);
+    return result;
+  }
+}
+template <class T, int Half>
+inline Pack<T, 2 * Half> joined(Pack<T, Half> low, Pack<T, Half> high) {
+  Pack<T, 2 * Half> result;
+  std::memcpy(&result, &low, sizeof low);
+  std::memcpy(reinterpret_cast<char*>(&result) + sizeof low, &high, sizeof high);
+  return result;
+}
+
 /// The same numbers in another precision.
 template <class To, class From, int Width>
 inline Pack<To, Width> cast(Pack<From, Width> a) {
-#if defined(__GNUC__)
-  return Pack<To, Width>(__builtin_convertvector(a.v, typename Pack<To, Width>::Vector));
-#else
-  Pack<To, Width> r;
-  for (int i = 0; i < Width; ++i) r.v[i] = static_cast<To>(a.v[i]);
-  return r;
+  if constexpr (std::is_same_v<To, From>) {
+    return a;
+#if defined(__GNUC__) && defined(__AVX__)  // compilers make two conversions of these
+  } else if constexpr (Width == 4) {
+    if constexpr (std::is_same_v<To, double>)
+      return Pack<To, 4>((typename Pack<To, 4>::Vector)_mm256_cvtps_pd((__m128)a.v));
+    else
+      return Pack<To, 4>((typename Pack<To, 4>::Vector)_mm256_cvtpd_ps((__m256d)a.v));
 #endif
+#if defined(__GNUC__) && defined(__AVX512F__)
+  } else if constexpr (Width == 8) {
+    if constexpr (std::is_same_v<To, double>)
+      return Pack<To, 8>((typename Pack<To, 8>::Vector)_mm512_cvtps_pd((__m256)a.v));
+    else
+      return Pack<To, 8>((typename Pack<To, 8>::Vector)_mm512_cvtpd_ps((__m512d)a.v));
+#endif
+  } else if constexpr (WiderThanRegister<To, Width> || WiderThanRegister<From, Width>) {
+    return joined(cast<To>(half<false>(a)), cast<To>(half<true>(a)));
+  } else {
+#if defined(__GNUC__)
+    return Pack<To, Width>(__builtin_convertvector(a.v, typename Pack<To, Width>::Vector));
+#else
+    Pack<To, Width> r;
+    for (int i = 0; i < Width; ++i) r.v[i] = static_cast<To>(a.v[i]);
+    return r;
+#endif
+  }
+}
+
+/// A product that is rounded by itself. Of a sum of two products compilers contract either one into
+/// a multiply-add, and not the same one for packs of every width.
+template <class T, int Width>
+inline Pack<T, Width> rounded(Pack<T, Width> product) {
+  if constexpr (WiderThanRegister<T, Width>) {
+    return {rounded(product.low), rounded(product.high)};
+  } else {
+#if defined(__GNUC__) && defined(__FMA__)
+    asm("" : "+v"(product.v));
+#elif defined(__GNUC__) && defined(__aarch64__)
+    asm("" : "+w"(product.v));
+#endif
+    return product;
+  }
 }
 
 /// What a lane holds; a number is a pack of one.

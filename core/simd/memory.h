@@ -50,7 +50,8 @@ inline void lane_sums(const Lanes<Width>* packs, double* sums) {
 #ifdef SNAPSPACE_SHUFFLE
   if constexpr (Width == 8 && Count % 8 == 0) {
     for (int i = 0; i < Count; i += 8) {
-      typename Lanes<8>::Vector pairs[4], fours[2];  // 2 sums of 4 parts each, 4 sums of 2 parts
+      typename Lanes<Width>::Vector pairs[4],
+          fours[2];  // 2 sums of 4 parts each, 4 sums of 2 parts
       for (int k = 0; k < 4; ++k) {
         const auto a = packs[i + 2 * k].v, b = packs[i + 2 * k + 1].v;
         pairs[k] = SNAPSPACE_SHUFFLE(a, b, 0, 8, 2, 10, 4, 12, 6, 14) +
@@ -61,8 +62,9 @@ inline void lane_sums(const Lanes<Width>* packs, double* sums) {
         fours[k] = SNAPSPACE_SHUFFLE(a, b, 0, 1, 8, 9, 4, 5, 12, 13) +
                    SNAPSPACE_SHUFFLE(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
       }
-      store(sums + i, Lanes<8>(SNAPSPACE_SHUFFLE(fours[0], fours[1], 0, 1, 2, 3, 8, 9, 10, 11) +
-                               SNAPSPACE_SHUFFLE(fours[0], fours[1], 4, 5, 6, 7, 12, 13, 14, 15)));
+      store(sums + i,
+            Lanes<Width>(SNAPSPACE_SHUFFLE(fours[0], fours[1], 0, 1, 2, 3, 8, 9, 10, 11) +
+                         SNAPSPACE_SHUFFLE(fours[0], fours[1], 4, 5, 6, 7, 12, 13, 14, 15)));
     }
     return;
   } else if constexpr (Width == 8) {

@@ -50,10 +50,10 @@ struct Lane {
   }
 
   /// Accepts or refuses a trial, and chooses a shorter step where it is refused.
-  /// @param slope      gradient at the trial . direction
-  /// @param direction  square of its length; trial: of the displacement there
-  /// @param rounding   relative error of a value
-  Verdict judge(double trial_value, double trial_slope, double direction, double trial,
+  /// @param trial_slope  gradient there . direction
+  /// @param step_square  of the length of the step there; trial_square: of the displacement
+  /// @param rounding     relative error of a value
+  Verdict judge(double trial_value, double trial_slope, double step_square, double trial_square,
                 double rounding) {
     if (!running()) return Verdict::refused;
     ++evaluations;
@@ -66,7 +66,7 @@ struct Lane {
       return Verdict::refused;
     }
     if (sufficient_decrease(value, slope, step, trial_value, trial_slope, rounding)) {
-      record(value - trial_value, std::sqrt(direction), std::sqrt(trial));
+      record(value - trial_value, std::sqrt(step_square) / step, std::sqrt(trial_square));
       restarted = false;
       value = trial_value;
       shortenings = 0;

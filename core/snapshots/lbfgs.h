@@ -100,8 +100,6 @@ class LaneLbfgs {
       const int there = lanes[lane];
       lanes_[lane] = std::exchange(from.lanes_[there], {});
       steps_.set(lane, from.steps_[there]);
-      lengths_.direction.set(lane, from.lengths_.direction[there]);
-      lengths_.trial.set(lane, from.lengths_.trial[there]);
       objective_.load(lane, lanes_[lane].sample->input.data());
       pairs_[lane] = from.pairs_[there];
       for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][there]);
@@ -130,7 +128,7 @@ class LaneLbfgs {
 
   template <class Exchange>
   void hand_over(int lane, Exchange& exchange) {
-    std::vector<double> shape(size_);
+    std::vector<double>& shape = lanes_[lane].sample->start;  // of which nobody knows any more
     for (int i = 0; i < size_; ++i) shape[i] = at(lane, i);
     exchange.finish(lanes_[lane].id(), lanes_[lane].report(), shape.data());
     lanes_[lane].sample.reset();
@@ -149,7 +147,6 @@ class LaneLbfgs {
       vectors_.place(index, i, sample.start[i]);
       if (!pending_) set_lane(trial_[i], index, sample.start[i]);  // otherwise the next pass does
     }
-    sample.start = {};
     lane.sample = std::move(sample);
   }
 
@@ -165,8 +162,8 @@ class LaneLbfgs {
     if (control.cancelled) return false;
     for (int lane = 0; lane < kWidth; ++lane) {
       verdicts_[lane] =
-          lanes_[lane].judge(value[lane], products.direction[lane], lengths_.direction[lane],
-                             lengths_.trial[lane], kRounding);
+          lanes_[lane].judge(value[lane], slope(lane, products), products.step_square[lane],
+                             products.trial_square[lane], kRounding);
       if (verdicts_[lane] == Verdict::refused) continue;
       lanes_[lane].accept_norm(std::sqrt(products.itself[lane]));
     }
@@ -191,16 +188,15 @@ class LaneLbfgs {
       }
       if (!solver.pending_) return;
       outcome = solver.decided();
-      solver.lengths_ = {};
     }
     void before(int begin, int end) {
       if (solver.pending_)
-        solver.vectors_.combine(begin, end, outcome, solver.single_gradient(), solver.trial_.data(),
-                                solver.lengths_);
+        solver.vectors_.combine(begin, end, outcome, solver.single_gradient(),
+                                solver.trial_.data());
     }
     void after(int begin, int end) {
-      solver.vectors_.add_products(begin, end, solver.gradient_.data(), shrink,
-                                   solver.single_gradient(), products);
+      solver.vectors_.add_products(begin, end, solver.trial_.data(), solver.gradient_.data(),
+                                   shrink, solver.single_gradient(), products);
     }
   };
 
@@ -218,11 +214,18 @@ class LaneLbfgs {
       return work_.data();
   }
 
+  /// Gradient at a trial . direction that led there. A step that is shorter than the rounding of
+  /// the points tells nothing new of it.
+  [[nodiscard]] double slope(int lane, const Products& products) const {
+    const bool none = products.step_square[lane] == 0.0;
+    return none ? lanes_[lane].slope : products.newest[lane] / steps_[lane];
+  }
+
   /// New directions of the lanes that accept their trial; or the end of their samples.
   void turn(const Products& products, Total itself) {
     for (int lane = 0; lane < kWidth; ++lane) {
       if (verdicts_[lane] == Verdict::refused) continue;
-      typename Pairs::Trial trial{products.direction[lane], {}, {}, itself[lane]};
+      typename Pairs::Trial trial{slope(lane, products), {}, {}, itself[lane]};
       for (int k = 0; k < kPairs; ++k) trial.images[k] = products.images[k][lane];
       for (int k = 0; k < kPairs - 1; ++k) trial.steps[k] = products.steps[k][lane];
       if (verdicts_[lane] == Verdict::moved)
@@ -246,11 +249,13 @@ class LaneLbfgs {
     outcome.scale = scale_;
     for (int lane = 0; lane < kWidth; ++lane) {
       outcome.accepted.set(lane, verdicts_[lane] != Verdict::refused ? 1 : 0);
-      if (lanes_[lane].running() && !lanes_[lane].fresh)
-        outcome.next_length.set(lane, lanes_[lane].step);
       outcome.weigh(lane, pairs_[lane]);
+      const bool going = lanes_[lane].running() && !lanes_[lane].fresh;
+      outcome.going.set(lane, going);
+      const double before = verdicts_[lane] == Verdict::refused ? steps_[lane] : 1.0;
+      steps_.set(lane, going ? lanes_[lane].step : 0.0);
+      if (going) outcome.next_length.set(lane, steps_[lane] / before);
     }
-    steps_ = outcome.next_length;
     return outcome;
   }
 
@@ -285,7 +290,6 @@ class LaneLbfgs {
   bool pending_ = false;      // the vectors are not told of these verdicts yet
   Total scale_ = 1.0;         // A^-1 gradient = scale_ * single_gradient() in the last trials
   Total steps_ = 0.0;         // that lead to the trials, as shares of the directions
-  typename Vectors::Lengths lengths_;      // of these directions, and of the trials
   StreamedVector<Real> trial_, gradient_;  // and the gradient there
   StreamedVector<Single> work_;            // of the gradients in double precision
 };

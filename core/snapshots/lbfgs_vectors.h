@@ -17,8 +17,8 @@ namespace snapspace {
 /// functions of a range of vertices, called where the objective's pass over the mesh is: most of
 /// the second finds what the first has left in a cache. All but the points are kept in single
 /// precision, which perturbs the approximation of the inverse Hessian by 1e-7 and the result of the
-/// solve not at all. The steps are those that the points have made, with their rounding: that is
-/// what stiff handles answer.
+/// solve not at all. Neither the newest step nor the direction is kept: a trial differs from its
+/// point by the step, with the rounding of both, which is what stiff handles answer.
 template <class Real, LbfgsMemory memory>
 class LbfgsVectors {
  public:
@@ -28,10 +28,13 @@ class LbfgsVectors {
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
 
-  /// Inner products with the gradient of a trial.
+  /// Inner products with the gradient of a trial, and squares of lengths in the norm of the masses.
   struct Products {
-    Total itself{0.0}, direction{0.0}, images[kPairs];
-    std::array<Total, kSteps> steps;
+    Total itself{0.0}, images[kPairs];
+    Total newest{0.0};                ///< with the step that leads to the trial
+    std::array<Total, kSteps> steps;  ///< with those before
+    Total step_square{0.0};           ///< of the newest step
+    Total trial_square{0.0};          ///< of the displacement at the trial
     Products() {
       for (Total& sum : steps) sum = 0.0;
       for (Total& sum : images) sum = 0.0;
@@ -40,9 +43,11 @@ class LbfgsVectors {
 
   /// What a step did in each lane.
   struct Outcome {
-    Real accepted{0};  ///< not zero: the lane is at its trial now
-    Total next_length{0.0};
-    Total scale{1.0};  ///< A^-1 gradient = scale * image
+    Real accepted{0};        ///< not zero: the lane is at its trial now
+    Real going{0};           ///< not zero: it has a next trial that is not its point
+    Total next_length{0.0};  ///< of the step there: as a share of the new direction, or for lanes
+                             ///< that are not accepted of the step that was refused
+    Total scale{1.0};        ///< A^-1 gradient = scale * image
 
     /// Coefficients of the new directions.
     Real seed{1}, step_weights[kPairs]{}, image_weights[kPairs]{};
@@ -53,11 +58,6 @@ class LbfgsVectors {
         set_lane(image_weights[k], lane, pairs.image[k]);
       }
     }
-  };
-
-  /// Squares of lengths in the norm of the masses: of the directions, and of the trials.
-  struct Lengths {
-    Total direction{0.0}, trial{0.0};
   };
 
   [[nodiscard]] int vertices() const { return static_cast<int>(masses_.size()); }
@@ -75,7 +75,6 @@ class LbfgsVectors {
         Entry& to = entries_[i];
         const auto& source = from.entries_[i];
         to.u.set(lane, source.u[there]);
-        to.direction.set(lane, source.direction[there]);
         for (int k = 0; k < kPairs; ++k) to.images[k].set(lane, source.images[k][there]);
         for (int k = 0; k < kSteps; ++k) to.steps[k].set(lane, source.steps[k][there]);
       }
@@ -89,23 +88,22 @@ class LbfgsVectors {
 
   /// Adds a range's part of the products of a trial's gradient with itself and the vectors.
   /// @param scaled  becomes shrink * gradient there; may be the same array
-  void add_products(int begin, int end, const Real* gradient, Total shrink, Single* scaled,
-                    Products& sums) const;
+  void add_products(int begin, int end, const Real* trial, const Real* gradient, Total shrink,
+                    Single* scaled, Products& sums) const;
 
-  /// After a step, in a range: new points and directions, and for all lanes
-  ///   trial = u + next_length * direction.
-  /// @param image    A^-1 gradient / scale of the trial
-  /// @param lengths  get the range's part of what is new now
-  void combine(int begin, int end, const Outcome& outcome, const Single* image, Real* trial,
-               Lengths& lengths);
+  /// After a step, in a range: new points and new trials.
+  /// @param image  A^-1 gradient / scale of the trial
+  void combine(int begin, int end, const Outcome& outcome, const Single* image, Real* trial);
 
  private:
   template <class, LbfgsMemory>
   friend class LbfgsVectors;
 
+  /// Vertices whose products are added in the precision of shapes.
+  static constexpr int kChunk = 16;
+
   struct Entry {
     Real u{0};
-    Single direction{0};      // from u
     Single images[kPairs]{};  // A^-1 gradient at u, and at the points before
     /// That led to u, and to the points before; newest first, as images.
     [[no_unique_address]] std::array<Single, kSteps> steps{};
@@ -122,42 +120,51 @@ class LbfgsVectors {
 };
 
 template <class Real, LbfgsMemory memory>
-void LbfgsVectors<Real, memory>::add_products(int begin, int end, const Real* gradient,
-                                              Total shrink, Single* scaled, Products& all) const {
+void LbfgsVectors<Real, memory>::add_products(int begin, int end, const Real* trial,
+                                              const Real* gradient, Total shrink, Single* scaled,
+                                              Products& all) const {
   const Real factor = narrowed(shrink);
-  Products sums = all;  // in registers
-  for (std::size_t vertex = begin; vertex < std::size_t(end); ++vertex) {
-    // The products are energies, of one vertex here: they may be added in the precision of shapes.
-    Real direction(0), images[kPairs];
+  Total itself = all.itself;  // in registers
+  for (int first = begin; first < end; first += kChunk) {
+    // The products are energies, of a few vertices here: they may be added in the precision of
+    // shapes.
+    Real newest(0), images[kPairs], step_square(0), trial_square(0);
     std::array<Real, kSteps> steps;
     for (Real& image : images) image = Real(0);
     for (Real& step : steps) step = Real(0);
-    for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
-      const Entry& entry = entries_[i];
-      const Real g = gradient[i];
-      direction += g * narrowed(entry.direction);
-      for (int k = 0; k < kPairs; ++k) images[k] += g * narrowed(entry.images[k]);
-      for (int k = 0; k < kSteps; ++k) steps[k] += g * narrowed(entry.steps[k]);
-      sums.itself += widened(g) * widened(g);
-      scaled[i] = cast<float>(g * factor);
+    for (int vertex = first; vertex < std::min(first + kChunk, end); ++vertex) {
+      const Real mass(static_cast<typename Real::Scalar>(masses_[vertex]));
+      for (std::size_t i = 3 * std::size_t(vertex); i < 3 * std::size_t(vertex) + 3; ++i) {
+        const Entry& entry = entries_[i];
+        const Real g = gradient[i], x = trial[i], s = x - entry.u;
+        newest += g * s;
+        for (int k = 0; k < kPairs; ++k) images[k] += g * narrowed(entry.images[k]);
+        for (int k = 0; k < kSteps; ++k) steps[k] += g * narrowed(entry.steps[k]);
+        step_square += mass * s * s;
+        trial_square += mass * x * x;
+        itself += widened(g) * widened(g);
+        scaled[i] = cast<float>(g * factor);
+      }
     }
-    sums.direction += widened(direction);
-    for (int k = 0; k < kPairs; ++k) sums.images[k] += widened(images[k]);
-    for (int k = 0; k < kSteps; ++k) sums.steps[k] += widened(steps[k]);
+    all.newest += widened(newest);
+    for (int k = 0; k < kPairs; ++k) all.images[k] += widened(images[k]);
+    for (int k = 0; k < kSteps; ++k) all.steps[k] += widened(steps[k]);
+    all.step_square += widened(step_square);
+    all.trial_square += widened(trial_square);
   }
-  all = sums;
+  all.itself = itself;
 }
 
 template <class Real, LbfgsMemory memory>
 void LbfgsVectors<Real, memory>::combine(int begin, int end, const Outcome& outcome,
-                                         const Single* image, Real* trial, Lengths& all) {
+                                         const Single* image, Real* trial) {
   const Outcome now = outcome;  // which no store can change
-  const Real scale = narrowed(now.scale), accepted = now.accepted;
+  const Real scale = narrowed(now.scale), accepted = now.accepted, going = now.going;
   const Real next_length = narrowed(now.next_length);
-  const auto turn = [&](std::size_t i) {
+  for (std::size_t i = 3 * std::size_t(begin); i < 3 * std::size_t(end); ++i) {
     Entry& entry = entries_[i];
     const Real z = scale * narrowed(image[i]), s = trial[i] - entry.u;
-    Real direction = -now.seed * z, newer = z;
+    Real direction = rounded(-now.seed * z), newer = z;
     for (int k = 0; k < kPairs; ++k) {
       const Real older = narrowed(entry.images[k]);
       const Real step = k == 0 ? s : narrowed(entry.steps[k - 1]);
@@ -171,23 +178,10 @@ void LbfgsVectors<Real, memory>::combine(int begin, int end, const Outcome& outc
     for (int k = kSteps - 1; k > 0; --k) accept(entry.steps[k], narrowed(entry.steps[k - 1]));
     accept(entry.images[0], z);
     if constexpr (kSteps > 0) accept(entry.steps[0], s);
-    accept(entry.direction, direction);
     entry.u = select(accepted, trial[i], entry.u);
-    trial[i] = entry.u + next_length * narrowed(entry.direction);
-  };
-  Lengths lengths = all;
-  for (std::size_t vertex = begin; vertex < std::size_t(end); ++vertex) {
-    Real direction(0), displacement(0);
-    for (std::size_t i = 3 * vertex; i < 3 * vertex + 3; ++i) {
-      turn(i);
-      direction += narrowed(entries_[i].direction) * narrowed(entries_[i].direction);
-      displacement += trial[i] * trial[i];
-    }
-    const Total mass(masses_[vertex]);
-    lengths.direction += mass * widened(direction);
-    lengths.trial += mass * widened(displacement);
+    // of a lane that goes nowhere the trial may be anything
+    trial[i] = select(going, entry.u + next_length * select(accepted, direction, s), entry.u);
   }
-  all = lengths;
 }
 
 }  // namespace snapspace

@@ -31,8 +31,8 @@ class HandleResponse:
             small = np.zeros((6, len(problem.handles), 3, 4))
             small[:3, handle, :, 3] = directions
             small[3:, handle, :, :3] = -np.cross(directions[:, None], directions)  # [axis] x
-            asked += [problem.target_displacements(offsets).reshape(-1) for offsets in small]
-        system, inputs = problem.system, np.array(asked)
+            asked.append(problem.target_displacements(small).reshape(6, -1))
+        system, inputs = problem.system, np.concatenate(asked)
         self._response = run_abandonable(lambda: core.LinearResponse(system, inputs))
 
     # The problem is no attribute: it keeps this response, and a cycle would keep both in memory.
@@ -53,7 +53,7 @@ class HandleResponse:
             tet, and these are integrated. Exact where all handles move alike, and off by the square
             of small motions, but for what responses are solved to.
         """
-        offsets = np.stack([problem.offsets(w) for w in parameters])[:, self._moving]
+        offsets = problem.offsets_of_all(parameters)[:, self._moving]
         rotations = (offsets[..., :3] + np.eye(3)).reshape(-1, 3, 3)
         turns = Rotation.from_matrix(rotations).as_rotvec().reshape(*offsets.shape[:2], 3)
         motions = np.concatenate([offsets[..., 3], turns], axis=-1).reshape(len(offsets), -1)

@@ -187,8 +187,8 @@ class PosingProblem:
     @cached_property
     def _arms(self) -> list[FloatArray]:
         """Positions of the handles' vertices at rest from their centroids, handle by handle."""
-        pairs = zip(self.handles, self.centroids, strict=True)
-        return [self.mesh.vertices[handle.vertices] - center for handle, center in pairs]
+        places = [self.mesh.vertices[handle.vertices] for handle in self.handles]
+        return [place - center for place, center in zip(places, self.centroids, strict=True)]
 
     @cached_property
     def pinned(self) -> NDArray[np.int32]:
@@ -223,39 +223,39 @@ class PosingProblem:
 
     def offsets(self, parameters: ArrayLike) -> FloatArray:
         """Offsets [R - I | t] of all handles, (h, 3, 4), for one parameter vector (p,)."""
-        w = np.asarray(parameters, np.float64)
-        if w.shape != (self.parameter_count,):
-            raise ValueError(
-                f"PosingProblem: parameters have shape {w.shape}, but {len(self.handles) - 1} "
-                f"moving handles need ({self.parameter_count},): translation, then angles of each"
-            )
-        if not np.isfinite(w).all():
-            bad = int(np.flatnonzero(~np.isfinite(w))[0])
-            entry = ("translation x", "y", "z", "alpha", "beta", "gamma")[bad % 6]
-            name = self.handles.names[1 + bad // 6]
-            raise ValueError(f"PosingProblem: parameter {bad}, {entry} of '{name}', is not finite")
-        motions = w.reshape(-1, 6)
-        moving = rigid_offset(motions[:, 3:], motions[:, :3])
-        return np.concatenate([np.zeros((1, 3, 4)), moving])
+        return np.asarray(self.offsets_of_all(np.asarray(parameters, np.float64)[None])[0])
+
+    def offsets_of_all(self, parameters: FloatArray) -> FloatArray:
+        """The same for samples (k, p): (k, h, 3, 4)."""
+        for w in parameters:
+            self.check(w)
+        motions = np.pad(parameters.reshape(len(parameters), -1, 6), ((0, 0), (1, 0), (0, 0)))
+        return rigid_offset(motions[..., 3:], motions[..., :3])
 
     def target_displacements(self, offsets: FloatArray) -> FloatArray:
-        """Displacements (p, 3) that the offsets (h, 3, 4) ask of the pinned vertices."""
-        return np.concatenate(
-            [
-                arms @ offset[:, :3].T + offset[:, 3]
-                for arms, offset in zip(self._arms, offsets, strict=True)
-            ]
-        )
+        """Displacements (..., p, 3) that offsets (..., h, 3, 4) ask of the pinned vertices."""
+        turns, shifts = offsets[..., :3].swapaxes(-1, -2), offsets[..., None, :, 3]
+        parts = [x @ turns[..., h, :, :] + shifts[..., h, :, :] for h, x in enumerate(self._arms)]
+        return np.concatenate(parts, axis=-2)
 
     def check(self, parameters: FloatArray) -> None:
         """ValueError for parameters (p,) of another size or not finite; the box may be left."""
-        self.offsets(parameters)
+        moving = self.handles.names[1:]
+        if parameters.shape != (self.parameter_count,):
+            raise ValueError(
+                f"PosingProblem: parameters have shape {parameters.shape}, but {len(moving)} "
+                f"moving handles need ({self.parameter_count},): translation, then angles of each"
+            )
+        if not np.isfinite(parameters).all():
+            bad = int(np.flatnonzero(~np.isfinite(parameters))[0])
+            entry = ("translation x", "y", "z", "alpha", "beta", "gamma")[bad % 6]
+            name = moving[bad // 6]
+            raise ValueError(f"PosingProblem: parameter {bad}, {entry} of '{name}', is not finite")
 
     def inputs(self, parameters: FloatArray) -> FloatArray:
         """What the system takes for samples (k, p): pinned displacements, (k, 3 pins)."""
-        return np.stack(
-            [self.target_displacements(self.offsets(w)).reshape(-1) for w in parameters]
-        )
+        wanted = self.target_displacements(self.offsets_of_all(parameters))
+        return wanted.reshape(len(wanted), -1)
 
     def known_solutions(self) -> tuple[FloatArray, FloatArray]:
         """Parameters (1, p) and shapes (1, 3n) that need no solving: the rest shape, at zero."""

@@ -81,26 +81,33 @@ class DisplacementRows(Sequence[FloatArray]):
         shifted._offset = total if total.any() else None
         return shifted
 
-    def block(self, start: int, stop: int) -> FloatArray:
+    def block(self, start: int, stop: int, *, memory: FloatArray | None = None) -> FloatArray:
         """Columns start to stop of all rows, (k, stop - start), not to be written to.
 
         Only these are read. Rows that lie side by side in memory or in a file are not copied.
+        Others are, into `memory`, (k, stop - start) or larger, if there is any: who asks for many
+        blocks saves time by giving the same, since new memory costs as much as the copy.
         """
+        stop = min(stop, self.size)
+        offset = None if self._offset is None else self._offset[start:stop]
         if self._side_by_side is not None:
             block = self._side_by_side[:, start:stop]
-        else:
-            block = np.empty((len(self), min(stop, self.size) - start))
-            for target, row in zip(block, self._rows, strict=True):
-                target[:] = row[start:stop]
-        if self._offset is not None:
-            block = block + self._offset[start:stop]
+            return _read_only(block if offset is None else block + offset)
+        if memory is None:
+            memory = np.empty((len(self), stop - start))
+        block = memory[: len(self), : stop - start]
+        for target, row in zip(block, self._rows, strict=True):
+            target[:] = row[start:stop]
+        if offset is not None:
+            block += offset
         return _read_only(block)
 
     def blocks(self) -> Iterable[tuple[slice, FloatArray]]:
-        """All columns in blocks of `BLOCK`: which they are, and `block` of them."""
+        """All columns in blocks of `BLOCK`: which they are, and `block` of them until the next."""
+        memory = np.empty((len(self), min(BLOCK, self.size)))
         for start in range(0, self.size, BLOCK):
             columns = slice(start, min(start + BLOCK, self.size))
-            yield columns, self.block(columns.start, columns.stop)
+            yield columns, self.block(columns.start, columns.stop, memory=memory)
 
     def array(self) -> FloatArray:
         """All rows in memory, (k, 3n)."""

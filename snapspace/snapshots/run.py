@@ -194,7 +194,7 @@ class Run:
                 self._save()  # before the Gram matrix takes hold of what is in memory
             # each part of the Gram matrix reads all earlier rows: they come in growing parts
             learned, last = len(self.held_out.gram), self.complete == len(self.schedule)
-            if not last and block.stop < 1.25 * learned:
+            if not last and block.stop < 1.5 * learned:
                 continue
             self.held_out.add([self.rows[i] for i in range(learned, block.stop)])
             if self.progress:

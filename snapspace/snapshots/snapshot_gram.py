@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
+from .. import _core as core
 from ..blas import single_threaded_blas
 from ..problem import Problem
 from .displacement_rows import BLOCK, DisplacementRows
@@ -96,25 +97,25 @@ class SnapshotGram:
         # a sample that is not finite spoils its own products only
         with np.errstate(invalid="ignore", over="ignore"):
             weighted = [self._weighted(tiles[tile]) for tile in own]
+            memory = np.empty((TILE, BLOCK))
             for start in range(0, rows.size, BLOCK):
                 stop = min(start + BLOCK, rows.size)
                 for i, tile in enumerate(tiles):
-                    block = tile.block(start, stop)
+                    block = tile.block(start, stop, memory)
                     here = slice(TILE * i, TILE * (i + 1))
                     for j, right in zip(own, weighted, strict=True):
                         if j >= i:
                             there = slice(TILE * (j - own.start), TILE * (j - own.start + 1))
-                            products[here, there] += block @ right[start:stop]
+                            products[here, there] += block @ right[:, start:stop].T
         return products
 
     def _weighted(self, tile: _Tile) -> FloatArray:
-        """M times the displacements of a tile, (3n, `TILE`): vertex by vertex, all at once."""
-        columns = np.empty((3 * self.mass.shape[0], TILE))
-        for start in range(0, len(columns), BLOCK):
-            stop = min(start + BLOCK, len(columns))
-            columns[start:stop] = tile.block(start, stop).T
-        weighted: FloatArray = self.mass @ columns.reshape(self.mass.shape[0], -1)
-        return weighted.reshape(-1, TILE)
+        """M times the displacements of a tile, (`TILE`, 3n). One by one: they stay in the cache."""
+        mass = [self.mass.indptr, self.mass.indices, self.mass.data]
+        weighted = np.zeros((TILE, 3 * self.mass.shape[0]))
+        for target, row in zip(weighted, tile.rows, strict=False):
+            target[:] = core.point_product(*mass, row)
+        return weighted
 
     @single_threaded_blas
     def held_out_error(self, training: ArrayLike, unseen: ArrayLike, dimension: int) -> FloatArray:
@@ -163,10 +164,10 @@ class _Tile:
     """`TILE` consecutive rows; behind the last one there are zeros, so that the size is fixed."""
 
     def __init__(self, rows: DisplacementRows, start: int) -> None:
-        self._rows = rows[start : start + TILE]
+        self.rows = rows[start : start + TILE]
 
-    def block(self, start: int, stop: int) -> FloatArray:
-        block = self._rows.block(start, stop)
+    def block(self, start: int, stop: int, memory: FloatArray) -> FloatArray:
+        block = self.rows.block(start, stop, memory=memory)
         if len(block) == TILE:
             return block
         return np.concatenate([block, np.zeros((TILE - len(block), stop - start))])

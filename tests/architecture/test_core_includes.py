@@ -48,8 +48,9 @@ ALLOWED: dict[str, set[str]] = {
 
 #: core/online is meant for WebAssembly too: no threads, files, output, exceptions, Eigen.
 ONLINE_MAY_INCLUDE = {
-    "algorithm", "array", "bit", "cmath", "cstddef", "cstdint", "cstring", "limits", "memory",
-    "numeric", "span", "utility", "vector",
+    "algorithm", "array", "bit", "cmath", "cstddef", "cstdint", "cstring", "immintrin.h",
+    "limits", "memory",
+    "numeric", "span", "type_traits", "utility", "vector",
 }  # fmt: skip
 
 
