@@ -111,10 +111,10 @@ class SnapshotGram:
 
     def _weighted(self, tile: _Tile) -> FloatArray:
         """M times the displacements of a tile, (`TILE`, 3n). One by one: they stay in the cache."""
-        mass = [self.mass.indptr, self.mass.indices, self.mass.data]
-        weighted = np.zeros((TILE, 3 * self.mass.shape[0]))
+        mass = self.mass
+        weighted = np.zeros((TILE, 3 * mass.shape[0]))
         for target, row in zip(weighted, tile.rows, strict=False):
-            target[:] = core.point_product(*mass, row)
+            target[:] = core.point_product(mass.indptr, mass.indices, mass.data, row)
         return weighted
 
     @single_threaded_blas
