@@ -17,16 +17,14 @@ from .displacement_rows import BLOCK, DisplacementRows
 FloatArray = NDArray[np.float64]
 
 #: Rows whose products BLAS forms in one call, always so many: rounding depends on the number.
-TILE = 16
-#: Rows that are multiplied by the mass matrix, and held in memory, at a time.
-ROWS_AT_ONCE = 2 * TILE
+TILE = 32
 
 
 class SnapshotGram:
     """Matrix (k, k) of inner products d_i^T M d_j of displacements, grown while they are solved.
 
     The method of snapshots (paper, sec. 5.2) finds the best subspace from it, and the errors of
-    unseen samples follow as well. Memory: the matrix, and `ROWS_AT_ONCE` displacements.
+    unseen samples follow as well. Memory: the matrix, and `TILE` displacements.
 
     Parameters
     ----------
@@ -82,32 +80,27 @@ class SnapshotGram:
         while begin < len(every):
             # the tiles lie where they lie if all rows come at once
             first = begin - begin % TILE
-            end = min(first + ROWS_AT_ONCE, len(every))
-            products = self._products(every, first, begin, end)
+            end = min(first + TILE, len(every))
+            products = self._products(every, first, end)
             for i in range(begin, end):
                 matrix[i, : i + 1] = matrix[: i + 1, i] = products[: i + 1, i - first]
             begin = end
         self._rows, self._matrix = every, matrix
 
-    def _products(self, rows: DisplacementRows, first: int, begin: int, end: int) -> FloatArray:
-        """Products of rows begin to end with all rows up to themselves, at [j, i - first]."""
+    def _products(self, rows: DisplacementRows, first: int, end: int) -> FloatArray:
+        """Products of the tile that begins at row `first` with all rows before `end`."""
         tiles = [_Tile(rows, start) for start in range(0, end, TILE)]
-        own = range(first // TILE, len(tiles))
-        products = np.zeros((TILE * len(tiles), TILE * len(own)))
+        products = np.zeros((len(tiles), TILE, TILE))
         # a sample that is not finite spoils its own products only
         with np.errstate(invalid="ignore", over="ignore"):
-            weighted = [self._weighted(tiles[tile]) for tile in own]
+            weighted = self._weighted(tiles[first // TILE])
             memory = np.empty((TILE, BLOCK))
             for start in range(0, rows.size, BLOCK):
                 stop = min(start + BLOCK, rows.size)
-                for i, tile in enumerate(tiles):
-                    block = tile.block(start, stop, memory)
-                    here = slice(TILE * i, TILE * (i + 1))
-                    for j, right in zip(own, weighted, strict=True):
-                        if j >= i:
-                            there = slice(TILE * (j - own.start), TILE * (j - own.start + 1))
-                            products[here, there] += block @ right[:, start:stop].T
-        return products
+                right = weighted[:, start:stop].T
+                for sums, tile in zip(products, tiles, strict=True):
+                    sums += tile.block(start, stop, memory) @ right
+        return products.reshape(-1, TILE)
 
     def _weighted(self, tile: _Tile) -> FloatArray:
         """M times the displacements of a tile, (`TILE`, 3n). One by one: they stay in the cache."""
