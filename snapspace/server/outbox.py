@@ -14,7 +14,7 @@ Item = ServerMessage | bytes
 class Outbox:
     """A queue that any thread fills and the event loop empties.
 
-    Of progress that a slow connection has not taken yet only the newest is kept.
+    Of a stage's progress that a slow connection has not taken yet only the newest is kept.
 
     Parameters
     ----------
@@ -31,9 +31,8 @@ class Outbox:
     def put(self, *items: Item) -> None:
         """Adds items, which stay together."""
         with self._lock:
-            if self._items and isinstance(self._items[-1], Progress):
-                if isinstance(items[0], Progress):
-                    self._items.pop()
+            if self._items and _replaces(items[0], self._items[-1]):
+                self._items.pop()
             self._items.extend(items)
         try:
             self._loop.call_soon_threadsafe(self._filled.set)
@@ -48,3 +47,10 @@ class Outbox:
                     return self._items.popleft()
                 self._filled.clear()
             await self._filled.wait()
+
+
+def _replaces(newer: Item, older: Item) -> bool:
+    """Whether nobody needs the older one any more: both tell of the same stage of the same work."""
+    if not isinstance(newer, Progress) or not isinstance(older, Progress):
+        return False
+    return (newer.request, newer.stage) == (older.request, older.stage)
