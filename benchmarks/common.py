@@ -51,11 +51,17 @@ def progress(state: ss.SolveProgress) -> None:
         print(f"\r{state.done}/{state.total} samples ", end="", file=sys.stderr, flush=True)
 
 
-def solved(problem: ss.PosingProblem, parameters: np.ndarray, **how: Any) -> ss.Snapshots:
-    """Snapshots with options, and the usual progress."""
-    return ss.solve_snapshots(
-        problem, parameters, options=ss.SolverOptions(**how), progress=progress
-    )
+def solved(
+    problem: ss.PosingProblem,
+    parameters: np.ndarray,
+    *,
+    known: ss.Snapshots | None = None,
+    **how: Any,
+) -> ss.Snapshots:
+    """Snapshots with options; progress, which costs error estimates, where somebody sees it."""
+    shown = progress if sys.stderr.isatty() else None
+    options = ss.SolverOptions(**how)
+    return ss.solve_snapshots(problem, parameters, options=options, progress=shown, known=known)
 
 
 def references(problem: ss.PosingProblem, count: int) -> ss.Snapshots:

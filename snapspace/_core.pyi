@@ -1,5 +1,6 @@
 """The loops of snapspace that must be fast."""
 
+from collections.abc import Sequence
 import enum
 from typing import Annotated, overload
 
@@ -104,10 +105,18 @@ class TwoGridCycle:
     def apply_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """The same in single precision, of up to twice as many."""
 
-def point_product(starts: NDArray[numpy.int32], columns: NDArray[numpy.int32], values: NDArray[numpy.float64], points: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+class MassProducts:
     """
-    A sparse matrix (n, n), given row by row, times x, y and z of points (3n,).
+    Products of displacements (3n,) with a scalar matrix (n, n), given row by row, in between. Not for several threads at a time.
     """
+
+    def __init__(self, starts: NDArray[numpy.int32], columns: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
+
+    def multiply(self, rows: Sequence[NDArray[numpy.float64]], offset: NDArray[numpy.float64] | None, others: Sequence[NDArray[numpy.float64]], *, threads: int) -> NDArray[numpy.float64]:
+        """Products (i, j) of rows[i] + offset with M (x) I3 times others[j]."""
+
+def combine_rows(rows: Sequence[NDArray[numpy.float64]], size: int, weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """weights (j, i) times rows (i of size,): the combinations, (j, size)."""
 
 class SolveStatus(enum.Enum):
     """How a full-space solve ended."""
@@ -179,7 +188,7 @@ class Solution:
 
     @property
     def shape(self) -> NDArray[numpy.float64]:
-        """(3n,) displacement."""
+        """(3n,) displacement, in the memory of the solution."""
 
 class SampleQueue:
     """Samples on their way to the threads that solve them, and back."""

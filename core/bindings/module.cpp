@@ -5,7 +5,7 @@ namespace snapspace {
 void bind_energy(nb::module_& m);
 void bind_cholesky(nb::module_& m);
 void bind_multigrid(nb::module_& m);
-void bind_point_product(nb::module_& m);
+void bind_rows(nb::module_& m);
 void bind_snapshots(nb::module_& m);
 void bind_soft_modes(nb::module_& m);
 void bind_linear_response(nb::module_& m);
@@ -25,7 +25,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_energy(m);
   snapspace::bind_cholesky(m);
   snapspace::bind_multigrid(m);
-  snapspace::bind_point_product(m);
+  snapspace::bind_rows(m);
   snapspace::bind_snapshots(m);
   snapspace::bind_soft_modes(m);
   snapspace::bind_linear_response(m);

@@ -203,12 +203,8 @@ void bind_snapshots(nb::module_& m) {
       .def_ro("report", &Solution::report)
       .def_prop_ro(
           "shape",
-          [](const Solution& self) {
-            DoublesOut shape = new_array<double>({self.shape.size()});
-            std::copy(self.shape.begin(), self.shape.end(), shape.data());
-            return shape;
-          },
-          nb::rv_policy::automatic, "(3n,) displacement.");
+          [](Solution& self) { return DoublesOut(self.shape.data(), {self.shape.size()}); },
+          nb::rv_policy::reference_internal, "(3n,) displacement, in the memory of the solution.");
 
   nb::class_<SampleQueue>(m, "SampleQueue",
                           "Samples on their way to the threads that solve them, and back.")

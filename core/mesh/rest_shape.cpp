@@ -3,6 +3,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "mesh/incidence.h"
 
 namespace snapspace {
 
@@ -52,14 +55,28 @@ Eigen::SparseMatrix<double> RestShape::laplacian() const {
 }
 
 Eigen::SparseMatrix<double> RestShape::assembled(const std::vector<Eigen::Matrix4d>& locals) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(tets.size() * 16);
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    for (int a = 0; a < 4; ++a)
-      for (int b = 0; b < 4; ++b)
-        entries.emplace_back(tets[t].vertices[a], tets[t].vertices[b], locals[t](a, b));
+  // Column by column from the tets around its vertex: triplets of all entries would be seven times
+  // as many bytes as the matrix, and new memory is slow.
+  const Incidence incidence(vertex_count, static_cast<int>(tets.size()),
+                            [&](int tet, int k) { return tets[tet].vertices[k]; });
   Eigen::SparseMatrix<double> A(vertex_count, vertex_count);
-  A.setFromTriplets(entries.begin(), entries.end());
+  std::vector<double> sums(vertex_count, 0.0);
+  std::vector<std::int32_t> last(vertex_count, -1), rows;  // the last column that has the row
+  for (std::int32_t column = 0; column < vertex_count; ++column) {
+    rows.clear();
+    for (const std::int32_t tet : incidence.around(column)) {
+      const auto& corners = tets[tet].vertices;
+      const auto b = std::find(corners, corners + 4, column) - corners;
+      for (int a = 0; a < 4; ++a) {
+        if (std::exchange(last[corners[a]], column) != column) rows.push_back(corners[a]);
+        sums[corners[a]] += locals[tet](a, b);
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+    A.startVec(column);
+    for (const std::int32_t row : rows) A.insertBack(row, column) = std::exchange(sums[row], 0.0);
+  }
+  A.finalize();
   return A;
 }
 

@@ -16,7 +16,6 @@ namespace {
 /// Hands one sample to a solver and keeps its solution.
 struct OneSample {
   std::optional<Sample> waiting;
-  std::size_t size;
   bool finished = false;
   SolveReport report = {};
   std::vector<double> shape = {};
@@ -24,10 +23,10 @@ struct OneSample {
   std::optional<Sample> take(int) { return std::exchange(waiting, std::nullopt); }
   [[nodiscard]] bool exhausted() const { return !waiting.has_value(); }
   void tell(int, int) const {}
-  void finish(int, const SolveReport& how, const double* solution) {
+  void finish(int, const SolveReport& how, std::vector<double> solution) {
     finished = true;
     report = how;
-    shape.assign(solution, solution + size);
+    shape = std::move(solution);
   }
 };
 
@@ -37,8 +36,7 @@ template <class System>
 Solution polish(const System& system, const CoarseSpace& coarse, const Eigen::MatrixXf& inverse,
                 const Sample& sample, const SolveOptions& options, const SolveControl& control) {
   const FlushDenormals flush;
-  const std::size_t size = sample.start.size();
-  OneSample exchange{sample, size};
+  OneSample exchange{sample};
   system.numbering.to_internal(sample.start.data(), exchange.waiting->start.data());
   LowestShape lowest;
   const TwoLevelSystem<System> two_level{system, coarse, inverse, lowest};

@@ -130,7 +130,7 @@ class LaneLbfgs {
   void hand_over(int lane, Exchange& exchange) {
     std::vector<double>& shape = lanes_[lane].sample->start;  // of which nobody knows any more
     for (int i = 0; i < size_; ++i) shape[i] = at(lane, i);
-    exchange.finish(lanes_[lane].id(), lanes_[lane].report(), shape.data());
+    exchange.finish(lanes_[lane].id(), lanes_[lane].report(), std::move(shape));
     lanes_[lane].sample.reset();
   }
 

@@ -21,19 +21,20 @@ int thread_count(int wanted) {
 /// Packs of two samples or more: alone in a pack, a sample would cost nearly as much as two.
 int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
 
-/// What a solver needs of a queue, in the numbering of the system.
+/// What one solver needs of a queue, in the numbering of the system. From taking a sample to
+/// handing over its solution no memory is asked for: new memory takes longer than what is done with
+/// it.
 template <class System>
 class Exchange {
  public:
   Exchange(const System& system, SampleQueue& queue, SolveControl& control)
       : system_(system), queue_(queue), control_(control) {}
 
-  [[nodiscard]] std::optional<Sample> take(int held) const {
+  [[nodiscard]] std::optional<Sample> take(int held) {
     std::optional<Sample> sample = queue_.take(held, control_);
     if (sample) {
-      std::vector<double> start(system_.size());
-      system_.numbering.to_internal(sample->start.data(), start.data());
-      sample->start.swap(start);
+      system_.numbering.to_internal(sample->start.data(), spare_.data());
+      sample->start.swap(spare_);
     }
     return sample;
   }
@@ -42,11 +43,11 @@ class Exchange {
 
   void tell(int id, int evaluations) const { queue_.tell(id, evaluations); }
 
-  void finish(int id, SolveReport report, const double* shape) const {
-    report.inverted_tets = system_.inverted_tets(shape);
-    std::vector<double> external(system_.size());
-    system_.numbering.to_external(shape, external.data());
-    queue_.finish({id, report, std::move(external)});
+  void finish(int id, SolveReport report, std::vector<double> shape) {
+    report.inverted_tets = system_.inverted_tets(shape.data());
+    system_.numbering.to_external(shape.data(), spare_.data());
+    shape.swap(spare_);
+    queue_.finish({id, report, std::move(shape)});
     ++control_.finished;
   }
 
@@ -54,6 +55,7 @@ class Exchange {
   const System& system_;
   SampleQueue& queue_;
   SolveControl& control_;
+  std::vector<double> spare_ = std::vector<double>(system_.size());  // a shape
 };
 
 /// @param seeded  the system itself, or with another seed of its inverse Hessians
@@ -61,10 +63,10 @@ template <class Real, class System, class Seeded>
 void solve_in_lanes(const System& system, const Seeded& seeded, SampleQueue& queue, int expected,
                     const SolveOptions& options, SolveControl& control) {
   const int threads = thread_count(options.threads), packs = pack_count(expected, threads);
-  const Exchange exchange(system, queue, control);
   queue.share(packs);
   parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
+    Exchange exchange(system, queue, control);
     LaneLbfgs<Seeded, Real>(seeded, options, threads / packs).run(exchange, control);
   });
 }
@@ -115,16 +117,16 @@ long solve_newton(const System& system, SampleQueue& queue, int expected,
                   const SolveOptions& options, double clamp, SolveControl& control) {
   std::atomic<long> linear_iterations{0};
   const int workers = std::clamp(expected, 1, thread_count(options.threads));
-  const Exchange exchange(system, queue, control);
   queue.share(workers);
   parallel_for(workers, workers, [&](int) {
     const FlushDenormals flush;
+    Exchange exchange(system, queue, control);
     using Objective = typename System::template Objective<double>;
     Newton<Objective> solver(Objective(system), options, clamp);
     while (const std::optional<Sample> sample = exchange.take(0)) {
       const SolveReport report = solver.solve(*sample, control);
       if (report.status == SolveStatus::cancelled) break;
-      exchange.finish(sample->id, report, solver.shape().data());
+      exchange.finish(sample->id, report, solver.shape());
     }
     linear_iterations += solver.linear_iterations();
   });

@@ -9,6 +9,8 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import _core as core
+
 FloatArray = NDArray[np.float64]
 
 #: Columns that algorithms look at together. A constant, since rounding depends on it.
@@ -81,33 +83,43 @@ class DisplacementRows(Sequence[FloatArray]):
         shifted._offset = total if total.any() else None
         return shifted
 
-    def block(self, start: int, stop: int, *, memory: FloatArray | None = None) -> FloatArray:
-        """Columns start to stop of all rows, (k, stop - start), not to be written to.
-
-        Only these are read. Rows that lie side by side in memory or in a file are not copied.
-        Others are, into `memory`, (k, stop - start) or larger, if there is any: who asks for many
-        blocks saves time by giving the same, since new memory costs as much as the copy.
-        """
-        stop = min(stop, self.size)
-        offset = None if self._offset is None else self._offset[start:stop]
-        if self._side_by_side is not None:
-            block = self._side_by_side[:, start:stop]
-            return _read_only(block if offset is None else block + offset)
-        if memory is None:
-            memory = np.empty((len(self), stop - start))
-        block = memory[: len(self), : stop - start]
-        for target, row in zip(block, self._rows, strict=True):
-            target[:] = row[start:stop]
-        if offset is not None:
-            block += offset
-        return _read_only(block)
-
     def blocks(self) -> Iterable[tuple[slice, FloatArray]]:
-        """All columns in blocks of `BLOCK`: which they are, and `block` of them until the next."""
+        """All columns in blocks of `BLOCK`: which they are, and those of all rows, until the next.
+
+        Blocks (k, columns) are not to be written to. Only their columns are read. Of rows that lie
+        side by side in memory or in a file they are views.
+        """
         memory = np.empty((len(self), min(BLOCK, self.size)))
         for start in range(0, self.size, BLOCK):
             columns = slice(start, min(start + BLOCK, self.size))
-            yield columns, self.block(columns.start, columns.stop, memory=memory)
+            yield columns, self._block(columns, memory)
+
+    def _block(self, columns: slice, memory: FloatArray) -> FloatArray:
+        if self._side_by_side is not None:
+            block = self._side_by_side[:, columns]
+            return _read_only(block if self._offset is None else block + self._offset[columns])
+        block = memory[:, : columns.stop - columns.start]
+        for target, row in zip(block, self._rows, strict=True):
+            target[:] = row[columns]
+        if self._offset is not None:
+            block += self._offset[columns]
+        return _read_only(block)
+
+    def mass_products(
+        self, mass: core.MassProducts, others: DisplacementRows, *, threads: int = 0
+    ) -> FloatArray:
+        """Products d_i^T M d_j of these rows with M times others, (k, len(others)).
+
+        A product is bitwise the same whatever other rows there are, on any number of threads.
+        """
+        return mass.multiply(self._rows, self._offset, list(others), threads=threads)
+
+    def combined(self, weights: FloatArray) -> FloatArray:
+        """Weights (j, k) times these rows: (j, 3n), bitwise the same whatever other weights."""
+        combined = core.combine_rows(self._rows, self.size, np.ascontiguousarray(weights))
+        if self._offset is not None:
+            combined += weights.sum(axis=1)[:, None] * self._offset
+        return combined
 
     def array(self) -> FloatArray:
         """All rows in memory, (k, 3n)."""

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..problem import Problem
 from .displacement_rows import DisplacementRows
-from .starts import interpolated_start
+from .starts import interpolation_weights
 
 FloatArray = NDArray[np.float64]
 
@@ -44,20 +44,28 @@ class Guesses:
 
         None if the problem has no guesses, or so many samples are known that they do without.
         """
-        if len(known) >= GUESSED * self._parameters.shape[1]:
+        if self._done_without(len(known)):
             self._rows.clear()
             return None
         if not self._made(wanted):
             return None
-        guesses = np.stack([self._rows[i] for i in wanted])
+        guesses = DisplacementRows([self._rows[i] for i in wanted], rows.size)
         if len(known) < 2:  # the rest shape, where guesses miss nothing
-            return guesses
+            return guesses.array()
         self._made(known)
-        missed = [row - self._rows[i] for i, row in zip(known, rows, strict=True)]
-        corrections = DisplacementRows(missed, rows.size)
-        return guesses + interpolated_start(
-            self._scaled[list(known)], corrections, self._scaled[list(wanted)]
-        )
+        weights = interpolation_weights(self._scaled[list(known)], self._scaled[list(wanted)])
+        # a guess, and what guesses miss of known samples
+        every = guesses.followed_by(rows).followed_by([self._rows[i] for i in known])
+        return every.combined(np.hstack([np.eye(len(wanted)), weights, -weights]))
+
+    def make(self, wanted: Sequence[int], *, known: int) -> None:
+        """Makes the guesses that `corrected` needs of wanted samples, with so many known ones."""
+        if not self._done_without(known):
+            self._made(wanted)
+
+    def _done_without(self, known: int) -> bool:
+        enough: int = GUESSED * self._parameters.shape[1]
+        return known >= enough
 
     def _made(self, samples: Sequence[int]) -> bool:
         """Makes the guesses that are missing; whether the problem has any."""

@@ -37,9 +37,9 @@ class HeldOutError:
         self.gram = SnapshotGram.of(problem)
         self._known = solutions_beyond_tau(problem)[1] - problem.base
 
-    def add(self, rows: Sequence[FloatArray]) -> None:
+    def add(self, rows: Sequence[FloatArray], *, threads: int = 0) -> None:
         """Adds a block of displacements (3n,)."""
-        self.gram.add(rows)
+        self.gram.add(rows, threads=threads)
 
     def of_last(self, converged: NDArray[np.bool_], last: int) -> float | None:
         """Median error of the last samples against all before; None where there are none.

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
-from typing import Protocol
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..interruptible import check_stop
+from ..interruptible import begin_abandonable, check_stop
 from ..problem import Problem
+from .backend import Backend
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
 from .displacement_rows import DisplacementRows
 from .executor_backend import ExecutorBackend
@@ -46,44 +47,12 @@ class Interrupted(KeyboardInterrupt):
         self.finished = finished
 
 
-class Backend(Protocol):
-    """What solves samples: threads here, or an executor's workers."""
-
-    def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
-        """Adds samples: numbers, inputs (k, input_size), starts (k, 3n)."""
-        ...
-
-    def wait(self, timeout: float) -> list[Solved]:
-        """Samples that are finished, after at most `timeout` seconds."""
-        ...
-
-    def running(self) -> dict[int, int]:
-        """Evaluations so far of samples that are not finished, as far as it is known."""
-        ...
-
-    def no_more(self) -> None:
-        """Tells that all samples are submitted."""
-        ...
-
-    def cancel(self) -> None:
-        """Ends all solves soon; returns at once."""
-        ...
-
-    def close(self) -> None:
-        """Cancels what is left, and lets go of everything."""
-        ...
-
-    def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and gives what is finished when solvers have stopped or time is up."""
-        ...
-
-
 class Run:
     """Samples on their way: what is submitted, what is finished, what is saved.
 
     Parameters
     ----------
-    problem, samples, options, progress, checkpoint, known : as for `solve_snapshots`
+    problem, samples, options, progress, checkpoint, known, threads : as for `solve_snapshots`
     """
 
     def __init__(
@@ -95,8 +64,10 @@ class Run:
         progress: Progress | None,
         checkpoint: Checkpoint | None,
         known: Snapshots | None,
+        threads: int,
     ) -> None:
         self.problem = problem
+        self.threads = threads
         self.samples = samples
         self.options = options
         self.checkpoint = checkpoint
@@ -112,7 +83,6 @@ class Run:
         for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
             self.rows[index], self.reports[index] = row, report
         self.found = len(self.reports)
-        self.held_out = HeldOutError(problem)
         self.estimate: float | None = None
         given, shapes = problem.known_solutions()
         self.known_parameters = given
@@ -123,19 +93,28 @@ class Run:
             self.known_rows = self.known_rows.followed_by(known.displacements)
         self.guesses = Guesses(problem, np.vstack([self.known_parameters, samples]))
 
-    def solve(self, *, threads: int, executor: Executor | None) -> None:
+    @cached_property
+    def held_out(self) -> HeldOutError:
+        """Of the leading blocks, for those who watch; made while the first samples are solved."""
+        return HeldOutError(self.problem)
+
+    def solve(self, executor: Executor | None) -> None:
         """Solves what is missing."""
         missing = len(self.samples) - self.found
         if not missing:
             self._advance()
             self._tell()
             return
+        finish_guesses = self._begin_guesses()  # beside what a backend makes
         backend: Backend
         if executor is None:
-            backend = LocalBackend(self.problem, self.options, expected=missing, threads=threads)
+            backend = LocalBackend(
+                self.problem, self.options, expected=missing, threads=self.threads
+            )
         else:
             backend = ExecutorBackend(executor, self.problem, self.options)
         try:
+            finish_guesses()
             self._solve_on(backend)
         except KeyboardInterrupt:
             self._book(backend.stop(STOP_SECONDS))
@@ -146,9 +125,19 @@ class Run:
             self._save()
             backend.close()
 
+    def _begin_guesses(self) -> Callable[[], None]:
+        """Begins with guesses of the first block; what is returned waits for them."""
+        if self.found or self.options.solver == "newton":
+            return lambda: None
+        _ = self.problem.system  # threads that ask for it at the same time would both make it
+        given = len(self.known_parameters)
+        first = [given + i for i in self.schedule.samples(0)]
+        return begin_abandonable(lambda: self.guesses.make(first, known=given))
+
     def snapshots(self) -> Snapshots:
         """All samples, once they are solved."""
-        return replace(self._of(range(len(self.samples))), gram=self.held_out.gram)
+        every = self._of(range(len(self.samples)))
+        return replace(every, gram=self.held_out.gram) if self.progress else every
 
     def _of(self, numbers: Sequence[int]) -> Snapshots:
         rows = DisplacementRows([self.rows[i] for i in numbers], self.problem.base.size)
@@ -184,7 +173,7 @@ class Run:
         return True
 
     def _advance(self) -> None:
-        """Counts the leading blocks that are finished, and learns from them."""
+        """Counts the leading blocks that are finished."""
         while self.complete < len(self.schedule):
             block = self.schedule.samples(self.complete)
             if any(i not in self.reports for i in block):
@@ -192,14 +181,21 @@ class Run:
             self.complete += 1
             if self.unsaved and self.enough == self.options.block:
                 self._save()  # before the Gram matrix takes hold of what is in memory
-            # each part of the Gram matrix reads all earlier rows: they come in growing parts
-            learned, last = len(self.held_out.gram), self.complete == len(self.schedule)
-            if not last and block.stop < 1.5 * learned:
-                continue
-            self.held_out.add([self.rows[i] for i in range(learned, block.stop)])
             if self.progress:
-                converged = np.array([self.reports[i].converged for i in range(block.stop)])
-                self.estimate = self.held_out.of_last(converged, block.stop - learned)
+                self._learn(block.stop, last=self.complete == len(self.schedule))
+
+    def _learn(self, finished: int, *, last: bool) -> None:
+        """Estimates the error from the leading samples, for those who watch.
+
+        In growing parts, since each part of the Gram matrix reads all earlier rows.
+        """
+        learned = len(self.held_out.gram)
+        if finished < 1.5 * learned and not last:
+            return
+        rows = [self.rows[i] for i in range(learned, finished)]
+        self.held_out.add(rows, threads=self.threads)
+        converged = np.array([self.reports[i].converged for i in range(finished)])
+        self.estimate = self.held_out.of_last(converged, finished - learned)
 
     def _submit(self, backend: Backend, index: int) -> None:
         block = self.schedule.samples(index)

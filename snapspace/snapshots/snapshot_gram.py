@@ -12,19 +12,20 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..blas import single_threaded_blas
 from ..problem import Problem
-from .displacement_rows import BLOCK, DisplacementRows
+from .displacement_rows import DisplacementRows
 
 FloatArray = NDArray[np.float64]
 
-#: Rows whose products BLAS forms in one call, always so many: rounding depends on the number.
-TILE = 32
+#: New rows whose products are formed in one call, which passes by all earlier rows once. Between
+#: two calls Ctrl-C is heard.
+TOGETHER = 32
 
 
 class SnapshotGram:
     """Matrix (k, k) of inner products d_i^T M d_j of displacements, grown while they are solved.
 
     The method of snapshots (paper, sec. 5.2) finds the best subspace from it, and the errors of
-    unseen samples follow as well. Memory: the matrix, and `TILE` displacements.
+    unseen samples follow as well. Memory: the matrix; displacements stay where they are.
 
     Parameters
     ----------
@@ -61,12 +62,12 @@ class SnapshotGram:
         twin._rows, twin._matrix = self._rows, self._matrix
         return twin
 
-    @single_threaded_blas
-    def add(self, rows: Iterable[FloatArray]) -> None:
+    def add(self, rows: Iterable[FloatArray], *, threads: int = 0) -> None:
         """Appends displacements (3n,): their products with each other and with all earlier ones.
 
-        The result is bitwise the same however the rows are split into calls. Rows are not copied,
-        and are read again by later calls: mapped ones keep the memory free.
+        The result is bitwise the same however the rows are split into calls, and on any number of
+        threads (0 for all). Rows are not copied, and are read again by later calls: mapped ones
+        keep the memory free.
 
         Raises
         ------
@@ -76,39 +77,13 @@ class SnapshotGram:
         before, every = len(self), self._rows.followed_by(rows)
         matrix = np.zeros((len(every), len(every)))
         matrix[:before, :before] = self._matrix
-        begin = before
-        while begin < len(every):
-            # the tiles lie where they lie if all rows come at once
-            first = begin - begin % TILE
-            end = min(first + TILE, len(every))
-            products = self._products(every, first, end)
-            for i in range(begin, end):
+        mass = core.MassProducts(self.mass.indptr, self.mass.indices, self.mass.data)
+        for first in range(before, len(every), TOGETHER):
+            end = min(first + TOGETHER, len(every))
+            products = every[:end].mass_products(mass, every[first:end], threads=threads)
+            for i in range(first, end):
                 matrix[i, : i + 1] = matrix[: i + 1, i] = products[: i + 1, i - first]
-            begin = end
         self._rows, self._matrix = every, matrix
-
-    def _products(self, rows: DisplacementRows, first: int, end: int) -> FloatArray:
-        """Products of the tile that begins at row `first` with all rows before `end`."""
-        tiles = [_Tile(rows, start) for start in range(0, end, TILE)]
-        products = np.zeros((len(tiles), TILE, TILE))
-        # a sample that is not finite spoils its own products only
-        with np.errstate(invalid="ignore", over="ignore"):
-            weighted = self._weighted(tiles[first // TILE])
-            memory = np.empty((TILE, BLOCK))
-            for start in range(0, rows.size, BLOCK):
-                stop = min(start + BLOCK, rows.size)
-                right = weighted[:, start:stop].T
-                for sums, tile in zip(products, tiles, strict=True):
-                    sums += tile.block(start, stop, memory) @ right
-        return products.reshape(-1, TILE)
-
-    def _weighted(self, tile: _Tile) -> FloatArray:
-        """M times the displacements of a tile, (`TILE`, 3n). One by one: they stay in the cache."""
-        mass = self.mass  # by the core: `apply_mass`, which is SciPy's, takes twice as long
-        weighted = np.zeros((TILE, 3 * mass.shape[0]))
-        for target, row in zip(weighted, tile.rows, strict=False):
-            target[:] = core.point_product(mass.indptr, mass.indices, mass.data, row)
-        return weighted
 
     @single_threaded_blas
     def held_out_error(self, training: ArrayLike, unseen: ArrayLike, dimension: int) -> FloatArray:
@@ -151,19 +126,6 @@ class SnapshotGram:
         zero = squared == 0.0
         errors: FloatArray = np.sqrt(left / np.where(zero, 1.0, squared))
         return errors
-
-
-class _Tile:
-    """`TILE` consecutive rows; behind the last one there are zeros, so that the size is fixed."""
-
-    def __init__(self, rows: DisplacementRows, start: int) -> None:
-        self.rows = rows[start : start + TILE]
-
-    def block(self, start: int, stop: int, memory: FloatArray) -> FloatArray:
-        block = self.rows.block(start, stop, memory=memory)
-        if len(block) == TILE:
-            return block
-        return np.concatenate([block, np.zeros((TILE - len(block), stop - start))])
 
 
 def _indices(which: ArrayLike, count: int) -> NDArray[np.intp]:

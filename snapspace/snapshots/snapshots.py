@@ -57,7 +57,8 @@ class Snapshots:
     parameters : (k, p), one sample per row
     displacements : DisplacementRows (k, 3n) from problem.base, in memory or mapped from files
     reports : one SampleReport per sample
-    gram : SnapshotGram of the displacements, if it is known; it saves `snapshot_pca` its main work
+    gram : SnapshotGram of the displacements, if it is known, as it is after a run with `progress`;
+        it saves `snapshot_pca` its main work
 
     Raises ValueError unless there is a row of problem.base's size and a report for each sample.
     """

@@ -76,8 +76,9 @@ def solve_snapshots(
         progress=progress,
         checkpoint=checkpoint,
         known=known,
+        threads=threads or 0,
     )
-    run.solve(threads=threads or 0, executor=executor)
+    run.solve(executor)
     return run.snapshots()
 
 

@@ -42,31 +42,33 @@ def nearest_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray)
     return np.stack([rows[int(i)] for i in np.atleast_1d(index)])
 
 
-@single_threaded_blas
 def interpolated_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray) -> FloatArray:
     """Shapes interpolated between the nearest known samples by radial basis functions.
 
     Arguments and result as for `nearest_start`. On 32 samples of the Dragon after 48 finished ones
     such starts need 82 evaluations each, against 105 from the nearest sample and 145 from the rest
-    shape (without soft modes). With fewer than two distinct samples the result is that of
-    `nearest_start`.
+    shape (without soft modes).
+    """
+    return rows.combined(interpolation_weights(known, wanted))
+
+
+@single_threaded_blas
+def interpolation_weights(known: FloatArray, wanted: FloatArray) -> FloatArray:
+    """Weights (j, k) of known samples whose combinations are interpolated at the wanted ones.
+
+    With fewer than two distinct samples it is one that has all the weight.
     """
     # the interpolant needs distinct points, but a sample may repeat another one or the rest pose
     distinct = np.sort(np.unique(known.round(9), axis=0, return_index=True)[1])
-    if len(distinct) < 2:
-        return nearest_start(known, rows, wanted)
-    # it is linear in the data: one row of weights per wanted sample, applied to whole shapes
     weights = np.zeros((len(wanted), len(known)))
-    weights[:, distinct] = _interpolation_weights(known[distinct], wanted)
-    used = weights.any(axis=0)
-    weights = np.ascontiguousarray(weights[:, used])
-    starts = np.empty((len(wanted), rows.size))
-    for columns, block in rows.select(used).blocks():
-        starts[:, columns] = weights @ block
-    return starts
+    if len(distinct) < 2:
+        weights[:, 0] = 1.0
+    else:
+        weights[:, distinct] = _weights_of_distinct(known[distinct], wanted)
+    return weights
 
 
-def _interpolation_weights(points: FloatArray, wanted: FloatArray) -> FloatArray:
+def _weights_of_distinct(points: FloatArray, wanted: FloatArray) -> FloatArray:
     """Weights (j, k) of distinct points (k, p): of thin plates, where the points carry them.
 
     Thin plates have half the error of the linear functions, and save one in twenty evaluations of

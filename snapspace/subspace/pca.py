@@ -150,9 +150,7 @@ def _pca(
         )
     check_dimension(dimension, rank)
     weights = (vectors[:, :dimension] / np.sqrt(eigenvalues[:dimension])).T
-    directions = np.empty((dimension, tau.size))
-    for columns, block in displacements.blocks():
-        directions[:, columns] = weights @ block
+    directions = displacements.combined(weights)
     orthonormalise(directions, mass)
     for direction in directions:
         direction *= np.sign(direction[np.abs(direction).argmax()])

@@ -56,8 +56,6 @@ def test_an_executor_gives_the_bits_of_this_machine(
     here = solve_snapshots(posing, samples, options=options, threads=2)
     there = solve_snapshots(posing, samples, options=options, executor=executor)
     assert_same_bits(there, here)
-    assert there.gram is not None and here.gram is not None
-    assert (there.gram.matrix == here.gram.matrix).all()
 
 
 @pytest.mark.parametrize("solver", SOLVERS)

@@ -55,7 +55,12 @@ Wholes = dict[Solver, tuple[Snapshots, Checkpoint]]
 
 def solved(solver: Solver, *, checkpoint: Checkpoint | None = None, threads: int = 1) -> Snapshots:
     return solve_snapshots(
-        PROBLEM, SAMPLES, options=OPTIONS[solver], threads=threads, checkpoint=checkpoint
+        PROBLEM,
+        SAMPLES,
+        options=OPTIONS[solver],
+        threads=threads,
+        checkpoint=checkpoint,
+        progress=lambda state: None,
     )
 
 

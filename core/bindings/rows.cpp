@@ -1,0 +1,80 @@
+#include "bindings/arrays.h"
+#include "snapshots/combine_rows.h"
+#include "snapshots/mass_products.h"
+
+namespace snapspace {
+
+namespace {
+
+std::vector<const double*> addresses(const std::vector<VectorIn>& rows, std::size_t size) {
+  std::vector<const double*> result;
+  for (const VectorIn& row : rows) {
+    require(row.size() == size, "rows must all be as long");
+    result.push_back(row.data());
+  }
+  return result;
+}
+
+ScalarRows scalar_rows(const IndexVectorIn& starts, const IndexVectorIn& columns,
+                       const VectorIn& values) {
+  require(starts.size() >= 1 && starts.data()[0] == 0, "starts must be (n + 1,), from 0");
+  require(columns.size() == values.size(), "one value per column is needed");
+  const std::size_t size = starts.size() - 1;
+  for (std::size_t i = 0; i < size; ++i)
+    require(starts.data()[i] <= starts.data()[i + 1], "starts must not fall");
+  require(static_cast<std::size_t>(starts.data()[size]) <= values.size(),
+          "starts reach beyond the entries");
+  for (std::size_t entry = 0; entry < columns.size(); ++entry)
+    require(columns.data()[entry] >= 0 && static_cast<std::size_t>(columns.data()[entry]) < size,
+            "a column is out of range");
+  return {size, starts.data(), columns.data(), values.data()};
+}
+
+/// With the arrays of the matrix, which it does not copy.
+struct HeldMassProducts {
+  IndexVectorIn starts, columns;
+  VectorIn values;
+  std::size_t size = starts.size() - 1;
+  MassProducts products{scalar_rows(starts, columns, values)};
+
+  DoublesOut multiply(const std::vector<VectorIn>& rows, const std::optional<VectorIn>& offset,
+                      const std::vector<VectorIn>& others, int threads) {
+    const auto left = addresses(rows, 3 * size), right = addresses(others, 3 * size);
+    require(!offset || offset->size() == 3 * size, "the offset must be (3n,)");
+    DoublesOut result = new_array<double>({left.size(), right.size()});
+    const nb::gil_scoped_release release;
+    products.multiply(left, offset ? offset->data() : nullptr, right, threads, result.data());
+    return result;
+  }
+};
+
+}  // namespace
+
+void bind_rows(nb::module_& m) {
+  nb::class_<HeldMassProducts>(m, "MassProducts",
+                               "Products of displacements (3n,) with a scalar matrix (n, n), given "
+                               "row by row, in between. Not for several threads at a time.")
+      .def(
+          "__init__",
+          [](HeldMassProducts* self, IndexVectorIn starts, IndexVectorIn columns, VectorIn values) {
+            new (self) HeldMassProducts{starts, columns, values};
+          },
+          nb::arg("starts"), nb::arg("columns"), nb::arg("values"))
+      .def("multiply", &HeldMassProducts::multiply, nb::arg("rows"), nb::arg("offset").none(),
+           nb::arg("others"), nb::kw_only(), nb::arg("threads"),
+           "Products (i, j) of rows[i] + offset with M (x) I3 times others[j].");
+  m.def(
+      "combine_rows",
+      [](std::vector<VectorIn> rows, std::size_t size, MatrixIn weights) {
+        const auto from = addresses(rows, size);
+        require(weights.shape(1) == from.size(), "one column of weights per row is needed");
+        DoublesOut combined = new_array<double>({weights.shape(0), size});
+        const nb::gil_scoped_release release;
+        combine_rows(from, size, weights.data(), weights.shape(0), combined.data());
+        return combined;
+      },
+      nb::arg("rows"), nb::arg("size"), nb::arg("weights"),
+      "weights (j, i) times rows (i of size,): the combinations, (j, size).");
+}
+
+}  // namespace snapspace
