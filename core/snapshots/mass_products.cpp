@@ -26,7 +26,7 @@ void MassProducts::multiply(Rows rows, const double* offset, Rows others, int th
     StreamedVector<Block> blocks(kHeight, Block{});
     for (std::size_t first = 0; first < mass_.size; first += kVertices) {
       const std::size_t last = std::min(first + kVertices, mass_.size);
-      const Block* weighted = &weighted_[first / kVertices * breadth_];
+      const Block* weighted = weighted_.data() + first / kVertices * breadth_;
       for (std::size_t i = begin; i < end; i += kHeight) {
         const std::size_t height = std::min(kHeight, end - i);
         for (std::size_t k = 0; k < height; ++k) copy(rows[i + k], offset, first, last, blocks[k]);
