@@ -8,12 +8,14 @@ from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.sparse import csr_array
 
 from .. import _core as core
 
 FloatArray = NDArray[np.float64]
 
-#: Columns that algorithms look at together. A constant, since rounding depends on it.
+#: Columns that `DisplacementRows.blocks` gives together. A constant, since the rounding of sums
+#: that are formed block by block depends on it.
 BLOCK = 3 * 1024
 
 
@@ -110,7 +112,8 @@ class DisplacementRows(Sequence[FloatArray]):
     ) -> FloatArray:
         """Products d_i^T M d_j of these rows with M times others, (k, len(others)).
 
-        A product is bitwise the same whatever other rows there are, on any number of threads.
+        `mass` is from `shared_mass`; M times the others is in memory meanwhile. A product is
+        bitwise the same whatever other rows there are, on any number of threads.
         """
         return mass.multiply(self._rows, self._offset, list(others), threads=threads)
 
@@ -152,6 +155,11 @@ class DisplacementRows(Sequence[FloatArray]):
 
     def __repr__(self) -> str:
         return f"DisplacementRows({len(self)} x {self.size})"
+
+
+def shared_mass(mass: csr_array) -> core.MassProducts:
+    """A mass matrix (n, n) for `mass_products`, whose calls share its memory."""
+    return core.MassProducts(mass.indptr, mass.indices, mass.data)
 
 
 def _check_row(row: FloatArray, index: int, size: int) -> None:

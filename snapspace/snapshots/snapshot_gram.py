@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
-from .. import _core as core
 from ..blas import single_threaded_blas
 from ..problem import Problem
-from .displacement_rows import DisplacementRows
+from .displacement_rows import DisplacementRows, shared_mass
 
 FloatArray = NDArray[np.float64]
 
@@ -25,7 +24,8 @@ class SnapshotGram:
     """Matrix (k, k) of inner products d_i^T M d_j of displacements, grown while they are solved.
 
     The method of snapshots (paper, sec. 5.2) finds the best subspace from it, and the errors of
-    unseen samples follow as well. Memory: the matrix; displacements stay where they are.
+    unseen samples follow as well. Memory: the matrix, and M times `TOGETHER` displacements while
+    rows are added.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ class SnapshotGram:
         before, every = len(self), self._rows.followed_by(rows)
         matrix = np.zeros((len(every), len(every)))
         matrix[:before, :before] = self._matrix
-        mass = core.MassProducts(self.mass.indptr, self.mass.indices, self.mass.data)
+        mass = shared_mass(self.mass)
         for first in range(before, len(every), TOGETHER):
             end = min(first + TOGETHER, len(every))
             products = every[:end].mass_products(mass, every[first:end], threads=threads)

@@ -40,7 +40,8 @@ def solve_snapshots(
     threads : int, optional
         Default: as many as the machine has. The result is bitwise the same for any number.
     progress : callable(SolveProgress), optional
-        Called some ten times a second, from this thread.
+        Called some ten times a second, from this thread. With it the inner products of the samples
+        are measured on the way, which its error estimate needs, and kept in the result (`gram`).
     checkpoint : Checkpoint, optional
         Finished samples are saved there block by block, and on Ctrl-C; a run with the same
         arguments goes on from them and ends with the same result as one that was not interrupted.

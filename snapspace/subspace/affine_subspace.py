@@ -12,6 +12,7 @@ from .. import _core as core
 from ..blas import single_threaded_blas
 from ..mesh import apply_mass
 from ..snapshots import DisplacementRows
+from ..snapshots.displacement_rows import shared_mass
 
 FloatArray = NDArray[np.float64]
 
@@ -61,16 +62,10 @@ class AffineSubspace:
         coordinates: FloatArray = self.basis.T @ apply_mass(self.mass, offset)
         return coordinates
 
-    @single_threaded_blas
     def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:
-        """q = U^T M u, (k, d), of displacements u from tau, block by block."""
-        weighted = np.empty((self.dimension, self.tau.size))
-        for target, column in zip(weighted, self.basis.T, strict=True):
-            target[:] = apply_mass(self.mass, column)
-        coordinates = np.zeros((len(displacements), self.dimension))
-        for columns, block in displacements.blocks():
-            coordinates += block @ weighted[:, columns].T
-        return coordinates
+        """q = U^T M u, (k, d), of displacements u from tau, which are not copied whole."""
+        directions = DisplacementRows(np.ascontiguousarray(self.basis.T), self.tau.size)
+        return displacements.mass_products(shared_mass(self.mass), directions)
 
     def shape(self, q: ArrayLike) -> FloatArray:
         """tau + U q, (3n,), for coordinates (d,), or the leading ones with the others zero."""
