@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 from pathlib import Path
 
 from starlette.concurrency import run_in_threadpool
@@ -34,6 +35,12 @@ def upload_endpoint(
     """
 
     async def upload(request: Request) -> Response:
+        answer = await taken(request)
+        if answer.status_code != 202:
+            await _drained(request)
+        return answer
+
+    async def taken(request: Request) -> Response:
         workspace = workspaces.get(request.query_params.get("workspace", ""))
         name = plain_name(request.query_params.get("name", ""))
         if workspace is None:
@@ -63,7 +70,7 @@ def upload_endpoint(
 
 
 async def _received(request: Request, place: Path, limit: int) -> bool:
-    """Writes the body of a request to a file, and reads no further than the limit."""
+    """Writes the body of a request to a file, and no more of it than the limit."""
     size = 0
     with place.open("wb") as file:
         async for part in request.stream():
@@ -72,6 +79,13 @@ async def _received(request: Request, place: Path, limit: int) -> bool:
                 return False
             file.write(part)
     return True
+
+
+async def _drained(request: Request) -> None:
+    """Reads and forgets the rest of a body: who is still sending would miss the answer."""
+    with suppress(ClientDisconnect, RuntimeError):  # gone, or read to its end
+        async for _ in request.stream():
+            pass
 
 
 def _refusal(status: int, text: str) -> Response:

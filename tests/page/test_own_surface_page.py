@@ -83,12 +83,12 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     page.drag(page.run("snapspace.handle(1)"), 20, 10)
     assert np.linalg.norm(page.motions()[1][1]) > 0.1
     assert_shown(model, page)
+    assert_saved_shows_the_surface(folder, model, opened)
 
 
-def test_what_was_saved_shows_the_surface_again(
-    address: str, folder: Path, opened: OpenPage
-) -> None:
-    problem, model = read_problem(folder / "bar.json"), load(folder / "bar.snapspace")
+def assert_saved_shows_the_surface(folder: Path, model: PosingModel, opened: OpenPage) -> None:
+    """The saved handles in a workspace, and the saved model as a page, are on the own surface."""
+    problem = read_problem(folder / "bar.json")
     content = json.loads((folder / "bar.json").read_text(encoding="utf-8"))
     assert (content["mesh"], content["surface"]) == ("bar.msh", "bar.obj")
     vertices, _ = read_surface(folder / "bar.obj")
@@ -102,7 +102,6 @@ def test_what_was_saved_shows_the_surface_again(
             follow = np.flatnonzero(np.isin(nearest, handle.vertices))
             assert shown[handle.name] == set(follow.tolist())
         page.close()  # before its server, which it would miss
-    assert isinstance(model, PosingModel)
     page = opened(export_html(model, folder / "bar.html").as_uri())
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     assert len(page.shown()) == len(vertices)
