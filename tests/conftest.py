@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 from snapspace import (
     InterpolationModel,
@@ -26,6 +27,12 @@ from .browser import chromium
 from .shapes import bar_problem, interpolation_problem, surface_around
 
 __all__ = ["chromium"]  # a fixture
+
+# Every run tries the same examples, so that what fails is due to a change;
+# `--hypothesis-profile=searching` tries others. A busy machine is no error, hence no deadlines.
+settings.register_profile("steady", derandomize=True, deadline=None)
+settings.register_profile("searching", deadline=None)
+settings.load_profile("steady")
 
 
 @pytest.fixture(scope="session")

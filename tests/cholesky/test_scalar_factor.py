@@ -42,7 +42,7 @@ def test_solutions_are_those_of_scipy(name: str) -> None:
     assert_solves(A, b, core.ScalarFactor(*by_columns(A)).solve(b))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(random_matrices(), st.randoms(use_true_random=False))
 def test_random_matrices_are_solved_in_any_order(A: Any, random: Any) -> None:
     """A bad order fills the factor, it does not change what it solves."""

@@ -27,7 +27,7 @@ def test_the_rest_shape_has_no_energy_and_no_force() -> None:
     angles=st.tuples(*[st.floats(-4, 4)] * 3),
     shift=st.tuples(*[st.floats(-10, 10)] * 3),
 )
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_a_rigid_motion_keeps_the_energy_and_turns_the_force(
     size: float, angles: tuple[float, ...], shift: tuple[float, ...]
 ) -> None:

@@ -26,7 +26,7 @@ def distance_up_to_motion(a: np.ndarray, b: np.ndarray) -> float:
     return rms(MESH, R.apply(a) - b)
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(angle=st.floats(-3.0, 3.0).filter(lambda angle: abs(angle) > 0.1))
 def test_a_bent_bar_is_found_from_its_surface(angle: float) -> None:
     fits = fit_poses(MESH, SURFACE, [bent(REST, angle)], deviation=5e-4)

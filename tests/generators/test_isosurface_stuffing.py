@@ -54,7 +54,7 @@ def test_interior_tets_are_the_lattices() -> None:
     assert np.abs(angles[..., None] - [60.0, 90.0]).min(axis=-1).max() < 1e-6
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(
     centre=st.tuples(*[st.floats(-0.3, 0.3)] * 3),
     radii=st.tuples(*[st.floats(0.4, 1.0)] * 3),

@@ -25,7 +25,7 @@ def near(mesh: TetMesh, count: int, *, seed: int = 0, outside: float = 0.015) ->
     return np.random.default_rng(seed).uniform(low, high, (count, 3))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 2**32 - 1))
 def test_affine_motions_of_the_tets_are_those_of_the_surface(seed: int) -> None:
     mesh = box_mesh((3, 2, 2), (1.0, 0.7, 0.9))

@@ -43,7 +43,7 @@ def test_every_fault_is_mended_and_noted() -> None:
     assert mesh.volume == pytest.approx(1.0)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.integers(0, 2**32 - 1))
 def test_any_mixture_of_faults_ends_in_a_valid_mesh(seed: int) -> None:
     rng = np.random.default_rng(seed)

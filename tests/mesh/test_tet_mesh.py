@@ -90,7 +90,7 @@ def test_repr_is_one_line() -> None:
     assert repr(box_mesh()) == "TetMesh(27 vertices, 48 tets, volume 1, diagonal 1.73205)"
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.integers(0, 2**32 - 1), st.floats(-6, 6), st.floats(0, 1e3))
 def test_volume_scales_and_ignores_rigid_motions(seed: int, scale: float, offset: float) -> None:
     rng = np.random.default_rng(seed)

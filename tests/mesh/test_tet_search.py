@@ -28,7 +28,7 @@ def random_mesh(rng: np.random.Generator) -> TetMesh:
     return mesh
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(SEEDS, st.integers(1, 40))
 def test_the_tree_finds_what_trying_every_box_finds(seed: int, boxes: int) -> None:
     rng = np.random.default_rng(seed)
@@ -51,7 +51,7 @@ def closest_by_optimisation(point: np.ndarray, triangle: np.ndarray) -> float:
     return float(np.linalg.norm(weights / weights.sum() @ triangle - point))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(SEEDS)
 def test_closest_points_of_triangles(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -68,7 +68,7 @@ def test_triangles_without_area_are_segments_or_points() -> None:
     assert closest_on_triangles(points, segment).tolist() == [[2.5, 0, 0], [2, 2, 2]]
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(SEEDS)
 def test_containing_tets_are_those_of_trying_every_tet(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -85,7 +85,7 @@ def test_containing_tets_are_those_of_trying_every_tet(seed: int) -> None:
             assert weight @ mesh.vertices[mesh.tets[tet]] == pytest.approx(point, abs=1e-9)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(SEEDS)
 def test_closest_faces_are_those_of_trying_every_face(seed: int) -> None:
     rng = np.random.default_rng(seed)

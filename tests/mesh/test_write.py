@@ -83,7 +83,7 @@ def test_surfaces_come_back_with_used_vertices_only(tmp_path: Path, name: str) -
         assert np.array_equal(vertices, mesh.vertices[mesh.surface_vertices])
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(arrays(np.float64, (3, 3), elements=st.floats(allow_nan=False, allow_infinity=False)))
 def test_text_keeps_every_digit_of_every_number(
     tmp_path_factory: pytest.TempPathFactory, vertices: np.ndarray[Any, Any]

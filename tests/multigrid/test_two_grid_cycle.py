@@ -49,7 +49,7 @@ def test_cycles_are_preconditioners(name: str) -> None:
     assert_is_a_preconditioner(MATRICES[name])
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(random_matrices())
 def test_cycles_of_random_matrices_are_preconditioners(A: Any) -> None:
     assert_is_a_preconditioner(A)

@@ -20,7 +20,7 @@ level = st.floats(-1.5, 1.5)
 near_lock = st.sampled_from([0.0, 1e-17, 1e-15, 1e-12, 1e-9, 1e-8, 1e-6, 1e-3])
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(alpha=full_turn, beta=level, gamma=full_turn)
 def test_angles_come_back(alpha: float, beta: float, gamma: float) -> None:
     angles = np.array([alpha, beta, gamma])
@@ -31,7 +31,7 @@ def test_angles_come_back(alpha: float, beta: float, gamma: float) -> None:
     assert (np.abs(found) <= [np.pi, np.pi / 2, np.pi]).all()
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(alpha=full_turn, gamma=full_turn, off=near_lock, side=st.sampled_from([-1.0, 1.0]))
 def test_the_rotation_comes_back_at_gimbal_lock(
     alpha: float, gamma: float, off: float, side: float
@@ -42,7 +42,7 @@ def test_the_rotation_comes_back_at_gimbal_lock(
     np.testing.assert_allclose(rotation_matrix(found), rotation, rtol=0, atol=4e-15)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(seed=st.integers(0, 2**32 - 1))
 def test_any_rotation_comes_back(seed: int) -> None:
     rotation = random_rotation(seed)

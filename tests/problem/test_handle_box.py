@@ -27,7 +27,7 @@ def test_the_unit_cube_goes_onto_the_box() -> None:
 
 
 @given(arrays(np.float64, (3, 12), elements=st.floats(0, 1)))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_to_unit_is_the_inverse(points: np.ndarray) -> None:
     box = HandleBox(translation=(1e-3, 2.0, 30.0), angle=(0.1, 3.0, np.pi), moving=2)
     parameters = box.from_unit(points)

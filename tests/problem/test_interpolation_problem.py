@@ -44,7 +44,7 @@ def written_out(
     size=st.floats(0, 2),
     seed=st.integers(0, 2**32 - 1),
 )
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_the_objective_is_the_weighted_sum_of_the_poses_energies(
     weights: tuple[float, ...], size: float, seed: int
 ) -> None:

@@ -25,7 +25,7 @@ def to_unit(domain: Simplex, weights: FloatArray) -> FloatArray:
 
 
 @given(arrays(np.float64, (3, 4), elements=st.floats(0, 1)))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_all_of_the_cube_goes_onto_weights(points: FloatArray) -> None:
     weights = Simplex(corners=5).from_unit(points)
     assert weights.shape == (3, 5)
@@ -37,7 +37,7 @@ def test_all_of_the_cube_goes_onto_weights(points: FloatArray) -> None:
     points=arrays(np.float64, (3, 4), elements=st.floats(0, 0.99)),
     extrapolation=st.sampled_from([0.0, 0.3, 2.0]),
 )
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_the_map_from_the_cube_is_one_to_one(points: FloatArray, extrapolation: float) -> None:
     domain = Simplex(corners=5, extrapolation=extrapolation)
     assert to_unit(domain, domain.from_unit(points)) == pytest.approx(points, abs=1e-9)
@@ -90,7 +90,7 @@ def test_a_grid_of_three_weights_in_order() -> None:
 
 
 @given(count=st.integers(1, 500), corners=st.integers(2, 6))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_a_grid_is_the_largest_that_is_symmetric_in_the_corners(count: int, corners: int) -> None:
     domain = Simplex(corners=corners)
     weights = domain.grid(count)

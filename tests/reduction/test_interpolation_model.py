@@ -39,7 +39,7 @@ def random_q(model: InterpolationModel, size: float = 1.0, seed: int = 1) -> Flo
     size=st.floats(1e-3, 3),
     seed=st.integers(0, 1000),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_reduced_energy_is_the_full_one_on_the_subspace(
     blending_model: InterpolationModel, weights: tuple[float, ...], size: float, seed: int
 ) -> None:

@@ -49,7 +49,7 @@ def assert_proper(rotation: FloatArray) -> None:
     shift=st.tuples(*[st.floats(-10, 10)] * 3),
     scale=st.floats(1e-3, 1e3),
 )
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_a_known_motion_is_found(
     rotvec: tuple[float, ...], shift: tuple[float, ...], scale: float
 ) -> None:

@@ -18,7 +18,7 @@ TURNED = moved(BENT.reshape(-1), random_rotation(), 30.0).reshape(-1, 3)
 
 
 @given(scale=st.floats(1e-6, 1e6))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_the_unit_of_length_is_recovered(scale: float) -> None:
     shapes = np.stack([BAR.vertices, scale * BAR.vertices])
     for cells in (BAR.tets, BAR.surface):

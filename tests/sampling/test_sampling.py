@@ -134,7 +134,7 @@ def test_a_grid_has_the_centres_of_equal_cells() -> None:
 
 
 @given(count=st.integers(1, 3000), free=st.integers(1, 6), moving=st.integers(1, 2))
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 def test_a_grid_is_the_largest_product_of_nearly_equal_numbers(
     count: int, free: int, moving: int
 ) -> None:

@@ -154,7 +154,7 @@ ANY = st.floats(allow_nan=True, allow_infinity=True)
         max_size=4,
     )
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_no_weights_bring_out_a_shape_that_is_not_finite(
     blending_model: InterpolationModel, path: list[tuple[float, float, float]]
 ) -> None:

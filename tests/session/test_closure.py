@@ -210,7 +210,7 @@ def test_anew_after_a_drag_is_no_higher_than_a_jump_there(model: PosingModel) ->
         *[st.one_of(st.floats(-3, 3), st.floats(allow_nan=False, allow_infinity=False))] * 3
     ),
 )
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_any_motion_ends_with_numbers(
     model: PosingModel, euler: tuple[float, ...], shift: tuple[float, ...]
 ) -> None:

@@ -24,7 +24,7 @@ MOTIONS = st.lists(st.tuples(HANDLES, ANGLES, SHIFTS), min_size=1, max_size=5)
 
 
 @given(motions=MOTIONS, minimizer=MINIMIZERS, bound=st.sampled_from([1, 2, 20, 500]))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_any_motion_ends_soon_with_numbers(
     posing_model: PosingModel,
     motions: list[tuple[str, tuple[float, ...], tuple[float, ...]]],
@@ -71,7 +71,7 @@ def test_a_flip_converges_to_a_minimum(
 
 
 @given(seed=st.integers(0, 1000), minimizer=MINIMIZERS)
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_a_slow_drag_there_and_back_returns_or_says_so(
     posing_model: PosingModel, seed: int, minimizer: str
 ) -> None:

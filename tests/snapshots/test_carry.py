@@ -62,7 +62,7 @@ def following(problem: PosingProblem, w: FloatArray, *, seed: int = 0) -> FloatA
 motions = st.lists(st.floats(-1.5, 1.5), min_size=12, max_size=12).map(np.array)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(w=motions, seed=st.integers(0, 99))
 def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) -> None:
     new = PROBLEM.with_handles(HANDLES.replacing("head", X > 0.8).replacing("belly", KNEE))
@@ -73,7 +73,7 @@ def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) 
     assert new.handle_energy(x, new.offsets(result.parameters[0])) < 1e-22
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(w=motions, common=motions, seed=st.integers(0, 99))
 def test_motions_count_from_the_handle_that_is_fixed(
     w: FloatArray, common: FloatArray, seed: int

@@ -68,7 +68,7 @@ def alone() -> dict[bool, list[Bits]]:
 
 
 @per_width
-@settings(max_examples=10, deadline=None)
+@settings(max_examples=10)
 @given(
     which=st.lists(st.integers(0, COUNT - 1), min_size=1, max_size=30),
     threads=st.integers(1, 3),

@@ -70,7 +70,7 @@ def collected(backend: LocalBackend, count: int) -> dict[int, Outcome]:
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(seed=st.integers(0, 2**32), threads=st.integers(1, 4), missing=st.integers(0, 10))
 def test_samples_in_any_order_and_portions_have_the_bits_of_one_call(
     expected: dict[Solver, dict[int, Outcome]],

@@ -35,7 +35,7 @@ SAMPLES = parameters(PROBLEM, COUNT)
 OPTIONS = {solver: SolverOptions(solver=solver, block=4) for solver in SOLVERS}
 
 per_solver = pytest.mark.parametrize("solver", SOLVERS)
-few = settings(max_examples=12, deadline=None)
+few = settings(max_examples=12)
 any_samples = st.sets(st.integers(0, COUNT - 1))
 
 

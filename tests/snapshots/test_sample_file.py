@@ -72,7 +72,7 @@ def test_where_files_cannot_be_mapped_rows_are_in_memory(
     np.testing.assert_array_equal([found[i][0] for i in INDICES], ROWS)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(data=st.data())
 def test_any_changed_bit_is_noticed(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:
@@ -85,7 +85,7 @@ def test_any_changed_bit_is_noticed(data: st.DataObject) -> None:
             read_samples(path)
 
 
-@settings(max_examples=50, deadline=None)
+@settings(max_examples=50)
 @given(data=st.data())
 def test_any_missing_or_further_byte_is_noticed(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:

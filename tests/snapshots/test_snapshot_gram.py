@@ -68,7 +68,7 @@ def test_over_many_blocks_of_vertices() -> None:
     np.testing.assert_allclose(gram(mass, rows).matrix, expected, rtol=0, atol=1e-13)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(data=st.data(), count=st.integers(2, 70))
 def test_the_same_bits_however_the_rows_come(data: st.DataObject, count: int) -> None:
     """A resumed run finds other parts of its samples finished."""
@@ -126,7 +126,7 @@ def test_errors_are_those_of_the_projections(mass: csr_array, dimension: int) ->
     assert errors.min() > 1e-4
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 1000), count=st.integers(2, 25))
 def test_errors_fall_with_every_dimension(seed: int, count: int) -> None:
     """Nested spaces; between 0 and 1; beyond the number of training rows nothing changes."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from scipy.spatial.distance import pdist
 
 from snapspace import SolverOptions, sample, solve_snapshots
 from snapspace.snapshots import SOLVERS, DisplacementRows
@@ -30,14 +31,14 @@ def test_nearest_takes_the_nearest() -> None:
     np.testing.assert_array_equal(found, shapes[[1, 0, 2, 0]])
 
 
-@settings(deadline=None)
 @given(st.integers(0, 1000), st.integers(2, 30), st.integers(1, 12))
 def test_interpolation_reproduces_what_is_known(seed: int, count: int, dimension: int) -> None:
     rng = np.random.default_rng(seed)
     known, shapes = rng.random((count, dimension)), rng.normal(size=(count, 9))
     found = interpolated_start(known, rows_of(shapes), known)
-    # thirty points in one dimension: some are so close that weights are large
-    np.testing.assert_allclose(found, shapes, atol=1e-6)
+    # the closer the closest samples, the larger the numbers that cancel
+    closest = pdist(known).min()
+    np.testing.assert_allclose(found, shapes, rtol=0, atol=1e-14 / min(closest, 1.0) ** 2)
 
 
 def test_interpolation_between_equal_shapes_is_that_shape() -> None:

@@ -113,7 +113,7 @@ def test_beats_random_subspaces() -> None:
             assert squared_error(shapes, other.basis, mass) > 1.001 * best
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(seed=st.integers(0, 10_000), count=st.integers(6, 12), dimension=st.integers(1, 5))
 def test_for_any_snapshots(seed: int, count: int, dimension: int) -> None:
     """Orthonormal; the error is what the eigenvalues say; order, and moving all, is irrelevant."""
