@@ -47,7 +47,7 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     address: str, folder: Path, opened: OpenPage
 ) -> None:
     vertices, faces = read_surface(folder / "bar.obj")
-    page = opened(address, size=(1000, 640))
+    page = opened(address)
     page.wait("snapspace.kind === 'choosing'")
     shape = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)
     np.testing.assert_allclose(shape, vertices, atol=1e-6)
@@ -112,7 +112,7 @@ def test_one_that_is_dropped_on_the_page_is_saved_with_its_tets(
     tmp_path: Path, folder: Path, opened: OpenPage, chromium: object
 ) -> None:
     with served(*TETS, cwd=tmp_path) as empty:
-        page = opened(empty, size=(1000, 640))
+        page = opened(empty)
         wait_for_text(page, "#message", "Drop a mesh here")
         page.page.set_input_files("#message input", folder / "bar.obj")
         page.wait("snapspace.kind === 'choosing'")

@@ -45,7 +45,7 @@ def empty(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterato
 
 @pytest.fixture
 def page(address: str, opened: OpenPage) -> Page:
-    page: Page = opened(address, size=(1000, 640))
+    page: Page = opened(address)
     page.wait("snapspace.kind === 'choosing'")
     ends_as_handles(page)
     return page
