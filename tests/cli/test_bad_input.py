@@ -150,7 +150,7 @@ POSES: dict[str, tuple[list[str], str]] = {
     "folder": (["-o", "none/out.obj"], "none/out.obj: there is no folder none"),
     "picture": (["--png", "out.jpg"], "out.jpg: unknown extension '.jpg'; known are .png"),
     "dimension": (["--dimension", "11"], "--dimension is 11, but"),
-    "usage": (["--angle", "3"], "No such option '--angle'"),
+    "usage": (["--angle", "3"], "No such option"),
 }
 
 

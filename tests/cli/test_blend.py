@@ -206,7 +206,7 @@ REFUSED: dict[str, tuple[list[str], str]] = {
         "none/out.png: there is no folder none",
     ),
     "dimension": (["--weights", TEXT, "--dimension", "9"], "--dimension is 9, but"),
-    "usage": (["--angle", "3"], "No such option '--angle'"),
+    "usage": (["--angle", "3"], "No such option"),
 }
 
 

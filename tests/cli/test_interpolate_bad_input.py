@@ -201,7 +201,7 @@ CASES: dict[str, tuple[Case, str]] = {
         "none does not exist",
     ),
     "saved poses": (taken_folder, "taken: cannot make the folder"),
-    "usage": (lambda f: tets(f, "--handle", "head"), "No such option '--handle'"),
+    "usage": (lambda f: tets(f, "--handle", "head"), "No such option"),
 }
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.sparse import csr_array, identity, kron, random_array
+from scipy.sparse import csr_array, identity, kron
 
 from snapspace import _core as core
 from snapspace.snapshots import DisplacementRows
@@ -13,7 +13,7 @@ from snapspace.snapshots import DisplacementRows
 FloatArray = NDArray[np.float64]
 POINTS = 150  # a block of vertices and a part of one
 RANDOM = np.random.default_rng(0)
-MASS = csr_array(random_array((POINTS, POINTS), density=0.1, format="csr", rng=RANDOM))
+MASS = csr_array(RANDOM.random((POINTS, POINTS)) * (RANDOM.random((POINTS, POINTS)) < 0.1))
 ROWS = RANDOM.standard_normal((45, 3 * POINTS))
 
 
