@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import shutil
 import tempfile
-from collections.abc import Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -35,12 +35,15 @@ def upload_endpoint(
     """
 
     async def upload(request: Request) -> Response:
-        answer = await taken(request)
-        if answer.status_code != 202:
-            await _drained(request)
+        body = request.stream()
+        answer = await taken(request, body)
+        # the rest of what is refused: who is still sending would miss the answer
+        with suppress(ClientDisconnect):
+            async for _ in body:
+                pass
         return answer
 
-    async def taken(request: Request) -> Response:
+    async def taken(request: Request, body: AsyncIterator[bytes]) -> Response:
         workspace = workspaces.get(request.query_params.get("workspace", ""))
         name = plain_name(request.query_params.get("name", ""))
         if workspace is None:
@@ -54,7 +57,7 @@ def upload_endpoint(
             return _refusal(413, too_large)
         place = Path(tempfile.mkdtemp(dir=site.scratch)) / name
         try:
-            complete = await _received(request, place, site.upload_limit)
+            complete = await _received(body, place, site.upload_limit)
         except (ClientDisconnect, OSError) as error:
             await run_in_threadpool(shutil.rmtree, place.parent, ignore_errors=True)
             return _refusal(
@@ -69,23 +72,16 @@ def upload_endpoint(
     return upload
 
 
-async def _received(request: Request, place: Path, limit: int) -> bool:
-    """Writes the body of a request to a file, and no more of it than the limit."""
+async def _received(body: AsyncIterator[bytes], place: Path, limit: int) -> bool:
+    """Writes the body of a request to a file, and reads no further than the limit."""
     size = 0
     with place.open("wb") as file:
-        async for part in request.stream():
+        async for part in body:
             size += len(part)
             if size > limit:
                 return False
             file.write(part)
     return True
-
-
-async def _drained(request: Request) -> None:
-    """Reads and forgets the rest of a body: who is still sending would miss the answer."""
-    with suppress(ClientDisconnect, RuntimeError):  # gone, or read to its end
-        async for _ in request.stream():
-            pass
 
 
 def _refusal(status: int, text: str) -> Response:

@@ -8,12 +8,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import click
 import pytest
 
 from snapspace import write_tets
 from snapspace.cli import main
 
 from .files import surface_first, write_problem, write_surface_poses, write_tet_poses
+
+
+def no_such_option(name: str) -> str:
+    """How click refuses an option, which differs from version to version."""
+    return click.NoSuchOption(name).message.rstrip(".")
 
 
 @dataclass(frozen=True)

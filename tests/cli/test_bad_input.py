@@ -10,7 +10,7 @@ import pytest
 
 from snapspace import write_surface
 
-from .conftest import Run
+from .conftest import Run, no_such_option
 from .files import bar_mesh, contents, problem_content, write_problem, write_raw
 
 Case = Callable[[Path], list[object]]
@@ -150,7 +150,7 @@ POSES: dict[str, tuple[list[str], str]] = {
     "folder": (["-o", "none/out.obj"], "none/out.obj: there is no folder none"),
     "picture": (["--png", "out.jpg"], "out.jpg: unknown extension '.jpg'; known are .png"),
     "dimension": (["--dimension", "11"], "--dimension is 11, but"),
-    "usage": (["--angle", "3"], "No such option"),
+    "usage": (["--angle", "3"], no_such_option("--angle")),
 }
 
 

@@ -13,7 +13,7 @@ from snapspace import load, read_surface, read_tets
 from snapspace.cli.files import SURFACE_OUTPUTS, TET_OUTPUTS
 from snapspace.pictures import render_row
 
-from .conftest import Run
+from .conftest import Run, no_such_option
 from .files import POSES, contents
 
 WEIGHTS = [0.2, 0.5, 0.3]
@@ -206,7 +206,7 @@ REFUSED: dict[str, tuple[list[str], str]] = {
         "none/out.png: there is no folder none",
     ),
     "dimension": (["--weights", TEXT, "--dimension", "9"], "--dimension is 9, but"),
-    "usage": (["--angle", "3"], "No such option"),
+    "usage": (["--angle", "3"], no_such_option("--angle")),
 }
 
 

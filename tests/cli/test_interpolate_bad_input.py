@@ -10,7 +10,7 @@ import pytest
 
 from snapspace import write_surface, write_tets
 
-from .conftest import Run
+from .conftest import Run, no_such_option
 from .files import (
     POSES,
     FloatArray,
@@ -201,7 +201,7 @@ CASES: dict[str, tuple[Case, str]] = {
         "none does not exist",
     ),
     "saved poses": (taken_folder, "taken: cannot make the folder"),
-    "usage": (lambda f: tets(f, "--handle", "head"), "No such option"),
+    "usage": (lambda f: tets(f, "--handle", "head"), no_such_option("--handle")),
 }
 
 

@@ -27,9 +27,8 @@ class Page:
 
     def _console(self, message: Any) -> None:
         told = message.text
-        if message.type not in ("error", "warning") or "GPU stall" in told:
-            return
-        if not (self.loses_server and told.startswith("WebSocket connection")):
+        is_lost = self.loses_server and told.startswith("WebSocket connection")
+        if message.type in ("error", "warning") and "GPU stall" not in told and not is_lost:
             self.faults.append(f"console: {told}")
 
     def _request(self, request: Any) -> None:

@@ -10,7 +10,7 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -114,7 +114,7 @@ class Running:
         with urllib.request.urlopen(f"http://{parts.netloc}/{address}", timeout=PATIENCE) as answer:
             return load(answer.read())
 
-    def upload(self, page: str, name: str, content: bytes) -> tuple[int, str]:
+    def upload(self, page: str, name: str, content: bytes | Iterable[bytes]) -> tuple[int, str]:
         """Status and text of the answer to a mesh that is dropped on a page."""
         parts = urlsplit(self.address)
         query = urlencode({"workspace": page, "name": name})

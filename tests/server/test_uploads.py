@@ -81,6 +81,8 @@ def test_what_is_no_mesh_is_refused(empty: Running) -> None:
         assert status == 413 and "more than 1 MB; raise --upload-limit" in text
         # far more than a socket holds: a server that hangs up instead of reading on is missed
         assert empty.upload(told["id"], "x.exe", bytes(2**25))[0] == 415
+        parts_of_unknown_number = (bytes(2**16) for _ in range(2**9))
+        assert empty.upload(told["id"], "x.obj", parts_of_unknown_number)[0] == 413
         assert empty.upload(told["id"], "x.exe", b"0")[0] == 415
         assert empty.upload("another", "x.obj", b"0")[0] == 404
         assert empty.upload(told["id"], "x.obj", b"hello")[0] == 202
