@@ -11,6 +11,8 @@ from typing import Any, ParamSpec, TypeVar
 import threadpoolctl
 from threadpoolctl import ThreadpoolController
 
+from .stopping import ctrl_c_at_checks
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -25,7 +27,7 @@ def single_threaded_blas(function: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(function)
     def limited(*args: P.args, **kwargs: P.kwargs) -> R:
-        with _limit:
+        with ctrl_c_at_checks(), _limit:  # in between, the limit would stay
             return function(*args, **kwargs)
 
     return limited

@@ -3,44 +3,16 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor, wait
-from contextlib import contextmanager
-from contextvars import ContextVar
 from typing import Any, TypeVar
 
 from . import _core as core
+from .stopping import check_stop, ctrl_c_at_checks
 
 POLL_SECONDS = 0.1
 
 Result = TypeVar("Result")
-
-#: Of the block that this thread is in; see `stoppable`.
-_asked: ContextVar[Callable[[], bool]] = ContextVar("asked", default=lambda: False)
-
-
-class Stopped(KeyboardInterrupt):
-    """Work was told to stop, as by Ctrl-C, see `stoppable`."""
-
-
-@contextmanager
-def stoppable(asked: Callable[[], bool]) -> Iterator[None]:
-    """Long work in this block ends as it does at Ctrl-C, soon after `asked` says so.
-
-    For threads other than the main one, where Ctrl-C does not arrive. What waits for compiled work
-    or another process asks ten times a second, and raises `Stopped`.
-    """
-    token = _asked.set(asked)
-    try:
-        yield
-    finally:
-        _asked.reset(token)
-
-
-def check_stop() -> None:
-    """Raises `Stopped` if the work of this thread was told to stop."""
-    if _asked.get()():
-        raise Stopped("told to stop")
 
 
 def run_abandonable(work: Callable[[], Result]) -> Result:
@@ -63,11 +35,13 @@ def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
             outcome.set_exception(error)
 
     def finish() -> Result:
-        while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
-            check_stop()
-        return outcome.result()
+        with ctrl_c_at_checks():
+            while outcome not in wait([outcome], timeout=POLL_SECONDS).done:
+                check_stop()
+            return outcome.result()
 
-    threading.Thread(target=run, daemon=True).start()
+    with ctrl_c_at_checks():
+        threading.Thread(target=run, daemon=True).start()
     return finish
 
 
@@ -84,7 +58,7 @@ def run_interruptible(
     """
     control = core.SolveControl()
     interrupted = False
-    with ThreadPoolExecutor(max_workers=1) as pool:
+    with ctrl_c_at_checks(), ThreadPoolExecutor(max_workers=1) as pool:
         future: Future[Any] = pool.submit(solve, control)
         done = False
         while not done:
@@ -93,7 +67,7 @@ def run_interruptible(
                 if not interrupted:
                     check_stop()
                     on_progress(control.finished)
-            except KeyboardInterrupt:  # also one that arrives while progress is drawn
+            except KeyboardInterrupt:  # also one of on_progress
                 interrupted = True
                 control.cancel()
             except BaseException:  # of on_progress: leaving the pool would wait for all samples

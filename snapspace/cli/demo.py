@@ -18,13 +18,13 @@ from ..reduction import PosingModel
 from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
-from .console import console, notice, print_json, print_next
+from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
 from .options import FILE, json_option, threads_option
 from .pipeline import build_model
 from .pose import write_shape
-from .progress import sample_progress
+from .progress import sample_progress, spinner
 from .recipe import Recipe, check_dimension
 from .samples import GivenSamples, sampling_record
 from .summary import print_summary
@@ -80,7 +80,7 @@ def demo(
     }
     check_dimension(dimension, samples)
     make_folder(output, option="--output")
-    with console().status("generating the creature"):
+    with spinner("generating the creature"):
         write_tets(files["msh"], creature(tets))
     with atomic_file(files["json"]) as path:
         path.write_text(json.dumps(PROBLEM, indent=1) + "\n", encoding="utf-8")
@@ -103,7 +103,7 @@ def demo(
         )
     print_validation(validation, dimension, asked=VALIDATION_SAMPLES)
 
-    with console().status("painting"):
+    with spinner("painting"):
         assert isinstance(built.model, PosingModel)
         shapes = posed_shapes(built.model)
         save_png(files["png"], contact_sheet(built.model, shapes))

@@ -14,6 +14,7 @@ import click
 from .. import __version__
 from ..mesh import MeshNotice
 from ..snapshots import CheckpointNotice
+from ..stopping import ctrl_c_as_itself
 from .blend import blend
 from .build import build
 from .console import notice, one_line
@@ -69,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        with _notices(), snapspace.make_context("snapspace", words) as ctx:
+        with ctrl_c_as_itself(), _notices(), snapspace.make_context("snapspace", words) as ctx:
             snapspace.invoke(ctx)
         sys.stdout.flush()
     except click.exceptions.Exit as stop:

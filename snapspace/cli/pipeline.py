@@ -17,10 +17,11 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Checkpoint, Snapshots
+from ..stopping import ctrl_c_as_itself
 from ..subspace import AffineSubspace, snapshot_pca
-from .console import console, notice
+from .console import notice
 from .memory import peak_memory_bytes
-from .progress import sample_progress
+from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
 
 
@@ -93,15 +94,15 @@ def build_model(
     begin = time.perf_counter() if begin is None else begin
     checkpoint = Checkpoint.beside(output, recipe.samples.key(problem, recipe.solver))
     seconds: dict[str, float] = {}
-    try:
+    with _telling_what_is_kept(recipe, checkpoint):
         if isinstance(problem, InterpolationProblem):
-            with _stage(seconds, "mean shape"), console().status("mean shape"):
+            with _stage(seconds, "mean shape"), spinner("mean shape"):
                 problem.solve_mean_shape(threads=recipe.threads)
         with _stage(seconds, "snapshots"):
             snapshots = _solved(problem, recipe, checkpoint, executor)
-        with _stage(seconds, "basis"), console().status("basis"):
+        with _stage(seconds, "basis"), spinner("basis"):
             subspace = _subspace(snapshots, recipe)
-        with _stage(seconds, "reduction"), console().status("reduced energy"):
+        with _stage(seconds, "reduction"), spinner("reduced energy"):
             usable = np.ones(len(snapshots), bool)
             if not recipe.include_unconverged:
                 usable = snapshots.usable
@@ -110,12 +111,19 @@ def build_model(
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
         model = replace(model, provenance={**model.provenance, **record})
         model.save(output)
-    except KeyboardInterrupt:
-        kept = recipe.samples.finished(checkpoint)
-        raise KeyboardInterrupt(_resume_line(kept, recipe.samples.count)) from None
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
     return Built(model, snapshots, output, seconds)
+
+
+@contextmanager
+def _telling_what_is_kept(recipe: Recipe, checkpoint: Checkpoint) -> Iterator[None]:
+    try:
+        with ctrl_c_as_itself():
+            yield
+    except KeyboardInterrupt:
+        kept = recipe.samples.finished(checkpoint)
+        raise KeyboardInterrupt(_resume_line(kept, recipe.samples.count)) from None
 
 
 def _solved(

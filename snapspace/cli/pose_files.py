@@ -26,10 +26,10 @@ from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.input_path import existing_file
 from ..problem import Poses
 from ..registration import ScalePolicy, matched_scales, scale_factors
-from .console import console, notice
+from .console import notice
 from .files import SURFACE_INPUTS, TET_INPUTS
 from .fit_cache import FitCache
-from .progress import step_progress
+from .progress import spinner, step_progress
 
 FloatArray = NDArray[np.float64]
 
@@ -192,7 +192,7 @@ def _tets_of(
     if known is not None:
         notice("resuming: the first pose was filled before")
         return known
-    with console().status("filling the first pose with tets"):
+    with spinner("filling the first pose with tets"):
         mesh = fill_surface(vertices, faces, **size)
     cache.save_tets(vertices, faces, size, mesh)
     return mesh

@@ -1,4 +1,4 @@
-"""Progress of long work: a bar on a terminal, a line for every tenth in a log."""
+"""Progress of long work: a bar on a terminal, a line for every tenth in a log; a spinner."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn
+from rich.status import Status
 from rich.text import Text
 
 from ..snapshots import SolveProgress
+from ..stopping import ctrl_c_at_checks
 from .console import console, notice
 from .units import in_time
 
@@ -43,6 +45,13 @@ def _held_out(state: SolveProgress) -> str:
 
 
 @contextmanager
+def spinner(label: str) -> Iterator[None]:
+    """What is done in this block, for work that does not tell how far it is."""
+    with _displayed(console().status(label)):
+        yield
+
+
+@contextmanager
 def _shown(label: str, done: int, total: int, unit: str) -> Iterator[Callable[[int, str], None]]:
     screen = console()
     if not screen.is_terminal:
@@ -55,9 +64,22 @@ def _shown(label: str, done: int, total: int, unit: str) -> Iterator[Callable[[i
         _RateColumn(),
         TextColumn("{task.fields[note]}", style="dim"),
     )
-    with Progress(*columns, console=screen, speed_estimate_period=_RATE_PERIOD) as progress:
+    progress = Progress(*columns, console=screen, speed_estimate_period=_RATE_PERIOD)
+    with _displayed(progress):
         task = progress.add_task(label, completed=done, total=total, note="")
         yield lambda now, note: progress.update(task, completed=now, note=note)
+
+
+@contextmanager
+def _displayed(display: Progress | Status) -> Iterator[None]:
+    """Started and stopped as a whole: one that is half started leaves the cursor hidden."""
+    try:
+        with ctrl_c_at_checks():
+            display.start()
+        yield
+    finally:
+        with ctrl_c_at_checks():
+            display.stop()
 
 
 class _RateColumn(ProgressColumn):

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..interruptible import POLL_SECONDS, check_stop
+from ..interruptible import POLL_SECONDS
+from ..stopping import check_stop
 
 _PROGRAM = Path(__file__).with_name("ftetwild_process.py")
 

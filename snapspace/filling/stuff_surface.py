@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..generators import stuff
-from ..interruptible import check_stop
 from ..mesh import TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
+from ..stopping import check_stop
 from .closed_input import check_share, closed_input
 
 # Vertices of the surface that are farther from the tets, in edge lengths, belong to a lost part.

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..interruptible import check_stop
 from ..mesh import (
     SURFACE_SUFFIXES,
     TET_SUFFIXES,
@@ -21,6 +20,7 @@ from ..mesh import (
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..problem import PosingProblem, read_problem, read_problem_surface
+from ..stopping import check_stop
 from .surface_filling import SurfaceFilling
 
 PROBLEM_SUFFIX = ".json"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from ..interruptible import stoppable
+from ..stopping import stoppable
 
 
 class Job:

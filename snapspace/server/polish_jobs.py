@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from ..interruptible import check_stop
 from ..reduction import ReducedModel
+from ..stopping import check_stop
 from .job import Job
 from .messages import Polish
 from .polishing import Polishing

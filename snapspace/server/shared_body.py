@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from ..interruptible import POLL_SECONDS, check_stop
+from ..interruptible import POLL_SECONDS
+from ..stopping import check_stop
 from .body import Body
 
 Stage = Callable[[str], None]

@@ -7,7 +7,8 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from ..interruptible import POLL_SECONDS, check_stop
+from ..interruptible import POLL_SECONDS
+from ..stopping import check_stop
 
 
 class Turns:

@@ -11,9 +11,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..growing import Growth
-from ..interruptible import check_stop
 from ..page import packed
 from ..reduction import ReducedModel
+from ..stopping import check_stop
 from . import messages
 from .bench import Bench
 from .body import Body, mesh_body

@@ -12,8 +12,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..interruptible import begin_abandonable, check_stop
+from ..interruptible import begin_abandonable
 from ..problem import Problem
+from ..stopping import check_stop, ctrl_c_at_checks
 from .backend import Backend
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
 from .displacement_rows import DisplacementRows
@@ -98,8 +99,19 @@ class Run:
         """Of the leading blocks, for those who watch; made while the first samples are solved."""
         return HeldOutError(self.problem)
 
-    def solve(self, executor: Executor | None) -> None:
-        """Solves what is missing."""
+    def solve(self, executor: Executor | None) -> Snapshots:
+        """Solves what is missing and gives all samples; raises Interrupted on Ctrl-C."""
+        try:
+            with ctrl_c_at_checks():
+                self._solve(executor)
+                every = self._of(range(len(self.samples)))
+                return replace(every, gram=self.held_out.gram) if self.progress else every
+        except KeyboardInterrupt:
+            done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
+            finished = self._of(sorted(self.reports)) if self.reports else None
+            raise Interrupted(done, finished) from None
+
+    def _solve(self, executor: Executor | None) -> None:
         missing = len(self.samples) - self.found
         if not missing:
             self._advance()
@@ -118,9 +130,7 @@ class Run:
             self._solve_on(backend)
         except KeyboardInterrupt:
             self._book(backend.stop(STOP_SECONDS))
-            done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
-            finished = self._of(sorted(self.reports)) if self.reports else None
-            raise Interrupted(done, finished) from None
+            raise
         finally:
             self._save()
             backend.close()
@@ -134,11 +144,6 @@ class Run:
         first = [given + i for i in self.schedule.samples(0)]
         return begin_abandonable(lambda: self.guesses.make(first, known=given))
 
-    def snapshots(self) -> Snapshots:
-        """All samples, once they are solved."""
-        every = self._of(range(len(self.samples)))
-        return replace(every, gram=self.held_out.gram) if self.progress else every
-
     def _of(self, numbers: Sequence[int]) -> Snapshots:
         rows = DisplacementRows([self.rows[i] for i in numbers], self.problem.base.size)
         reports = [self.reports[i] for i in numbers]
@@ -150,6 +155,7 @@ class Run:
             check_stop()
             self._advance()
             while submitted < len(self.schedule) and self._ready(submitted, backend):
+                check_stop()
                 self._submit(backend, submitted)
                 submitted += 1
                 if submitted == len(self.schedule):

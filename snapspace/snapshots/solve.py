@@ -79,8 +79,7 @@ def solve_snapshots(
         known=known,
         threads=threads or 0,
     )
-    run.solve(executor)
-    return run.snapshots()
+    return run.solve(executor)
 
 
 def solver_key(options: SolverOptions, problem: Problem) -> dict[str, Any]:

@@ -78,6 +78,22 @@ def test_an_interrupt_anywhere_is_exit_code_130(
     assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
 
 
+def test_ctrl_c_is_no_mistake_of_the_user(
+    run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where a library makes an error of its own of it."""
+
+    def interrupted(_: Path) -> None:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as error:
+            raise ValueError("cannot compare these types") from error
+
+    monkeypatch.setattr("snapspace.cli.loading.load", interrupted)
+    result = run("validate", model)
+    assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
 def test_a_reader_that_leaves_is_no_error(model: Path) -> None:
     process = subprocess.Popen(

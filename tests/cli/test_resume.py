@@ -34,15 +34,18 @@ def test_an_interrupted_build_resumes_to_the_same_model(run: Run, tmp_path: Path
     words = ["build", "--problem", str(problem), "--samples", str(SAMPLES), "--dimension", "10"]
     words += ["--threads", "1", "-o", str(path)]
 
-    process = subprocess.Popen(
+    with subprocess.Popen(
         [sys.executable, "-c", PROGRAM, *words, "--json"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
-    _wait_for_the_first_samples(process, tmp_path)
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=PATIENCE)
+    ) as process:
+        try:
+            _wait_for_the_first_samples(process, tmp_path)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=PATIENCE)
+        finally:
+            process.kill()
     assert process.returncode == 130, err
     assert out == ""
     assert "Traceback" not in err
@@ -90,6 +93,22 @@ def test_an_interrupt_after_the_samples_keeps_them_too(
     assert (result.code, result.out) == (130, "")
     assert result.err.splitlines()[-1].startswith("snapspace: interrupted: 12 of 12 samples are ")
     assert "resuming: 12 of 12" in run(*words).err
+
+
+def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as error:
+            raise TypeError("cannot compare these types") from error
+
+    monkeypatch.setattr(pipeline, "reduce", interrupted)
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    result = run("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
+    assert (result.code, result.out) == (130, "")
+    assert result.err.splitlines()[-1].startswith("snapspace: interrupted: 12 of 12 samples are ")
 
 
 def test_samples_of_other_options_are_pointed_out_and_not_used(run: Run, tmp_path: Path) -> None:

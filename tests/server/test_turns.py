@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from snapspace.generators import bar
-from snapspace.interruptible import Stopped, stoppable
 from snapspace.server.body import Body
 from snapspace.server.job import Job
 from snapspace.server.shared_body import SharedBody
 from snapspace.server.turns import Turns
+from snapspace.stopping import Stopped, stoppable
 
 PATIENCE = 20.0
 

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import _thread
+import json
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -258,6 +261,22 @@ def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
 
     with pytest.raises(KeyboardInterrupt):
         solve_snapshots(problem, parameters(problem, 2), progress=progress)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="waits on Windows are not interrupted")
+def test_ctrl_c_is_answered_wherever_it_comes() -> None:
+    """In the middle of a standard lock as elsewhere; no thread is left that the program awaits."""
+    command = [sys.executable, "-m", "tests.snapshots.ctrl_c_anywhere"]
+    result = subprocess.run(
+        command, capture_output=True, text=True, timeout=3 * PATIENCE, cwd=Path(__file__).parents[2]
+    )
+    assert result.returncode == 0, result.stderr
+    found = json.loads(result.stdout)
+    assert found["threads"] == [], list(found["outcomes"].items())[-1]
+    assert found["handler"] and found["blas"]
+    reached = {place: end for place, end in found["outcomes"].items() if end is not None}
+    assert len(reached) > 60
+    assert set(reached.values()) == {"Interrupted"}
 
 
 def test_ctrl_c_does_not_wait_for_work_that_cannot_be_stopped() -> None:

@@ -12,7 +12,8 @@ import pytest
 
 from snapspace import Interrupted, SolverOptions, growing_models, solve_snapshots
 from snapspace.filling import ftetwild
-from snapspace.interruptible import Stopped, check_stop, run_abandonable, stoppable
+from snapspace.interruptible import run_abandonable
+from snapspace.stopping import Stopped, check_stop, stoppable
 
 from .snapshots.bars import parameters, posing_bar
 
