@@ -17,7 +17,8 @@ from typing import Any
 
 import threadpoolctl
 
-from snapspace import SolveProgress, solve_snapshots
+from snapspace import SolveProgress, interruptible, solve_snapshots
+from snapspace.snapshots import run as run_of_samples
 
 from .bars import parameters, posing_bar
 
@@ -25,7 +26,7 @@ from .bars import parameters, posing_bar
 FILES = {"threading.py", "thread.py", "local_backend.py", "blas.py", "interruptible.py"}
 #: Behind a call that takes a lock the lock is taken, and the block that would let it go not begun.
 EVENTS = {"call", "c_return"}
-SAMPLES = 20
+SAMPLES = 6
 
 
 def place(frame: FrameType, event: str, argument: Any) -> str | None:
@@ -104,6 +105,7 @@ def blas_threads() -> list[int]:
 
 def main() -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    interruptible.POLL_SECONDS = run_of_samples.POLL_SECONDS = 0.002
     names = places()
     limits = blas_threads()
     outcomes: dict[str, str | None] = {}
