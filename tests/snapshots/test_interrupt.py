@@ -268,7 +268,7 @@ def test_ctrl_c_is_answered_wherever_it_comes() -> None:
     """In the middle of a standard lock as elsewhere; no thread is left that the program awaits."""
     command = [sys.executable, "-m", "tests.snapshots.ctrl_c_anywhere"]
     result = subprocess.run(
-        command, capture_output=True, text=True, timeout=3 * PATIENCE, cwd=Path(__file__).parents[2]
+        command, capture_output=True, text=True, timeout=9 * PATIENCE, cwd=Path(__file__).parents[2]
     )
     assert result.returncode == 0, result.stderr
     found = json.loads(result.stdout)
