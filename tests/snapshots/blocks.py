@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import os
+import time
 from collections.abc import Callable, Iterable
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from snapspace import _core as core
@@ -94,6 +96,43 @@ def collected(
         if after_each is not None:
             after_each(len(found))
     return found
+
+
+def sent_once(
+    executor: Executor, problem: Problem, workers: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A run sends its problem to each worker process once, and not with later blocks."""
+    solvers = watched_solvers(executor, monkeypatch)
+    work, backend = Work.of(problem, 24), backend_of(executor, problem)
+    end = time.monotonic() + PATIENCE
+    while len(solvers()) < workers:  # on a busy machine one process may do all at first
+        assert time.monotonic() < end, f"blocks were solved by {solvers()} only"
+        work.submit(backend, 2)
+        collected(backend, 24)
+    sent = backend.payloads_sent
+    # one may reach a process that has it by now, while another one asks again
+    assert workers <= sent <= 2 * workers
+    work.submit(backend, 2)
+    collected(backend, 24)
+    assert backend.payloads_sent == sent
+
+
+def watched_solvers(executor: Executor, monkeypatch: pytest.MonkeyPatch) -> Callable[[], set[str]]:
+    """Gives the names of the workers that have solved blocks from now on."""
+    futures: list[Any] = []
+    submit = executor.submit
+
+    def watched(*task: Any, **place: Any) -> Any:
+        futures.append(submit(*task, **place))
+        return futures[-1]
+
+    monkeypatch.setattr(executor, "submit", watched)
+
+    def names() -> set[str]:
+        answers = [future.result() for future in futures if future.done()]
+        return {answer.worker for answer in answers if answer.solved is not None}
+
+    return names
 
 
 def outcomes(solved: Iterable[Solved]) -> dict[int, Outcome]:

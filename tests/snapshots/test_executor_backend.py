@@ -20,7 +20,7 @@ from snapspace.snapshots.solver_options import Solver
 
 from ..shapes import interpolation_problem
 from .bars import posing_bar
-from .blocks import OPTIONS, Work, assert_same_outcomes, backend_of, collected, outcomes
+from .blocks import OPTIONS, Work, assert_same_outcomes, backend_of, collected, outcomes, sent_once
 from .conftest import WORKERS, WORKERS_PATIENCE
 from .scripted_executor import ScriptedExecutor
 
@@ -69,20 +69,14 @@ def test_an_interpolation_takes_its_mean_shape_along(
     assert_same_outcomes(collected(backend, 6), here)
 
 
-def test_the_problem_is_sent_once_per_process(processes: ProcessPoolExecutor) -> None:
+def test_the_problem_is_sent_once_per_process(
+    processes: ProcessPoolExecutor, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """And not again for later blocks, nor for a later run on the same problem."""
     problem, equal = (posing_bar(16, 3, 3, bound=0.3) for _ in range(2))
-    work = Work.of(problem, 24)
-    backend = backend_of(processes, problem)
-    sent = []
-    for _ in range(3):
-        work.submit(backend, 2)
-        collected(backend, 24)
-        sent.append(backend.payloads_sent)
-    # one may reach a process that has it by now, while the other one asks again
-    assert WORKERS <= sent[-1] <= 2 * WORKERS
-    assert sent[-1] == sent[-2], "later blocks need none"
-    later = backend_of(processes, equal)
+    with monkeypatch.context() as patch:
+        sent_once(processes, problem, WORKERS, patch)
+    work, later = Work.of(equal, 24), backend_of(processes, equal)
     work.submit(later, 2)
     collected(later, 24)
     assert later.payloads_sent == 0
