@@ -71,7 +71,9 @@ def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: 
         page.send("compute", **ORDER)
         assert "wait until it is read" in page.take("failed")["message"]
         page.ask("cancel", "cancelled", request=3)
-        assert [m["kind"] for m in page.seen if m["type"] == "workspace"][-1] == "empty"
+        kinds = [m["kind"] for m in page.seen if m["type"] == "workspace"]
+        while kinds[-1] != "empty":  # filling that takes longer to end is not waited for
+            kinds.append(page.take("workspace")["kind"])
 
 
 def test_what_is_no_mesh_is_refused(empty: Running) -> None:
