@@ -74,7 +74,8 @@ def _check_workers(client: Any, address: str) -> None:
                 f"--dask {address}: worker {name} has {has}, but this is snapspace {__version__}; "
                 "install the same on all workers"
             )
-    for name, built_for in sorted(client.run(core_level).items()):
+    # a worker that is lost by now gives no answer, and no samples either
+    for name, built_for in sorted(client.run(core_level, on_error="ignore").items()):
         if built_for != level:
             notice(
                 f"notice: worker {name} runs the {built_for} build, this machine {level}: its "

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import signal
 import sys
 from pathlib import Path
 from typing import Any
@@ -71,6 +73,28 @@ def test_another_build_on_a_worker_is_said(
     result = run(*build_words(tmp_path), "--dask", cluster.scheduler_address)
     assert result.code == 0
     assert result.err.count("build, this machine v9: its results differ by rounding") == 1
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
+def test_a_worker_that_is_lost_while_it_is_asked_is_none(
+    run: Run, cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mark = tmp_path / "asked"
+
+    def lost_or_level() -> str:
+        """The first one that is asked dies of it."""
+        try:
+            mark.touch(exist_ok=False)
+        except FileExistsError:
+            return "v9"
+        os.kill(os.getpid(), signal.SIGKILL)
+        return ""
+
+    monkeypatch.setattr(dask_cluster, "core_level", lost_or_level)
+    result = run(*build_words(tmp_path), "--dask", cluster.scheduler_address)
+    assert result.code == 0, result.err
+    assert result.err.count("runs the v9 build") == 1
+    assert mark.exists()
 
 
 def test_a_cluster_without_workers_is_refused(run: Run, tmp_path: Path) -> None:
