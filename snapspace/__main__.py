@@ -1,5 +1,5 @@
 """`python -m snapspace` is `snapspace`."""
 
-from .cli import main
+from .cli import program
 
-raise SystemExit(main())
+program()

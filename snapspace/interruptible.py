@@ -11,6 +11,8 @@ from . import _core as core
 from .stopping import check_stop, ctrl_c_at_checks
 
 POLL_SECONDS = 0.1
+#: Name of threads with work that nobody has to wait for.
+ABANDONABLE = "abandonable"
 
 Result = TypeVar("Result")
 
@@ -41,8 +43,13 @@ def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
             return outcome.result()
 
     with ctrl_c_at_checks():
-        threading.Thread(target=run, daemon=True).start()
+        threading.Thread(target=run, name=ABANDONABLE, daemon=True).start()
     return finish
+
+
+def abandoned_work_runs() -> bool:
+    """Whether any such work still runs, for those who end the process without it."""
+    return any(thread.name == ABANDONABLE for thread in threading.enumerate())
 
 
 def run_interruptible(

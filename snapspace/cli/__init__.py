@@ -1,5 +1,6 @@
 """The command line: the pipeline over files."""
 
 from .main import main
+from .program import program
 
-__all__ = ["main"]
+__all__ = ["main", "program"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
+from ..interruptible import ABANDONABLE
 from ..stopping import stoppable
 
 
@@ -23,7 +24,7 @@ class Job:
         self._stop = threading.Event()
         self._work, self._failed = work, failed
         # a daemon: compiled work that cannot be stopped must not hold up the end of the program
-        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread = threading.Thread(target=self._run, name=ABANDONABLE, daemon=True)
         self._thread.start()
 
     @property

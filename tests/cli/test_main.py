@@ -15,6 +15,28 @@ from .conftest import Run
 
 COMMANDS = ("demo", "build", "validate", "pose", "info")
 
+LEAVES_WORK_ALONE = """
+import sys
+import time
+from snapspace.cli import program
+from snapspace.interruptible import begin_abandonable
+from tests.snapshots.bars import posing_bar
+
+class Lasting:
+    def __del__(self, sleep=time.sleep):
+        sleep(2.0)
+
+def validate(*words):
+    problem = posing_bar(40, 12, 12)
+    begin_abandonable(lambda: problem.system)
+    time.sleep(0.02)
+    raise KeyboardInterrupt
+
+lasting = Lasting()
+sys.modules["snapspace.cli.main"].snapspace.make_context = validate
+program()
+"""
+
 
 def test_version(run: Run) -> None:
     result = run("--version")
@@ -92,6 +114,14 @@ def test_ctrl_c_is_no_mistake_of_the_user(
     monkeypatch.setattr("snapspace.cli.loading.load", interrupted)
     result = run("validate", model)
     assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
+
+
+def test_work_that_is_left_alone_does_not_end_the_program_by_a_signal() -> None:
+    """It comes back while Python shuts down, which something here makes last."""
+    result = subprocess.run(
+        [sys.executable, "-c", LEAVES_WORK_ALONE], capture_output=True, text=True, timeout=60
+    )
+    assert (result.returncode, result.stderr) == (130, "snapspace: interrupted\n")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")

@@ -23,7 +23,7 @@ SAMPLES = 500
 # A process whose parent ignores SIGINT inherits that, for instance in the background of a shell.
 PROGRAM = (
     "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "
-    "from snapspace.cli import main; sys.exit(main())"
+    "from snapspace.cli import program; program()"
 )
 
 
