@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import click
 import pytest
@@ -20,6 +20,18 @@ from .files import surface_first, write_problem, write_surface_poses, write_tet_
 def no_such_option(name: str) -> str:
     """How click refuses an option, which differs from version to version."""
     return click.NoSuchOption(name).message.rstrip(".")
+
+
+def interrupted_as(error: Exception) -> Callable[..., NoReturn]:
+    """A function in which Ctrl-C comes, and a library makes an error of its own of it."""
+
+    def interrupted(*_: object, **__: object) -> NoReturn:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as interrupt:
+            raise error from interrupt
+
+    return interrupted
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import pytest
 import snapspace
 from snapspace.cli import main
 
-from .conftest import Run
+from .conftest import Run, interrupted_as
 
 COMMANDS = ("demo", "build", "validate", "pose", "info")
 
@@ -104,14 +104,8 @@ def test_ctrl_c_is_no_mistake_of_the_user(
     run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where a library makes an error of its own of it."""
-
-    def interrupted(_: Path) -> None:
-        try:
-            raise KeyboardInterrupt
-        except KeyboardInterrupt as error:
-            raise ValueError("cannot compare these types") from error
-
-    monkeypatch.setattr("snapspace.cli.loading.load", interrupted)
+    broken = interrupted_as(ValueError("cannot compare these types"))
+    monkeypatch.setattr("snapspace.cli.loading.load", broken)
     result = run("validate", model)
     assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
 

@@ -15,7 +15,7 @@ from safetensors.numpy import load_file
 from snapspace import write_tets
 from snapspace.cli import pipeline
 
-from .conftest import Run
+from .conftest import Run, interrupted_as
 from .files import bar_mesh, write_problem
 
 PATIENCE = 60.0  # seconds until the test gives up on the other process
@@ -98,13 +98,8 @@ def test_an_interrupt_after_the_samples_keeps_them_too(
 def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted(*_: object, **__: object) -> None:
-        try:
-            raise KeyboardInterrupt
-        except KeyboardInterrupt as error:
-            raise TypeError("cannot compare these types") from error
-
-    monkeypatch.setattr(pipeline, "reduce", interrupted)
+    broken = interrupted_as(TypeError("cannot compare these types"))
+    monkeypatch.setattr(pipeline, "reduce", broken)
     problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
     result = run("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
     assert (result.code, result.out) == (130, "")

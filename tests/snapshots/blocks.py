@@ -101,20 +101,24 @@ def collected(
 def sent_once(
     executor: Executor, problem: Problem, workers: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A run sends its problem to each worker process once, and not with later blocks."""
+    """A run sends its problem to each worker process once, and not with later blocks.
+
+    Whoever solves them, the samples have the bits of one call.
+    """
     solvers = watched_solvers(executor, monkeypatch)
     work, backend = Work.of(problem, 24), backend_of(executor, problem)
+    expected = work.solved_here()
     end = time.monotonic() + PATIENCE
     while len(solvers()) < workers:  # on a busy machine one process may do all at first
         assert time.monotonic() < end, f"blocks were solved by {solvers()} only"
         work.submit(backend, 2)
-        collected(backend, 24)
+        assert_same_outcomes(collected(backend, 24), expected)
     sent = backend.payloads_sent
     # one may reach a process that has it by now, while another one asks again
     assert workers <= sent <= 2 * workers
     work.submit(backend, 2)
-    collected(backend, 24)
-    assert backend.payloads_sent == sent
+    assert_same_outcomes(collected(backend, 24), expected)
+    assert backend.payloads_sent == sent, "later blocks need none"
 
 
 def watched_solvers(executor: Executor, monkeypatch: pytest.MonkeyPatch) -> Callable[[], set[str]]:

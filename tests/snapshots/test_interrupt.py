@@ -263,7 +263,6 @@ def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
         solve_snapshots(problem, parameters(problem, 2), progress=progress)
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="waits on Windows are not interrupted")
 def test_ctrl_c_is_answered_wherever_it_comes() -> None:
     """In the middle of a standard lock as elsewhere; no thread is left that the program awaits."""
     command = [sys.executable, "-m", "tests.snapshots.ctrl_c_anywhere"]
