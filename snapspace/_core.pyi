@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 import enum
-from typing import Annotated, overload
 
 import numpy
 from numpy.typing import NDArray
@@ -10,12 +9,37 @@ from numpy.typing import NDArray
 
 lane_count: int
 
+class Material:
+    """A density by name, with its moduli, (1, k) or one row per tet."""
+
+    def __init__(self, kind: str, moduli: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def kind(self) -> str: ...
+
+    @property
+    def rows(self) -> int: ...
+
+def material_moduli() -> dict[str, list[str]]:
+    """Names of the moduli of every density, in the order of its rows."""
+
+class Projection(enum.Enum):
+    """What Newton's method takes for the Hessian of a tet."""
+
+    none = 0
+
+    stretches = 1
+
+    clamp = 2
+
+    absolute = 3
+
 class ElasticEnergy:
     """
-    St.Venant-Kirchhoff energy of a mesh as a function of displacements u (3n,) from rest.
+    Elastic energy of a mesh as a function of displacements u (3n,) from rest.
     """
 
-    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material) -> None: ...
 
     def value_and_gradient(self, u: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Energy and its gradient (3n,)."""
@@ -28,14 +52,14 @@ class ElasticEnergy:
     def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Hessian at u times v (3n,), without forming the Hessian."""
 
-    def hessian_blocks(self, u: NDArray[numpy.float64]) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+    def hessian_blocks(self, u: NDArray[numpy.float64], *, projection: Projection = Projection.none, threshold: float = 0.0) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        Hessian at u as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)).
+        Hessian at u, every tet's projected, as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)). The threshold is that of Projection.stretches.
         """
 
-    def clamped_hessian_blocks(self, u: NDArray[numpy.float64], threshold: float) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+    def lane_values_and_gradients(self, shapes: NDArray[numpy.float64], *, single: bool = False) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        The same with every element at its signed singular values clamped to at least threshold.
+        Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), twice as many in single precision, one per lane.
         """
 
     def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
@@ -220,12 +244,8 @@ class Batch:
     def linear_iterations(self) -> int:
         """Conjugate gradient iterations of all samples together (Newton only)."""
 
-class PosingSystem:
-    """
-    What all samples of a posing problem share, with its scalar factor. Inputs are displacements of the pinned vertices.
-    """
-
-    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, inverse: InverseKind = InverseKind.automatic) -> None: ...
+class SampleSystem:
+    """What all samples of a problem share, with its scalar factor."""
 
     @property
     def inverse(self) -> InverseKind:
@@ -255,63 +275,33 @@ class PosingSystem:
     def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
-    def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
+    def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> None:
         """Newton's method; the same arguments."""
 
     def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
         """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
-    def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
+    def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> Batch:
         """Newton's method; the same arguments."""
 
-class InterpolationSystem:
+class PosingSystem(SampleSystem):
+    """
+    What all samples of a posing problem share, with its scalar factor. Inputs are displacements of the pinned vertices.
+    """
+
+    def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, inverse: InverseKind = InverseKind.automatic) -> None: ...
+
+class InterpolationSystem(SampleSystem):
     """
     What all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
     """
 
-    def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], lam: float, mu: float) -> None: ...
+    def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material) -> None: ...
 
     def adapted(self, shapes: NDArray[numpy.float64]) -> InterpolationSystem:
         """
         The same problem with an inverse for solutions near displacements (k, 3n).
         """
-
-    @property
-    def inverse(self) -> InverseKind:
-        """What stands for the inverse of the scalar matrix."""
-
-    @property
-    def inverse_products(self) -> int: ...
-
-    @property
-    def lowest_eigenvalue(self) -> float | None:
-        """Of cycle * scalar matrix, where a cycle was made."""
-
-    @property
-    def input_size(self) -> int: ...
-
-    def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """
-        The inverse of the scalar matrix, or what stands for it, applied to x, y and z.
-        """
-
-    def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
-        """Objective at u (3n,) for inputs (input_size,), and its gradient."""
-
-    def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
-        """Puts a sample into a queue: input (input_size,), start (3n,)."""
-
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> None:
-        """L-BFGS on the samples of a queue until it is closed and empty."""
-
-    def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> None:
-        """Newton's method; the same arguments."""
-
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
-        """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
-
-    def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, clamp: float, control: SolveControl) -> Batch:
-        """Newton's method; the same arguments."""
 
 class SoftModes:
     """
@@ -342,17 +332,9 @@ class LinearResponse:
 class CoarseSpace:
     """Modes (d, 3n) in the numbering of a system, in single precision."""
 
-    @overload
-    def __init__(self, system: PosingSystem, modes: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, system: SampleSystem, modes: NDArray[numpy.float64]) -> None: ...
 
-    @overload
-    def __init__(self, system: InterpolationSystem, modes: NDArray[numpy.float64]) -> None: ...
-
-@overload
-def polish(system: PosingSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution: ...
-
-@overload
-def polish(system: InterpolationSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
+def polish(system: SampleSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
     """
     L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the Hessian on the coarse space. A cancelled one returns the lowest shape so far.
     """
@@ -486,10 +468,6 @@ class PosingLoop:
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
-    def set_anchor(self, stiffness: NDArray[numpy.float64]) -> None: ...
-
-    def pull(self, target: NDArray[numpy.float64], force: NDArray[numpy.float64], strength: float) -> None: ...
-
     @property
     def q(self) -> NDArray[numpy.float64]: ...
 
@@ -536,7 +514,7 @@ class BlendingLoop:
 class Cubature:
     """Elastic energy as a weighted sum over few tets."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], lam: float, mu: float) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material) -> None: ...
 
     @property
     def dimension(self) -> int: ...
@@ -549,13 +527,9 @@ class Cubature:
 class CubatureLoop:
     """The live loop of posing with a cubature instead of a quartic."""
 
-    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], lam: float, mu: float, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
-
-    def set_anchor(self, stiffness: NDArray[numpy.float64]) -> None: ...
-
-    def pull(self, target: NDArray[numpy.float64], force: NDArray[numpy.float64], strength: float) -> None: ...
 
     @property
     def q(self) -> NDArray[numpy.float64]: ...
@@ -574,6 +548,21 @@ class CubatureLoop:
     def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
 
     def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+class ResidualProbe:
+    """The full objective's gradient at sampled vertices."""
+
+    def __init__(self, tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], rests: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, sampled: NDArray[numpy.int32], sample_weights: NDArray[numpy.float64], *, pinned: NDArray[numpy.int32], handles: NDArray[numpy.int32], pulls: NDArray[numpy.float64], arms: NDArray[numpy.float64]) -> None: ...
+
+    def norm(self, q: NDArray[numpy.float64], *, offsets: NDArray[numpy.float64] | None = None, weights: NDArray[numpy.float64] | None = None) -> float:
+        """
+        Estimate of the residual's norm, for offsets (h, 3, 4) or weights (k,).
+        """
+
+def displacement_rows(points: NDArray[numpy.float64], modes: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
+    """
+    Displacement gradients of nodal displacements in tets, (r, 9, d) float32.
+    """
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
     """Floating-point operations per second of one thread of this build."""

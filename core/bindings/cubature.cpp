@@ -1,6 +1,7 @@
 #include "online/cubature.h"
 
 #include "bindings/live_loop.h"
+#include "energy/material_field.h"
 #include "online/posing_solver.h"
 
 namespace snapspace {
@@ -12,15 +13,13 @@ using CubatureSolver = online::PosingSolver<Cubature>;
 using CubatureLoop = Loop<CubatureSolver>;
 using RowsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
-Cubature make_cubature(const RowsIn& rows, const VectorIn& weights, double lam, double mu) {
+Cubature make_cubature(const RowsIn& rows, const VectorIn& weights, const MaterialField& material) {
   require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
               weights.size() == rows.shape(0),
           "rows (tets, 9, d) and weights (tets,) do not match");
-  return {static_cast<int>(rows.shape(2)),
-          static_cast<int>(rows.shape(0)),
-          rows.data(),
-          weights.data(),
-          {lam, mu}};
+  require(material.fits(weights.size()), "the material has moduli for another number of tets");
+  return {static_cast<int>(rows.shape(2)), static_cast<int>(rows.shape(0)), rows.data(),
+          weights.data(), material.view()};
 }
 
 }  // namespace
@@ -29,10 +28,10 @@ void bind_cubature(nb::module_& m) {
   nb::class_<Cubature>(m, "Cubature", "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
-          [](Cubature* self, RowsIn rows, VectorIn weights, double lam, double mu) {
-            new (self) Cubature(make_cubature(rows, weights, lam, mu));
+          [](Cubature* self, RowsIn rows, VectorIn weights, const MaterialField& material) {
+            new (self) Cubature(make_cubature(rows, weights, material));
           },
-          nb::arg("rows"), nb::arg("weights"), nb::arg("lam"), nb::arg("mu"))
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"))
       .def_prop_ro("dimension", &Cubature::dimension)
       .def(
           "value_and_gradient",
@@ -45,9 +44,9 @@ void bind_cubature(nb::module_& m) {
                                 "The live loop of posing with a cubature instead of a quartic.");
   loop.def(
       "__init__",
-      [](CubatureLoop* self, RowsIn rows, VectorIn weights, double lam, double mu, MatrixIn K,
-         TensorIn L, TensorIn S) {
-        Cubature elastic = make_cubature(rows, weights, lam, mu);
+      [](CubatureLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
+         MatrixIn K, TensorIn L, TensorIn S) {
+        Cubature elastic = make_cubature(rows, weights, material);
         const auto d = static_cast<std::size_t>(elastic.dimension());
         require(K.shape(0) == d && K.shape(1) == d && L.shape(1) == d && L.shape(2) == 12 &&
                     S.shape(0) == L.shape(0) && S.shape(1) == 4 && S.shape(2) == 4,
@@ -59,10 +58,9 @@ void bind_cubature(nb::module_& m) {
                       "few tets, or the handles do not hold the shape");
         new (self) CubatureLoop{std::move(solver), std::vector<double>(d, 0.0)};
       },
-      nb::arg("rows"), nb::arg("weights"), nb::arg("lam"), nb::arg("mu"), nb::arg("K"),
-      nb::arg("L"), nb::arg("S"));
+      nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("K"), nb::arg("L"),
+      nb::arg("S"));
   bind_offsets(loop);
-  bind_anchor(loop);
   bind_loop(loop);
 }
 

@@ -30,18 +30,70 @@ std::tuple<IndicesOut, IndicesOut, DoublesOut> blocks_of(const BlockHessian& hes
           copy_to_array(hessian.blocks().data()->data(), {count, 3, 3})};
 }
 
+/// Shapes (k, 3n) as lanes of one pack; lanes without one are at rest.
+template <class Real>
+std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const MatrixIn& shapes) {
+  const std::size_t count = shapes.shape(0), n = size(self);
+  require(count <= Real::kWidth && shapes.shape(1) == n, "needs (k, 3n), and k no more than lanes");
+  std::vector<Real> u(n, Real(0)), gradient(n, Real(0));
+  for (std::size_t lane = 0; lane < count; ++lane)
+    for (std::size_t i = 0; i < n; ++i)
+      set_lane(u[i], static_cast<int>(lane), shapes.data()[lane * n + i]);
+  const Sum<Real> energies = self.value_and_gradient(u.data(), gradient.data());
+  DoublesOut values = new_array<double>({count}), gradients = new_array<double>({count, n});
+  for (std::size_t lane = 0; lane < count; ++lane) {
+    values.data()[lane] = energies[static_cast<int>(lane)];
+    for (std::size_t i = 0; i < n; ++i)
+      gradients.data()[lane * n + i] = gradient[i][static_cast<int>(lane)];
+  }
+  return {values, gradients};
+}
+
+void bind_material(nb::module_& m) {
+  nb::class_<MaterialField>(m, "Material",
+                            "A density by name, with its moduli, (1, k) or one row per tet.")
+      .def(
+          "__init__",
+          [](MaterialField* self, const std::string& kind, MatrixIn moduli) {
+            new (self) MaterialField(kind.c_str(), {moduli.data(), moduli.data() + moduli.size()},
+                                     static_cast<int>(moduli.shape(0)));
+          },
+          nb::arg("kind"), nb::arg("moduli"))
+      .def_prop_ro("kind", &MaterialField::name)
+      .def_prop_ro("rows", &MaterialField::rows);
+  m.def(
+      "material_moduli",
+      [] {
+        nb::typed<nb::dict, std::string, std::vector<std::string>> result;
+        for (int kind = 0; kind < Densities::kCount; ++kind) {
+          std::vector<std::string> names;
+          for (int k = 0; k < material_moduli(kind); ++k) names.emplace_back(modulus_name(kind, k));
+          result[material_name(kind)] = nb::cast(names);
+        }
+        return result;
+      },
+      "Names of the moduli of every density, in the order of its rows.");
+  nb::enum_<Projection>(m, "Projection", "What Newton's method takes for the Hessian of a tet.")
+      .value("none", Projection::none)
+      .value("stretches", Projection::stretches)
+      .value("clamp", Projection::clamp)
+      .value("absolute", Projection::absolute);
+}
+
 }  // namespace
 
 void bind_energy(nb::module_& m) {
+  bind_material(m);
   nb::class_<ElasticEnergy>(
       m, "ElasticEnergy",
-      "St.Venant-Kirchhoff energy of a mesh as a function of displacements u (3n,) from rest.")
+      "Elastic energy of a mesh as a function of displacements u (3n,) from rest.")
       .def(
           "__init__",
-          [](ElasticEnergy* self, MatrixIn vertices, IndexMatrixIn tets, double lam, double mu) {
-            new (self) ElasticEnergy{rest_shape(vertices, tets), StVK{lam, mu}};
+          [](ElasticEnergy* self, MatrixIn vertices, IndexMatrixIn tets,
+             const MaterialField& material) {
+            new (self) ElasticEnergy(rest_shape(vertices, tets), material);
           },
-          nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"))
+          nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("material"))
       .def(
           "value_and_gradient",
           [](const ElasticEnergy& self, VectorIn u) {
@@ -71,23 +123,24 @@ void bind_energy(nb::module_& m) {
           nb::arg("u"), nb::arg("v"), "Hessian at u times v (3n,), without forming the Hessian.")
       .def(
           "hessian_blocks",
-          [](const ElasticEnergy& self, VectorIn u) {
+          [](const ElasticEnergy& self, VectorIn u, Projection projection, double threshold) {
             BlockHessian hessian(self.rest);
-            hessian.add(self, checked(self, u));
+            hessian.add(self, checked(self, u), projection, threshold);
             return blocks_of(hessian);
           },
-          nb::arg("u"),
-          "Hessian at u as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)).")
+          nb::arg("u"), nb::kw_only(), nb::arg("projection") = Projection::none,
+          nb::arg("threshold") = 0.0,
+          "Hessian at u, every tet's projected, as block rows: (row_start (n+1,), columns (b,), "
+          "blocks (b,3,3)). The threshold is that of Projection.stretches.")
       .def(
-          "clamped_hessian_blocks",
-          [](const ElasticEnergy& self, VectorIn u, double threshold) {
-            BlockHessian hessian(self.rest);
-            hessian.add(self, checked(self, u), threshold);
-            return blocks_of(hessian);
+          "lane_values_and_gradients",
+          [](const ElasticEnergy& self, MatrixIn shapes, bool single) {
+            return single ? in_lanes<SingleLanes<2 * kWideLanes>>(self, shapes)
+                          : in_lanes<Lanes<kWideLanes>>(self, shapes);
           },
-          nb::arg("u"), nb::arg("threshold"),
-          "The same with every element at its signed singular values clamped to at least "
-          "threshold.")
+          nb::arg("shapes"), nb::kw_only(), nb::arg("single") = false,
+          "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), twice as "
+          "many in single precision, one per lane.")
       .def(
           "inverted_tets",
           [](const ElasticEnergy& self, VectorIn u) {

@@ -1,4 +1,3 @@
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -38,20 +37,17 @@ DoublesOut external(const FittingSystem& system, const std::vector<double>& u) {
   return result;
 }
 
-/// Of the symmetric Dirichlet energy, without limits.
+/// The symmetric Dirichlet energy, without limits.
 std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u) {
   const std::vector<double> shape = internal(self, u);
   std::vector<double> gradient(shape.size());
-  const Distortions limits(self.rest.tets.size(), std::numeric_limits<double>::infinity());
-  Distortions distortions(limits.size());
-  const double value =
-      symmetric_dirichlet(self.rest, shape.data(), limits, gradient.data(), distortions);
+  const double value = self.energy.value_and_gradient(shape.data(), gradient.data());
   return {value, external(self, gradient)};
 }
 
 DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const VectorIn& v) {
   BlockHessian hessian = self.pattern;
-  assemble_projected(self.rest, internal(self, u).data(), hessian);
+  hessian.add(self.energy, internal(self, u).data(), Projection::clamp);
   std::vector<double> product(self.size());
   hessian.multiply(internal(self, v).data(), product.data());
   return external(self, product);

@@ -89,29 +89,6 @@ void bind_loop(nb::class_<Loop<Solver>>& loop) {
           nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"));
 }
 
-/// For the loops of posing: the anchor, see online/anchor.h.
-template <class Solver>
-void bind_anchor(nb::class_<Loop<Solver>>& loop) {
-  loop.def(
-          "set_anchor",
-          [](Loop<Solver>& self, MatrixIn stiffness) {
-            const auto d = static_cast<std::size_t>(self.solver.dimension());
-            require(stiffness.shape(0) == d && stiffness.shape(1) == d, "stiffness must be (d, d)");
-            self.solver.anchor().set_stiffness(stiffness.data());
-          },
-          nb::arg("stiffness"))
-      .def(
-          "pull",
-          [](Loop<Solver>& self, VectorIn target, VectorIn force, double strength) {
-            const double* a = checked(self.solver.dimension(), target);
-            const double* f = checked(self.solver.dimension(), force);
-            require(strength == 0.0 || self.solver.anchor().has_stiffness(),
-                    "a pull needs a stiffness, see set_anchor");
-            self.solver.anchor().pull(a, f, strength);
-          },
-          nb::arg("target"), nb::arg("force"), nb::arg("strength"));
-}
-
 /// For the loops of posing: the handles' offsets.
 template <class Solver>
 void bind_offsets(nb::class_<Loop<Solver>>& loop) {

@@ -7,6 +7,7 @@ void bind_cholesky(nb::module_& m);
 void bind_multigrid(nb::module_& m);
 void bind_rows(nb::module_& m);
 void bind_snapshots(nb::module_& m);
+void bind_systems(nb::module_& m);
 void bind_soft_modes(nb::module_& m);
 void bind_linear_response(nb::module_& m);
 void bind_polish(nb::module_& m);
@@ -14,6 +15,7 @@ void bind_fitting(nb::module_& m);
 void bind_reduction(nb::module_& m);
 void bind_online(nb::module_& m);
 void bind_cubature(nb::module_& m);
+void bind_residual_probe(nb::module_& m);
 void bind_measure(nb::module_& m);
 }  // namespace snapspace
 
@@ -27,6 +29,7 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_multigrid(m);
   snapspace::bind_rows(m);
   snapspace::bind_snapshots(m);
+  snapspace::bind_systems(m);
   snapspace::bind_soft_modes(m);
   snapspace::bind_linear_response(m);
   snapspace::bind_polish(m);
@@ -34,5 +37,6 @@ NB_MODULE(SNAPSPACE_MODULE, m) {
   snapspace::bind_reduction(m);
   snapspace::bind_online(m);
   snapspace::bind_cubature(m);
+  snapspace::bind_residual_probe(m);
   snapspace::bind_measure(m);
 }

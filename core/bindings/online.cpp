@@ -89,7 +89,6 @@ void bind_online(nb::module_& m) {
       nb::arg("coefficients"), nb::arg("K"), nb::arg("L"), nb::arg("S"), nb::kw_only(),
       nb::arg("single") = false);
   bind_offsets(posing);
-  bind_anchor(posing);
   bind_loop(posing);
 
   nb::class_<BlendingLoop> blending(

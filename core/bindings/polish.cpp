@@ -13,20 +13,24 @@ Eigen::MatrixXf checked_inverse(const CoarseSpace& coarse, const MatrixIn& inver
       .cast<float>();
 }
 
-template <class System>
-void bind_polish_of(nb::module_& m, nb::class_<CoarseSpace>& coarse_space) {
-  coarse_space.def(
-      "__init__",
-      [](CoarseSpace* self, const System& system, MatrixIn modes) {
-        require(modes.shape(0) >= 1 && modes.shape(1) == static_cast<std::size_t>(system.size()),
+}  // namespace
+
+void bind_polish(nb::module_& m) {
+  nb::class_<CoarseSpace>(m, "CoarseSpace",
+                          "Modes (d, 3n) in the numbering of a system, in single precision.")
+      .def(
+          "__init__",
+          [](CoarseSpace* self, const SampleSystem& system, MatrixIn modes) {
+            require(
+                modes.shape(0) >= 1 && modes.shape(1) == static_cast<std::size_t>(system.size()),
                 "modes must be (d, 3n)");
-        new (self) CoarseSpace(system.numbering, modes.data(), static_cast<int>(modes.shape(0)),
-                               modes.shape(1));
-      },
-      nb::arg("system"), nb::arg("modes"));
+            new (self) CoarseSpace(system.numbering, modes.data(), static_cast<int>(modes.shape(0)),
+                                   modes.shape(1));
+          },
+          nb::arg("system"), nb::arg("modes"));
   m.def(
       "polish",
-      [](const System& system, const CoarseSpace& coarse, MatrixIn inverse, VectorIn input,
+      [](const SampleSystem& system, const CoarseSpace& coarse, MatrixIn inverse, VectorIn input,
          VectorIn start, double tolerance, int max_iterations, int threads, SolveControl& control) {
         const auto size = static_cast<std::size_t>(system.size());
         require(input.size() == static_cast<std::size_t>(system.input_size()),
@@ -47,15 +51,6 @@ void bind_polish_of(nb::module_& m, nb::class_<CoarseSpace>& coarse_space) {
       nb::arg("control"),
       "L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the "
       "Hessian on the coarse space. A cancelled one returns the lowest shape so far.");
-}
-
-}  // namespace
-
-void bind_polish(nb::module_& m) {
-  nb::class_<CoarseSpace> coarse(
-      m, "CoarseSpace", "Modes (d, 3n) in the numbering of a system, in single precision.");
-  bind_polish_of<PosingSystem>(m, coarse);
-  bind_polish_of<InterpolationSystem>(m, coarse);
 }
 
 }  // namespace snapspace

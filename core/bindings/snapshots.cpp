@@ -11,8 +11,7 @@ struct Batch {
   long linear_iterations = 0;
 };
 
-template <class System>
-Sample checked_sample(const System& system, int id, VectorIn input, VectorIn start) {
+Sample checked_sample(const SampleSystem& system, int id, VectorIn input, VectorIn start) {
   require(input.size() == static_cast<std::size_t>(system.input_size()),
           "the input must be (input_size,)");
   require(start.size() == static_cast<std::size_t>(system.size()), "the start must be (3n,)");
@@ -21,8 +20,8 @@ Sample checked_sample(const System& system, int id, VectorIn input, VectorIn sta
 }
 
 /// Solves rows of samples, all at once, through a queue.
-template <class System, class Solve>
-Batch solve_batch(const System& system, const MatrixIn& inputs, const MatrixIn& starts,
+template <class Solve>
+Batch solve_batch(const SampleSystem& system, const MatrixIn& inputs, const MatrixIn& starts,
                   Solve solve) {
   require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
           "inputs must be (samples, input_size)");
@@ -48,23 +47,17 @@ Batch solve_batch(const System& system, const MatrixIn& inputs, const MatrixIn& 
   return batch;
 }
 
-LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
-  require(tets.shape(1) == 4, "tets must be (m, 4)");
-  const auto n = static_cast<std::int32_t>(count);
-  require_below(tets, count, "a tet has a vertex index out of range");
-  return {vertices, n, tets.data(), static_cast<int>(tets.shape(0))};
-}
-
-template <class System>
-void require_fitting(const System& system, const SoftModes* modes) {
+void require_fitting(const SampleSystem& system, const SoftModes* modes) {
   require(!modes || modes->size() == static_cast<std::size_t>(system.size()),
           "the modes are of another system");
 }
 
+using System = SampleSystem;
+
 /// What the systems of all problems have in common.
-template <class System>
-void bind_solves(nb::class_<System>& system) {
-  system
+void bind_system(nb::module_& m) {
+  nb::class_<System>(m, "SampleSystem",
+                     "What all samples of a problem share, with its scalar factor.")
       .def_prop_ro(
           "inverse", [](const System& self) { return self.inverse.kind(); },
           "What stands for the inverse of the scalar matrix.")
@@ -93,11 +86,13 @@ void bind_solves(nb::class_<System>& system) {
             require(u.size() == static_cast<std::size_t>(self.size()) &&
                         inputs.size() == static_cast<std::size_t>(self.input_size()),
                     "needs a (3n,) vector and (input_size,) inputs");
-            typename System::template Objective<double> objective(self);
-            objective.load(0, inputs.data());
+            const auto objective = self.objective();
+            SweepVisitor nobody;
+            objective->load(0, inputs.data());
             std::vector<double> shape(u.size()), gradient(u.size());
             self.numbering.to_internal(u.data(), shape.data());
-            const double value = objective.value_and_gradient(shape.data(), gradient.data());
+            const double value =
+                objective->value_and_gradient(shape.data(), gradient.data(), nobody);
             DoublesOut result = new_array<double>({u.size()});
             self.numbering.to_external(gradient.data(), result.data());
             return std::make_pair(value, result);
@@ -129,15 +124,16 @@ void bind_solves(nb::class_<System>& system) {
       .def(
           "serve_newton",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
-             int max_iterations, int threads, double clamp, SolveControl& control) {
+             int max_iterations, int threads, Projection projection, double threshold,
+             SolveControl& control) {
             nb::gil_scoped_release release;
             const SolveOptions options{
                 .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
-            solve_newton(self, queue, expected, options, clamp, control);
+            solve_newton(self, queue, expected, options, {projection, threshold}, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
-          "Newton's method; the same arguments.")
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("projection"),
+          nb::arg("threshold"), nb::arg("control"), "Newton's method; the same arguments.")
       .def(
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
@@ -158,16 +154,17 @@ void bind_solves(nb::class_<System>& system) {
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
-             int max_iterations, int threads, double clamp, SolveControl& control) {
+             int max_iterations, int threads, Projection projection, double threshold,
+             SolveControl& control) {
             const SolveOptions options{
                 .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
             return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
-              return solve_newton(self, queue, count, options, clamp, control);
+              return solve_newton(self, queue, count, options, {projection, threshold}, control);
             });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
-          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("clamp"), nb::arg("control"),
-          "Newton's method; the same arguments.");
+          nb::arg("max_iterations"), nb::arg("threads"), nb::arg("projection"),
+          nb::arg("threshold"), nb::arg("control"), "Newton's method; the same arguments.");
 }
 
 }  // namespace
@@ -234,62 +231,7 @@ void bind_snapshots(nb::module_& m) {
       .def_ro("linear_iterations", &Batch::linear_iterations,
               "Conjugate gradient iterations of all samples together (Newton only).");
 
-  nb::class_<PosingSystem> posing(m, "PosingSystem",
-                                  "What all samples of a posing problem share, with its scalar "
-                                  "factor. Inputs are displacements of the pinned vertices.");
-  posing.def(
-      "__init__",
-      [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, double lam, double mu,
-         IndexVectorIn pinned, VectorIn weights, InverseKind inverse) {
-        require(vertices.shape(1) == 3, "vertices must be (n, 3)");
-        require(pinned.size() == weights.size(), "one weight per pinned vertex is needed");
-        const auto n = static_cast<std::int32_t>(vertices.shape(0));
-        for (std::size_t i = 0; i < pinned.size(); ++i)
-          require(pinned.data()[i] >= 0 && pinned.data()[i] < n, "a pinned vertex is out of range");
-        const nb::gil_scoped_release release;
-        const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
-        new (self) PosingSystem(mesh, StVK{lam, mu}, {pinned.data(), pinned.data() + pinned.size()},
-                                {weights.data(), weights.data() + weights.size()}, inverse);
-      },
-      nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"),
-      nb::arg("pinned").noconvert(), nb::arg("weights"), nb::kw_only(),
-      nb::arg("inverse") = InverseKind::automatic);
-  bind_solves(posing);
-
-  nb::class_<InterpolationSystem> interpolation(
-      m, "InterpolationSystem",
-      "What all samples of an interpolation problem share, with its scalar factor. Inputs are the "
-      "weights; displacements are from pose 0.");
-  interpolation.def(
-      "__init__",
-      [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets, double lam, double mu) {
-        require(poses.shape(0) >= 1 && poses.shape(2) == 3, "poses must be (k, n, 3)");
-        const nb::gil_scoped_release release;
-        const LocalMesh mesh = local_mesh(poses.data(), poses.shape(1), tets);
-        const Numbering numbering(mesh.order);
-        const std::size_t size = 3 * poses.shape(1);
-        std::vector<double> renumbered(poses.size());
-        for (std::size_t k = 0; k < poses.shape(0); ++k)
-          numbering.to_internal(poses.data() + k * size, renumbered.data() + k * size);
-        new (self)
-            InterpolationSystem(mesh, renumbered, static_cast<int>(poses.shape(0)), StVK{lam, mu});
-      },
-      nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("lam"), nb::arg("mu"));
-  interpolation.def(
-      "adapted",
-      [](const InterpolationSystem& self, MatrixIn shapes) {
-        require(shapes.shape(0) >= 1 && shapes.shape(1) == static_cast<std::size_t>(self.size()),
-                "shapes must be (k, 3n)");
-        std::vector<double> renumbered(shapes.size());
-        for (std::size_t k = 0; k < shapes.shape(0); ++k)
-          self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
-                                     renumbered.data() + k * shapes.shape(1));
-        nb::gil_scoped_release release;
-        return self.adapted(renumbered, static_cast<int>(shapes.shape(0)));
-      },
-      nb::arg("shapes"),
-      "The same problem with an inverse for solutions near displacements (k, 3n).");
-  bind_solves(interpolation);
+  bind_system(m);
 }
 
 }  // namespace snapspace

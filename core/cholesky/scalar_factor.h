@@ -8,7 +8,7 @@
 #include "cholesky/point.h"
 #include "cholesky/supernodes.h"
 #include "memory/streamed_vector.h"
-#include "simd/lanes.h"
+#include "simd/packs.h"
 
 namespace snapspace {
 
@@ -108,104 +108,9 @@ class ScalarFactor {
   std::size_t size_ = 0;
 };
 
-// The loops over columns are unrolled: otherwise the unknowns are kept in memory and not in
-// registers, and small blocks take longer for their triangles than for the rows below.
-
-template <int Columns, class Real>
-void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
-                           Real* all) {
-  const auto entries_of = [&](std::int32_t vertex) { return all + 3 * std::size_t(vertex); };
-  Point<Real> x[Columns];
-#pragma GCC unroll 8
-  for (int j = 0; j < Columns; ++j) x[j] = Point<Real>::at(entries_of(vertices[j]));
-  l += Columns;
-#pragma GCC unroll 8
-  for (int j = 1; j < Columns; ++j)
-#pragma GCC unroll 8
-    for (int i = 0; i < j; ++i) x[j].subtract(l[j * (j - 1) / 2 + i], x[i]);
-  l += Columns * (Columns - 1) / 2;
-#pragma GCC unroll 8
-  for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
-  vertices += Columns;
-  for (int row = 0; row < block.below; ++row, l += Columns) {
-    ask_for_row(all, vertices, row, block.below);
-    Real* entries = entries_of(vertices[row]);
-    Point<Real> y = Point<Real>::at(entries);
-    if constexpr (Columns > 4) {
-      // two sums: a product is ready four cycles after it has begun, and two begin in each
-      Point<Real> odd = Point<Real>::zero();
-#pragma GCC unroll 8
-      for (int j = 0; j < Columns; ++j) (j % 2 ? odd : y).subtract(l[j], x[j]);
-      y.add(odd);
-    } else {
-#pragma GCC unroll 8
-      for (int j = 0; j < Columns; ++j) y.subtract(l[j], x[j]);
-    }
-    y.store(entries);
-  }
-}
-
-template <int Columns, class Real>
-Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
-                                 const std::int32_t* vertices, Real* all) {
-  const auto entries_of = [&](std::int32_t vertex) { return all + 3 * std::size_t(vertex); };
-  Point<Real> x[Columns];
-  Real product(0);  // of a few vertices: it may be added in the precision of the entries
-#pragma GCC unroll 8
-  for (int j = 0; j < Columns; ++j) {
-    Real* entries = entries_of(vertices[j]);
-    for (int c = 0; c < 3; ++c) {
-      const Real w = entries[c];
-      entries[c] = Real(l[j]) * w;
-      product += w * entries[c];
-    }
-    x[j] = Point<Real>::at(entries);
-  }
-  l += Columns;
-  const Scalar<Real>* row_entries = l + Columns * (Columns - 1) / 2;
-  for (int row = 0; row < block.below; ++row, row_entries += Columns) {
-    ask_for_row(all, vertices + Columns, row, block.below);
-    const auto y = Point<Real>::at(entries_of(vertices[Columns + row]));
-#pragma GCC unroll 8
-    for (int j = 0; j < Columns; ++j) x[j].subtract(row_entries[j], y);
-  }
-#pragma GCC unroll 8
-  for (int j = Columns - 1; j > 0; --j)
-#pragma GCC unroll 8
-    for (int i = 0; i < j; ++i) x[i].subtract(l[j * (j - 1) / 2 + i], x[j]);
-#pragma GCC unroll 8
-  for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
-  return widened(product);
-}
-
-template <class Real>
-Sum<Real> ScalarFactor::solve(const Real* right_hand_side, Real* solution) const {
-  if (solution != right_hand_side) std::copy_n(right_hand_side, 3 * size_, solution);
-  const Scalar<Real>* values = entries<Real>();
-  const auto count = static_cast<std::ptrdiff_t>(blocks_.size());
-  for (std::ptrdiff_t b = 0; b < count; ++b) {
-    if (b + kBlocksAhead < count) ask_for_columns(blocks_[b + kBlocksAhead], solution);
-    const Block& block = blocks_[b];
-    with_columns(block.columns, [&](auto columns) {
-      forward<columns()>(block, values + block.values, vertices_.data() + block.vertices, solution);
-    });
-  }
-  Sum<Real> product(0.0);
-  for (std::ptrdiff_t b = count - 1; b >= 0; --b) {
-    if (b >= kBlocksAhead) {
-      const Block& soon = blocks_[b - kBlocksAhead];
-      ask_for_columns(soon, solution);
-      ask_for(vertices_.data() + soon.vertices,
-              static_cast<std::size_t>(soon.columns + soon.below));
-      ask_for(values + soon.values, static_cast<std::size_t>((&soon)[1].values - soon.values));
-    }
-    const Block& block = blocks_[b];
-    with_columns(block.columns, [&](auto columns) {
-      product += backward<columns()>(block, values + block.values,
-                                     vertices_.data() + block.vertices, solution);
-    });
-  }
-  return product;
-}
+#define SNAPSPACE_DECLARED(Real) \
+  extern template Sum<Real> ScalarFactor::solve(const Real*, Real*) const;
+SNAPSPACE_PACKS(SNAPSPACE_DECLARED)
+#undef SNAPSPACE_DECLARED
 
 }  // namespace snapspace

@@ -1,28 +1,41 @@
 #include "energy/block_hessian.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 
-#include "energy/signed_svd.h"
+#include "material/signed_svd.h"
 
 namespace snapspace {
 
 namespace {
 
-using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+/// The curvature of a tet at a displacement gradient, projected.
+PrincipalCurvature curvature_of(const TetMaterial& material, int tet, const double (&stretches)[3],
+                                Projection projection, double threshold) {
+  double s[3];
+  for (int i = 0; i < 3; ++i)
+    s[i] = projection == Projection::stretches ? std::max(stretches[i], threshold) : stretches[i];
+  return projected(material.curvature(tet, s), projection);
+}
 
-/// Makes G that of the clamped state; leaves it where no singular value is below the threshold.
-void clamp_singular_values(double G[3][3], double threshold) {
-  Eigen::Map<Matrix3> gradient(&G[0][0]);
-  const Eigen::Matrix3d F = gradient + Eigen::Matrix3d::Identity();
-  // Most elements need no clamping, and the eigenvalues of F^T F say so without an SVD.
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stretch;
-  stretch.computeDirect(F.transpose() * F, Eigen::EigenvaluesOnly);
-  const double margin = threshold * (1.0 + 1e-6);
-  if (stretch.eigenvalues()[0] >= margin * margin && F.determinant() > 0.0) return;
-  const SignedSvd svd = signed_svd(F);
-  gradient = svd.U * svd.sigma.cwiseMax(threshold).asDiagonal() * svd.V.transpose();
-  gradient -= Eigen::Matrix3d::Identity();
+/// Second derivative of psi by the displacements of vertices j and k, with the gradients b of their
+/// hat functions in the frame of V, in the frame of U: dF = u (x) b.
+void add_block(const PrincipalCurvature& H, const double (&U)[3][3], const double* b_j,
+               const double* b_k, double weight, double* block) {
+  double local[3][3], half[3][3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = kPairs[i][0], k = kPairs[i][1];
+    local[i][i] = H.scaling[i][i] * b_j[i] * b_k[i] + H.same(k) * b_j[j] * b_k[j] +
+                  H.same(j) * b_j[k] * b_k[k];
+    local[j][k] = H.scaling[j][k] * b_j[j] * b_k[k] + H.cross(i) * b_j[k] * b_k[j];
+    local[k][j] = H.scaling[k][j] * b_j[k] * b_k[j] + H.cross(i) * b_j[j] * b_k[k];
+  }
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      half[r][c] = U[r][0] * local[0][c] + U[r][1] * local[1][c] + U[r][2] * local[2][c];
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      block[3 * r + c] +=
+          weight * (half[r][0] * U[c][0] + half[r][1] * U[c][1] + half[r][2] * U[c][2]);
 }
 
 }  // namespace
@@ -54,39 +67,27 @@ BlockHessian::BlockHessian(const RestShape& rest) : slots_(rest.tets.size()) {
 
 void BlockHessian::clear() { std::fill(blocks_.begin(), blocks_.end(), std::array<double, 9>{}); }
 
-void BlockHessian::add(const ElasticEnergy& energy, const double* u, double clamp, double weight) {
-  for (std::size_t t = 0; t < slots_.size(); ++t) {
+void BlockHessian::add(const ElasticEnergy& energy, const double* u, Projection projection,
+                       double threshold, double weight) {
+  const TetMaterial material = energy.material.view();
+  for (int t = 0; t < energy.tets(); ++t) {
     const RestTet& tet = energy.rest.tets[t];
-    double G[3][3];
-    displacement_gradient(tet, u, G);
-    if (clamp > kUnclamped) clamp_singular_values(G, clamp);
-    add_element(energy.material, tet, weight * tet.volume, slots_[t], G);
+    double F[3][3];
+    displacement_gradient(tet, u, F);
+    for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
+    const SignedSvd svd(F);
+    const PrincipalCurvature H = curvature_of(material, t, svd.s, projection, threshold);
+    double b[4][3] = {};  // gradients of the hat functions, in the frame of V
+    for (int k = 0; k < 3; ++k)
+      for (int c = 0; c < 3; ++c) {
+        const double* edge = tet.inverse_edges[k];
+        b[k + 1][c] = edge[0] * svd.V[0][c] + edge[1] * svd.V[1][c] + edge[2] * svd.V[2][c];
+        b[0][c] -= b[k + 1][c];
+      }
+    for (int j = 0; j < 4; ++j)
+      for (int k = 0; k < 4; ++k)
+        add_block(H, svd.U, b[j], b[k], weight * tet.volume, blocks_[slots_[t][4 * j + k]].data());
   }
-}
-
-void BlockHessian::add_element(const StVK& material, const RestTet& tet, double volume,
-                               const std::array<std::int32_t, 16>& slots, const double G[3][3]) {
-  double S_array[3][3];
-  stress(material, G, S_array);
-  const Eigen::Map<const Matrix3> S(&S_array[0][0]);
-  const Eigen::Matrix3d F = Eigen::Map<const Matrix3>(&G[0][0]) + Eigen::Matrix3d::Identity();
-  const Eigen::Matrix3d left_cauchy_green = F * F.transpose();
-
-  Eigen::Matrix<double, 3, 4> b;  // gradients of the hat functions
-  for (int j = 0; j < 3; ++j) b.col(j + 1) = Eigen::Vector3d(tet.inverse_edges[j]);
-  b.col(0) = -b.rightCols<3>().rowwise().sum();
-  const Eigen::Matrix<double, 3, 4> Fb = F * b;
-  const Eigen::Matrix<double, 3, 4> Sb = S * b;
-
-  // Second derivative of volume * psi by vertices j and k: dP = dF S + F dS with dF = v (x) b_k.
-  for (int j = 0; j < 4; ++j)
-    for (int k = 0; k < 4; ++k) {
-      Eigen::Map<Matrix3> block(blocks_[slots[4 * j + k]].data());
-      block += volume * (material.mu * b.col(j).dot(b.col(k)) * left_cauchy_green +
-                         material.mu * Fb.col(k) * Fb.col(j).transpose() +
-                         material.lam * Fb.col(j) * Fb.col(k).transpose());
-      block.diagonal().array() += volume * b.col(j).dot(Sb.col(k));
-    }
 }
 
 void BlockHessian::add_to_diagonal(int vertex, double value) {
@@ -99,11 +100,13 @@ void BlockHessian::add_to_diagonal(int vertex, double value) {
 void BlockHessian::multiply(const double* v, double* product) const {
   const std::size_t n = row_start_.size() - 1;
   for (std::size_t row = 0; row < n; ++row) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::int32_t k = row_start_[row]; k < row_start_[row + 1]; ++k)
-      sum += Eigen::Map<const Matrix3>(blocks_[k].data()) *
-             Eigen::Map<const Eigen::Vector3d>(v + 3 * columns_[k]);
-    Eigen::Map<Eigen::Vector3d>(product + 3 * row) = sum;
+    double sum[3] = {};
+    for (std::int32_t k = row_start_[row]; k < row_start_[row + 1]; ++k) {
+      const double *block = blocks_[k].data(), *x = v + 3 * static_cast<std::size_t>(columns_[k]);
+      for (int r = 0; r < 3; ++r)
+        sum[r] += block[3 * r] * x[0] + block[3 * r + 1] * x[1] + block[3 * r + 2] * x[2];
+    }
+    std::copy_n(sum, 3, product + 3 * row);
   }
 }
 

@@ -1,82 +1,95 @@
 #pragma once
 #include <algorithm>
-#include <utility>
+#include <cstddef>
+#include <vector>
 
-#include "energy/stvk.h"
+#include "element/tet.h"
+#include "energy/material_field.h"
 #include "mesh/rest_shape.h"
+#include "mesh/sweep.h"
 #include "simd/lanes.h"
+#include "simd/packs.h"
 
 namespace snapspace {
 
-/// Elastic energy of a mesh: the sum of its elements' energies, as a function of displacements
-/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Real is double, or Lanes for one sample per lane.
-struct ElasticEnergy {
+/// Elastic energy of a mesh: the sum over tets of volume * density, as a function of displacements
+/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Real is double, or a pack with one sample per lane.
+///
+/// This class ends the templates over densities: its sums are compiled here for every density and
+/// pack, and chosen once for some tens of tets. Solvers and all others know no density.
+class ElasticEnergy {
+ public:
+  /// @throws std::invalid_argument  if the material has moduli for another number of tets
+  ElasticEnergy(RestShape shape, MaterialField field);
+
   RestShape rest;
-  StVK material;
+  MaterialField material;
+
+  [[nodiscard]] int tets() const { return static_cast<int>(rest.tets.size()); }
+
+  /// Energy of the tets from `begin` to before `end` at u; adds its gradient to `gradient` (3n).
+  template <class Real>
+  [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
+                                                 Real* gradient) const;
 
   /// Energy at u; `gradient` (3n) is overwritten. What the visitor does with a vertex before it is
   /// needed comes before u is read and the gradient written there.
-  template <class Real, class Visitor = NoVisitor>
-  Sum<Real> value_and_gradient(const Real* u, Real* gradient, Visitor&& visitor = {}) const {
+  template <class Real>
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) const {
     Sum<Real> energy(0.0);
-    const auto* tet = rest.tets_in<typename ScalarOf<Real>::type>().data();
-    const auto* const first = tet;
     SweepStop last{0, 0, 0};
     for (const SweepStop& stop : rest.stops) {
       visitor.before(last.reached, stop.reached);
       std::fill(gradient + 3 * last.reached, gradient + 3 * stop.reached, Real(0.0));
-      for (; tet != first + stop.tets; ++tet)
-        energy += widened(stvk_energy_and_gradient(material, *tet, u, gradient));
+      energy += add_value_and_gradient(last.tets, stop.tets, u, gradient);
       visitor.after(last.complete, stop.complete);
       last = stop;
     }
     return energy;
   }
-
-  /// Hessian at u times v; `product` (3n) is overwritten.
   template <class Real>
-  void hessian_product(const Real* u, const Real* v, Real* product) const {
-    std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
-    for (const RestTet& tet : rest.tets) stvk_hessian_product(material, tet, u, v, product);
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
+    SweepVisitor nobody;
+    return value_and_gradient(u, gradient, nobody);
   }
+  /// A single sample, in a lane of a narrow pack: it has the same bits in lanes and alone.
+  double value_and_gradient(const double* u, double* gradient, SweepVisitor& visitor) const;
 
   /// Hessian at rest times v, which is linear elasticity; `product` (3n) is overwritten.
   template <class Real>
-  void rest_hessian_product(const Real* v, Real* product) const {
-    std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
-    for (const auto& tet : rest.tets_in<typename ScalarOf<Real>::type>())
-      stvk_rest_hessian_product(material, tet, v, product);
-  }
+  void rest_hessian_product(const Real* v, Real* product) const;
+
+  /// Hessian at u times v; `product` (3n) is overwritten.
+  void hessian_product(const double* u, const double* v, double* product) const;
 
   /// Volume times first Piola-Kirchhoff stress (tets x 9, row by row) and energies (tets) at u.
-  void tet_stresses(const double* u, double* stresses, double* energies) const {
-    for (const RestTet& tet : rest.tets) {
-      double G[3][3], S[3][3], P[3][3];
-      displacement_gradient(tet, u, G);
-      *energies++ = tet.volume * stress(material, G, S);
-      first_stress(G, S, P);
-      for (const auto& row : P)
-        for (const double entry : row) *stresses++ = tet.volume * entry;
-    }
-  }
+  void tet_stresses(const double* u, double* stresses, double* energies) const;
+
+  /// 2 mu + lam of every tet: the largest stiffness of its small strains.
+  [[nodiscard]] std::vector<double> stiffnesses() const;
 
   /// Energy of a strain of 1e-12 everywhere. Where the minimum of an objective is zero, no share of
   /// it is ever reached: a decrease below this is none.
-  [[nodiscard]] double negligible() const { return 1e-24 * material.mu * rest.volume(); }
+  [[nodiscard]] double negligible() const { return negligible_; }
 
   /// Number of elements with det F <= 0.
-  [[nodiscard]] int inverted_tets(const double* u) const {
-    return static_cast<int>(
-        std::count_if(rest.tets.begin(), rest.tets.end(), [&](const RestTet& tet) {
-          double F[3][3];
-          displacement_gradient(tet, u, F);
-          for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
-          const double det = F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) -
-                             F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0]) +
-                             F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
-          return det <= 0.0;
-        }));
-  }
+  [[nodiscard]] int inverted_tets(const double* u) const;
+
+ private:
+  template <class T>
+  [[nodiscard]] const StreamedVector<T>& weighted_moduli() const;
+
+  StreamedVector<double> moduli_;        // of every tet, times its volume
+  StreamedVector<float> single_moduli_;  // the same
+  StreamedVector<double> lame_;          // lam and mu of small strains, times volume
+  double negligible_;
 };
+
+#define SNAPSPACE_DECLARED(Real)                                                                \
+  extern template Sum<Real> ElasticEnergy::add_value_and_gradient(int, int, const Real*, Real*) \
+      const;                                                                                    \
+  extern template void ElasticEnergy::rest_hessian_product(const Real*, Real*) const;
+SNAPSPACE_LANE_PACKS(SNAPSPACE_DECLARED)
+#undef SNAPSPACE_DECLARED
 
 }  // namespace snapspace

@@ -11,9 +11,10 @@ namespace snapspace {
 /// n matrix that, applied to x, y and z, preconditions the Hessian. Where strains are small it is a
 /// multiple of the Laplacian; where tets are stretched it is as much stiffer as the material is.
 ///
-/// The trace has a closed form: with C = F^T F and stress S, the block of vertices j, k with hat
-/// gradients b is volume * b_j^T ((mu tr(C) I + (mu + lam) C) / 3 + S) b_k. The singular values of
-/// F are raised to at least one, where S is positive semi-definite and with it the matrix.
+/// In the frame of V the trace is diagonal: the block of vertices j and k with hat gradients b is
+/// volume * b_j^T V D V^T b_k, D_c = (scaling_cc + sum of the two same_ac) / 3. Singular values are
+/// raised to at least one, and the eigenvalues of the curvature to zero: the matrix is
+/// semi-definite.
 class ScalarHessian {
  public:
   explicit ScalarHessian(const RestShape& rest)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "cholesky/analysis.h"
+#include "element/tet.h"
 #include "snapshots/line_search.h"
 #include "threads/flush_denormals.h"
 
@@ -36,8 +38,9 @@ PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
       supernodes_(analysed(scalar_matrix())) {
   for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_})
     v->resize(system.size());
-  limits_.resize(system.rest.tets.size());
-  distortions_.resize(system.rest.tets.size());
+  limits_.resize(system.energy.tets());
+  energies_.resize(system.energy.tets());
+  stresses_.resize(9 * system.energy.rest.tets.size());
 }
 
 FitReport PoseFitter::fit(const double* targets, const SolveControl& control) {
@@ -57,7 +60,8 @@ void PoseFitter::start() {
   report_.stiffness = options_.first_stiffness;
   done_ = false;
   std::fill(u_.begin(), u_.end(), 0.0);
-  std::fill(limits_.begin(), limits_.end(), kMostDistortionGrowth * 6.0);
+  std::fill(energies_.begin(), energies_.end(), 0.0);
+  set_limits();
   value_ = value_and_gradient(u_, gradient_);
   decrement_ = value_;
   report_.deviation = system_.springs.deviation(targets_, u_.data());
@@ -69,12 +73,13 @@ void PoseFitter::take_step(const SolveControl& control) {
     report_.status = status;
     done_ = true;
   };
-  assemble_projected(system_.rest, u_.data(), hessian_);
+  hessian_.clear();
+  hessian_.add(system_.energy, u_.data(), Projection::clamp);
   const double decrement = find_direction(control);
   if (control.cancelled) return;  // the direction may be half done
   decrement_ = decrement;
   const auto below = [&](double tolerance) {
-    return decrement <= std::max(tolerance * value_, system_.negligible());
+    return decrement <= std::max(tolerance * value_, system_.energy.negligible());
   };
   const bool near = report_.deviation <= options_.deviation;
   if (near && below(kTolerance)) return end(FitStatus::converged);
@@ -98,18 +103,36 @@ bool PoseFitter::raise_stiffness() {
   return report_.stiffness <= kStiffnessLimit * options_.first_stiffness;
 }
 
+/// Infinite as well where a tet exceeds its limit.
 double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
-  const double value =
-      symmetric_dirichlet(system_.rest, u.data(), limits_, gradient.data(), distortions_);
-  if (!std::isfinite(value)) return value;
+  system_.energy.tet_stresses(u.data(), stresses_.data(), energies_.data());
+  std::fill(gradient.begin(), gradient.end(), 0.0);
+  double value = 0.0;
+  for (std::size_t t = 0; t < energies_.size(); ++t) {
+    // written so that NaN is refused as well
+    if (!(energies_[t] <= limits_[t])) return std::numeric_limits<double>::infinity();
+    value += energies_[t];
+    double P[3][3];
+    std::copy_n(&stresses_[9 * t], 9, &P[0][0]);
+    scatter_stress(system_.energy.rest.tets[t], P, gradient.data());
+  }
   return value +
          system_.springs.value_and_gradient(report_.stiffness, targets_, u.data(), gradient.data());
+}
+
+/// The distortion |F|^2 + |F^-1|^2 is 6 at rest, and the energy of a tet volume * (distortion - 6)
+/// / 4.
+void PoseFitter::set_limits() {
+  for (std::size_t t = 0; t < limits_.size(); ++t) {
+    const double quarter = 0.25 * system_.energy.rest.tets[t].volume;
+    limits_[t] = kMostDistortionGrowth * (energies_[t] + 6.0 * quarter) - 6.0 * quarter;
+  }
 }
 
 Eigen::SparseMatrix<double> PoseFitter::scalar_matrix() const {
   const auto& start = hessian_.row_start();
   const auto& columns = hessian_.columns();
-  const int n = system_.rest.vertex_count;
+  const int n = system_.energy.rest.vertex_count;
   std::vector<double> values(columns.size());
   std::transform(hessian_.blocks().begin(), hessian_.blocks().end(), values.begin(),
                  [](const auto& block) { return (block[0] + block[4] + block[8]) / 3.0; });
@@ -121,7 +144,7 @@ Eigen::SparseMatrix<double> PoseFitter::scalar_matrix() const {
 /// Solves H d = -g, loosely far from the minimum [Eisenstat & Walker 1996]; returns -g.d.
 double PoseFitter::find_direction(const SolveControl& control) {
   constexpr int kMaxIterations = 500;
-  const double scale = std::max(value_, system_.negligible());
+  const double scale = std::max(value_, system_.energy.negligible());
   const double forcing = std::clamp(std::sqrt(decrement_ / scale), 1e-2, 0.1);
   const ScalarFactor factor(scalar_matrix(), supernodes_);
   report_.linear_iterations += conjugate_gradients_.solve(
@@ -137,25 +160,21 @@ double PoseFitter::find_direction(const SolveControl& control) {
 
 bool PoseFitter::line_search(double slope) {
   constexpr int kMaxShortenings = 40;
-  double step = 1.0;
-  for (int shortening = 0; shortening <= kMaxShortenings; ++shortening) {
+  LineTrial last;
+  // a refused tet says nothing about how much shorter a step must be: half
+  const bool found = search_line(value_, slope, kMaxShortenings, 0.5, [&](double step) {
     for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] + step * direction_[i];
-    const double value = value_and_gradient(trial_, trial_gradient_);
     ++report_.evaluations;
-    const bool finite = std::isfinite(value);
-    const double trial_slope = finite ? dot(trial_gradient_, direction_) : 0.0;
-    if (finite && sufficient_decrease(value_, slope, step, value, trial_slope)) {
-      u_.swap(trial_);
-      gradient_.swap(trial_gradient_);
-      value_ = value;
-      for (std::size_t t = 0; t < limits_.size(); ++t)
-        limits_[t] = kMostDistortionGrowth * distortions_[t];
-      return true;
-    }
-    // a refused tet says nothing about how much shorter
-    step = finite ? shorter_step(value_, slope, step, value, trial_slope) : 0.5 * step;
-  }
-  return false;
+    last.value = value_and_gradient(trial_, trial_gradient_);
+    last.slope = std::isfinite(last.value) ? dot(trial_gradient_, direction_) : 0.0;
+    return last;
+  });
+  if (!found) return false;
+  u_.swap(trial_);
+  gradient_.swap(trial_gradient_);
+  value_ = last.value;
+  set_limits();
+  return true;
 }
 
 }  // namespace snapspace

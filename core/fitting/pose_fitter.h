@@ -4,7 +4,6 @@
 #include "cholesky/scalar_factor.h"
 #include "cholesky/supernodes.h"
 #include "fitting/fitting_system.h"
-#include "fitting/symmetric_dirichlet.h"
 #include "snapshots/conjugate_gradients.h"
 #include "snapshots/solve_report.h"
 
@@ -62,6 +61,7 @@ class PoseFitter {
   double value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient);
   double find_direction(const SolveControl& control);
   bool line_search(double slope);
+  void set_limits();
   [[nodiscard]] bool raise_stiffness();
   [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const;
 
@@ -75,7 +75,8 @@ class PoseFitter {
   double value_ = 0.0;
   double decrement_ = 0.0;  // -g.d of the last direction d
   bool done_ = false;
-  Distortions limits_, distortions_;
+  // Per tet: the largest energy that is allowed, the energy of the last trial, and its stress.
+  std::vector<double> limits_, energies_, stresses_;
   std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
 };
 

@@ -60,6 +60,7 @@ LocalMesh::LocalMesh(const double* old_vertices, int n, const std::int32_t* old_
   // other.
   struct Tet {
     std::array<std::int32_t, 4> key, corners;
+    std::int32_t old;
   };
   std::vector<Tet> read(m), sorted(m);
   std::vector<std::int32_t> next(static_cast<std::size_t>(n) + 1, 0);
@@ -67,6 +68,7 @@ LocalMesh::LocalMesh(const double* old_vertices, int n, const std::int32_t* old_
     Tet& tet = read[t];
     for (int k = 0; k < 4; ++k) tet.corners[k] = places[old_tets[4 * t + k]];
     tet.key = tet.corners;
+    tet.old = t;
     std::sort(tet.key.begin(), tet.key.end(), std::greater<>());
     ++next[tet.key[0] + 1];
   }
@@ -77,7 +79,11 @@ LocalMesh::LocalMesh(const double* old_vertices, int n, const std::int32_t* old_
     std::stable_sort(sorted.begin() + begin, sorted.begin() + next[v],
                      [](const Tet& a, const Tet& b) { return a.key < b.key; });
   tets.reserve(4 * static_cast<std::size_t>(m));
-  for (const Tet& tet : sorted) tets.insert(tets.end(), tet.corners.begin(), tet.corners.end());
+  tet_order.reserve(m);
+  for (const Tet& tet : sorted) {
+    tets.insert(tets.end(), tet.corners.begin(), tet.corners.end());
+    tet_order.push_back(tet.old);
+  }
 }
 
 }  // namespace snapspace

@@ -17,10 +17,11 @@ namespace snapspace {
 
 /// A mesh renumbered by sweep_order, its tets sorted by their last vertices.
 struct LocalMesh {
-  std::vector<std::int32_t> order;   ///< old index of every new one
-  std::vector<std::int32_t> places;  ///< new index of every old one
-  std::vector<double> vertices;      ///< n x 3
-  std::vector<std::int32_t> tets;    ///< m x 4; corners keep their order, volumes their sign
+  std::vector<std::int32_t> order;      ///< old index of every new one
+  std::vector<std::int32_t> places;     ///< new index of every old one
+  std::vector<double> vertices;         ///< n x 3
+  std::vector<std::int32_t> tets;       ///< m x 4; corners keep their order, volumes their sign
+  std::vector<std::int32_t> tet_order;  ///< old index of every new tet
 
   LocalMesh(const double* vertices, int vertex_count, const std::int32_t* tets, int tet_count);
 };

@@ -44,12 +44,12 @@ std::vector<float> RestShape::lumped_shares() const {
   return shares;
 }
 
-Eigen::SparseMatrix<double> RestShape::laplacian() const {
+Eigen::SparseMatrix<double> RestShape::laplacian(const std::vector<double>& stiffness) const {
   std::vector<Eigen::Matrix4d> locals;
   locals.reserve(tets.size());
-  for (const RestTet& tet : tets) {
-    const Eigen::Matrix<double, 4, 3> gradients = hat_gradients(tet);
-    locals.push_back(tet.volume * gradients * gradients.transpose());
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    const Eigen::Matrix<double, 4, 3> gradients = hat_gradients(tets[t]);
+    locals.push_back(stiffness[t] * tets[t].volume * gradients * gradients.transpose());
   }
   return assembled(locals);
 }

@@ -5,19 +5,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "element/rest_tet.h"
 #include "memory/streamed_vector.h"
 #include "mesh/sweep.h"
 
 namespace snapspace {
-
-/// What a tetrahedron's energy needs of its rest shape, in double or single precision.
-template <class T>
-struct RestTetOf {
-  T inverse_edges[3][3];  ///< inverse of the matrix with columns v1 - v0, v2 - v0, v3 - v0
-  T volume;               ///< positive, also where the tet is inverted in its rest shape
-  std::int32_t vertices[4];
-};
-using RestTet = RestTetOf<double>;
 
 /// Rest shape of a tetrahedral mesh: shape-function gradients and volumes, tet by tet.
 struct RestShape {
@@ -45,8 +37,8 @@ struct RestShape {
   [[nodiscard]] std::vector<float> lumped_shares() const;
 
   /// Scalar stiffness matrix of the linear elements (the cotangent Laplacian of tets), n x n,
-  /// positive semi-definite.
-  [[nodiscard]] Eigen::SparseMatrix<double> laplacian() const;
+  /// positive semi-definite, with a stiffness for every tet.
+  [[nodiscard]] Eigen::SparseMatrix<double> laplacian(const std::vector<double>& stiffness) const;
 
   /// n x n matrix that is the sum of one 4 x 4 matrix per tet.
   [[nodiscard]] Eigen::SparseMatrix<double> assembled(

@@ -17,11 +17,12 @@ struct SweepStop {
 [[nodiscard]] std::vector<SweepStop> sweep_stops(const std::int32_t* corners, int tet_count,
                                                  int vertex_count);
 
-/// Visitor of a pass for which nobody has anything to do. Others are told that the vertices from
-/// `begin` to before `end` are needed next, or are complete: ranges follow each other from 0 on.
-struct NoVisitor {
-  void before(int /*begin*/, int /*end*/) {}
-  void after(int /*begin*/, int /*end*/) {}
+/// Who has work to do during a pass: told that the vertices from `begin` to before `end` are needed
+/// next, or are complete. Ranges follow each other from 0 on. This one has nothing to do.
+struct SweepVisitor {
+  virtual ~SweepVisitor() = default;
+  virtual void before(int /*begin*/, int /*end*/) {}
+  virtual void after(int /*begin*/, int /*end*/) {}
 };
 
 }  // namespace snapspace

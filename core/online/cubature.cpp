@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "material/principal_hessian.h"
 #include "simd/number_pairs.h"
 
 namespace snapspace::online {
@@ -18,11 +19,14 @@ double lane_sum(const Lanes<Width>& pack) {
 
 }  // namespace
 
-Cubature::Cubature(int dimension, int tets, const float* rows, const double* weights, StVK material)
+Cubature::Cubature(int dimension, int tets, const float* rows, const double* weights,
+                   const TetMaterial& material)
     : capacity_(dimension),
       dimension_(dimension),
       pairs_((dimension + 1) / 2),
-      material_(material),
+      kind_(material.kind),
+      tets_(tets),
+      moduli_count_(material_moduli(material.kind)),
       coordinates_(2 * pairs_, 0.0),
       sums_(2 * pairs_) {
   const std::size_t size = static_cast<std::size_t>(tets) * 9 * dimension;
@@ -33,12 +37,12 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
     return number_pair(std::abs(first) < least ? least : first, second);
   };
 
-  const int blocks = (tets + kWidth - 1) / kWidth;
-  words_.assign(static_cast<std::size_t>(blocks) * pairs_ * 9, Tets(word(0.0, 0.0)));
-  weights_.assign(blocks, Tets(0.0));
+  words_.assign(static_cast<std::size_t>(blocks()) * pairs_ * 9, Tets(word(0.0, 0.0)));
+  moduli_.assign(static_cast<std::size_t>(blocks()) * moduli_count_, Tets(0.0));
   for (int tet = 0; tet < tets; ++tet) {
     const int block = tet / kWidth, lane = tet % kWidth;
-    weights_[block].set(lane, weights[tet]);
+    for (int k = 0; k < moduli_count_; ++k)
+      moduli_[block * moduli_count_ + k].set(lane, weights[tet] * material.of(tet)[k]);
     for (int pair = 0; pair < pairs_; ++pair)
       for (int e = 0; e < 9; ++e) {
         const float* row = rows + (static_cast<std::size_t>(tet) * 9 + e) * dimension + 2 * pair;
@@ -74,18 +78,15 @@ void Cubature::gradients(const Tets* words, Tets G[3][3]) const {
   G[2][0] = g6, G[2][1] = g7, G[2][2] = g8;
 }
 
-double Cubature::value_and_gradient(const double* q, double* gradient) {
-  set_coordinates(q);
-  std::fill(sums_.begin(), sums_.end(), Tets(0.0));
+/// For the coordinates that are set: the value, and in sums_ the gradient.
+template <class Density>
+double Cubature::add_values_and_stresses() {
   double value = 0.0;
-  for (std::size_t b = 0; b < weights_.size(); ++b) {
-    Tets G[3][3], S[3][3], P[3][3];
+  for (int b = 0; b < blocks(); ++b) {
+    Tets G[3][3], P[3][3];
     const Tets* words = block(b);
     gradients(words, G);
-    value += lane_sum(stress(material_, G, S) * weights_[b]);
-    first_stress(G, S, P);
-    for (auto& row : P)
-      for (Tets& p : row) p *= weights_[b];
+    value += lane_sum(Density::value_and_stress(&moduli_[b * Density::kModuli], G, P));
     for (int pair = 0; pair < pairs_; ++pair, words += 9) {
       Tets first(0.0), second(0.0);
       for (int e = 0; e < 9; ++e) {
@@ -96,6 +97,14 @@ double Cubature::value_and_gradient(const double* q, double* gradient) {
       sums_[2 * pair + 1] += second;
     }
   }
+  return value;
+}
+
+double Cubature::value_and_gradient(const double* q, double* gradient) {
+  set_coordinates(q);
+  std::fill(sums_.begin(), sums_.end(), Tets(0.0));
+  const double value =
+      Densities::with(kind_, [&]<class Density>() { return add_values_and_stresses<Density>(); });
   for (int mode = 0; mode < dimension_; ++mode) gradient[mode] = lane_sum(sums_[mode]);
   return value;
 }
@@ -105,24 +114,41 @@ Cubature::Tets Cubature::entry(const Tets* words, int mode, int e) {
   return mode % 2 == 0 ? word : second_numbers(word);
 }
 
+/// Hessians (9 x 9) of a block's tets by their displacement gradients, times weight.
+void Cubature::curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const {
+  for (int lane = 0; lane < kWidth && block * kWidth + lane < tets_; ++lane) {
+    double moduli[kMostModuli], gradient[3][3], unit[3][3], column[3][3];
+    for (int k = 0; k < moduli_count_; ++k) moduli[k] = moduli_[block * moduli_count_ + k][lane];
+    for (int e = 0; e < 9; ++e) gradient[e / 3][e % 3] = G[e / 3][e % 3][lane];
+    const PrincipalHessian tet({kind_, 1, moduli}, 0, gradient);
+    for (int e = 0; e < 9; ++e) {
+      for (int f = 0; f < 9; ++f) unit[f / 3][f % 3] = e == f ? 1.0 : 0.0;
+      tet.multiply(unit, column);
+      for (int f = 0; f < 9; ++f) hessian[f][e].set(lane, column[f / 3][f % 3]);
+    }
+  }
+}
+
 double Cubature::derivatives(const double* q, double* gradient, double* hessian) {
   const double value = value_and_gradient(q, gradient);
   const int d = dimension_;
   std::fill(hessian, hessian + static_cast<std::size_t>(d) * d, 0.0);
-  for (std::size_t b = 0; b < weights_.size(); ++b) {
-    Tets G[3][3], S[3][3], direction[3][3], change[3][3];
+  for (int b = 0; b < blocks(); ++b) {
+    Tets G[3][3], change[9], curvature[9][9];
     const Tets* words = block(b);
     gradients(words, G);
-    stress(material_, G, S);
+    for (auto& row : curvature)
+      for (Tets& entry : row) entry = Tets(0.0);
+    curvatures(b, G, curvature);
     for (int i = 0; i < d; ++i) {
-      for (int e = 0; e < 9; ++e) direction[e / 3][e % 3] = entry(words, i, e);
-      stress_differential(material_, G, S, direction, change);
-      for (auto& row : change)
-        for (Tets& c : row) c *= weights_[b];
+      for (int f = 0; f < 9; ++f) {
+        change[f] = Tets(0.0);
+        for (int e = 0; e < 9; ++e) change[f] += curvature[f][e] * entry(words, i, e);
+      }
       double* row = hessian + static_cast<std::size_t>(i) * d;
       for (int j = 0; j <= i; ++j) {
         Tets sum(0.0);
-        for (int e = 0; e < 9; ++e) sum += entry(words, j, e) * change[e / 3][e % 3];
+        for (int e = 0; e < 9; ++e) sum += entry(words, j, e) * change[e];
         row[j] += lane_sum(sum);
       }
     }

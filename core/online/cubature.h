@@ -2,13 +2,13 @@
 #include <cstddef>
 #include <vector>
 
-#include "material/stvk.h"
+#include "material/tet_material.h"
 #include "simd/lanes.h"
 
 namespace snapspace::online {
 
-/// An elastic energy as a weighted sum over few tets: E(q) = sum_e w_e psi(G_e q), where G_e (9 x
-/// d) makes the displacement gradient of tet e from the reduced coordinates.
+/// An elastic energy as a weighted sum over few tets: E(q) = sum_e w_e psi_e(G_e q), where G_e (9 x
+/// d) makes the displacement gradient of tet e from the reduced coordinates, for any density.
 ///
 /// With positive weights (cubature [An, Kim & James 2008]) it is as bounded below as the material.
 /// An evaluation costs 18 r d multiply-adds for r tets and reads each G_e once from memory, which
@@ -24,7 +24,9 @@ class Cubature {
   /// Copies its arrays.
   /// @param rows  tets x 9 x dimension; entry 3 a + b of the second is d u_a / d x_b
   /// @param weights  tets, the volume that each stands for
-  Cubature(int dimension, int tets, const float* rows, const double* weights, StVK material);
+  /// @param material  of these tets
+  Cubature(int dimension, int tets, const float* rows, const double* weights,
+           const TetMaterial& material);
 
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int capacity() const { return capacity_; }
@@ -51,13 +53,17 @@ class Cubature {
   void gradients(const Tets* words, Tets G[3][3]) const;
   /// One mode's displacement gradients.
   [[nodiscard]] static Tets entry(const Tets* words, int mode, int e);
+  [[nodiscard]] int blocks() const { return (tets_ + kWidth - 1) / kWidth; }
+  template <class Density>
+  double add_values_and_stresses();
+  void curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const;
 
   int capacity_, dimension_;
   int pairs_;  // of modes, those of the dimension
-  StVK material_;
-  std::vector<Tets> words_;          // block of kWidth tets, pair of modes, entry of G; an odd last
-                                     // mode is joined by zeros
-  std::vector<Tets> weights_;        // by block; zero for lanes without a tet
+  int kind_, tets_, moduli_count_;
+  std::vector<Tets> words_;   // block of kWidth tets, pair of modes, entry of G; an odd last
+                              // mode is joined by zeros
+  std::vector<Tets> moduli_;  // block, modulus: times the weight; zero for lanes without a tet
   std::vector<double> coordinates_;  // q, and a zero if d is odd
   std::vector<Tets> sums_;           // gradient, lane by lane
 };

@@ -1,13 +1,12 @@
 #pragma once
 #include <utility>
 
-#include "online/anchor.h"
 #include "online/handle_quadric.h"
 #include "online/minimizers.h"
 
 namespace snapspace::online {
 
-/// Minimises the reduced posing energy, elastic energy + handle quadric (+ anchor), frame by frame.
+/// Minimises the reduced posing energy, elastic energy + handle quadric, frame by frame.
 ///
 /// This is the live loop. Its cost does not depend on the mesh, and it takes no memory after
 /// construction.
@@ -19,7 +18,6 @@ class PosingSolver {
   PosingSolver(Elastic elastic, int handles, const double* K, const double* L, const double* S)
       : elastic_(std::move(elastic)),
         handles_(elastic_.dimension(), handles, K, L, S),
-        anchor_(elastic_.dimension()),
         minimizers_(elastic_.dimension()),
         valid_(minimizers_.prepare(*this, elastic_.dimension())) {}
 
@@ -31,33 +29,26 @@ class PosingSolver {
   [[nodiscard]] int dimension() const { return elastic_.dimension(); }
   [[nodiscard]] int capacity() const { return elastic_.capacity(); }
 
-  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; offsets stay, the
-  /// anchor lets go.
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; offsets stay.
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
     handles_.set_dimension(dimension);
-    anchor_.set_dimension(dimension);
     minimizers_.prepare(*this, dimension);
   }
 
   /// Takes new offsets of the handles (handles x 12): O(capacity * handles).
   void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
 
-  [[nodiscard]] Anchor& anchor() { return anchor_; }
-
   double value_and_gradient(const double* q, double* gradient) {
     const double elastic = elastic_.value_and_gradient(q, gradient);
-    return elastic + handles_.add_value_and_gradient(q, gradient) +
-           anchor_.add_value_and_gradient(q, gradient);
+    return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
   /// The lower triangle of the Hessian, too.
   double derivatives(const double* q, double* gradient, double* hessian) {
     const double elastic = elastic_.derivatives(q, gradient, hessian);
     handles_.add_hessian(hessian);
-    anchor_.add_hessian(hessian);
-    return elastic + handles_.add_value_and_gradient(q, gradient) +
-           anchor_.add_value_and_gradient(q, gradient);
+    return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
   /// From q, in place. Where a Hessian is dear, BFGS keeps its approximation from frame to frame:
@@ -71,7 +62,6 @@ class PosingSolver {
  private:
   Elastic elastic_;
   HandleQuadric handles_;
-  Anchor anchor_;
   Minimizers minimizers_;
   bool valid_;
 };

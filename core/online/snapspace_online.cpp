@@ -1,56 +1,26 @@
 #include "online/snapspace_online.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
-#include <vector>
 
-#include "online/blending_solver.h"
-#include "online/cubature.h"
-#include "online/posing_solver.h"
-#include "online/quartic.h"
+#include "online/displacement_rows.h"
 #include "online/reconstruct.h"
+#include "online/session.h"
 
+using snapspace::TetMaterial;
+using snapspace::online::all_finite;
 using snapspace::online::BlendingSolver;
 using snapspace::online::Cubature;
 using snapspace::online::Method;
 using snapspace::online::Quartic;
+using snapspace::online::read_material;
 using snapspace::online::Report;
 using PosingSolver = snapspace::online::PosingSolver<Quartic>;
 using CubatureSolver = snapspace::online::PosingSolver<Cubature>;
 
-/// One of the three solvers, with its coordinates.
-struct snapspace_session {
-  std::unique_ptr<PosingSolver> posing;
-  std::unique_ptr<CubatureSolver> cubature;
-  std::unique_ptr<BlendingSolver> blending;
-  snapspace_basis basis;
-  std::vector<double> q;         // as many as the model has
-  std::vector<double> gradient;  // as many; of a value that is asked for
-
-  void take(std::unique_ptr<PosingSolver> solver) { posing = std::move(solver); }
-  void take(std::unique_ptr<CubatureSolver> solver) { cubature = std::move(solver); }
-  void take(std::unique_ptr<BlendingSolver> solver) { blending = std::move(solver); }
-
-  /// What `act` returns for the solver that is there.
-  template <class Act>
-  auto with_solver(Act act) const {
-    if (posing) return act(*posing);
-    if (cubature) return act(*cubature);
-    return act(*blending);
-  }
-  [[nodiscard]] int dimension() const {
-    return with_solver([](const auto& solver) { return solver.dimension(); });
-  }
-};
-
 namespace {
-
-bool all_finite(const double* numbers, std::size_t count) {
-  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
-}
 
 bool is_basis(const snapspace_basis* basis) {
   return basis && basis->vertices >= 0 && (basis->vertices == 0 || (basis->tau && basis->modes));
@@ -74,20 +44,46 @@ snapspace_session* begin(std::unique_ptr<Solver> solver, const snapspace_basis& 
   return session.release();
 }
 
-bool is_cubature(const snapspace_cubature* cubature) {
-  return cubature && cubature->tets >= 1 && cubature->rows && cubature->weights &&
-         std::isfinite(cubature->lam) && std::isfinite(cubature->mu);
-}
-
 template <class Solver>
-int set_offsets(Solver& solver, const double* offsets) {
-  if (!all_finite(offsets, 12 * static_cast<std::size_t>(solver.handles())))
-    return SNAPSPACE_NOT_FINITE;
+int set_offsets(snapspace_session& session, Solver& solver, const double* offsets) {
+  const std::size_t size = session.state.size();
+  if (!all_finite(offsets, size)) return SNAPSPACE_NOT_FINITE;
   solver.set_offsets(offsets);
+  std::copy_n(offsets, size, session.state.data());
   return SNAPSPACE_OK;
 }
 
 }  // namespace
+
+int snapspace_moduli(const char* kind) {
+  if (!kind) return SNAPSPACE_BAD_ARGUMENT;
+  const int index = snapspace::material_index(kind);
+  return index < 0 ? SNAPSPACE_UNKNOWN_MATERIAL : snapspace::material_moduli(index);
+}
+
+const char* snapspace_modulus_name(const char* kind, int modulus) {
+  if (modulus < 0 || modulus >= snapspace_moduli(kind)) return nullptr;
+  return snapspace::modulus_name(snapspace::material_index(kind), modulus);
+}
+
+int snapspace_value_scale(const snapspace_material* material, int tets, const double* volumes,
+                          double* value_scale) {
+  if (!material || tets < 1 || !volumes || !value_scale) return SNAPSPACE_BAD_ARGUMENT;
+  TetMaterial of_tets;
+  const int wrong = read_material(*material, tets, of_tets);
+  if (wrong != SNAPSPACE_OK) return wrong;
+  double sum = 0.0;
+  for (int t = 0; t < tets; ++t) sum += of_tets.small_strains(t).mu * volumes[t];
+  *value_scale = 0.01 * sum;
+  return SNAPSPACE_OK;
+}
+
+int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
+                                float* rows) {
+  if (tets < 1 || dimension < 1 || !points || !modes || !rows) return SNAPSPACE_BAD_ARGUMENT;
+  snapspace::online::displacement_rows(tets, dimension, points, modes, rows);
+  return SNAPSPACE_OK;
+}
 
 snapspace_session* snapspace_create_posing(int dimension, int handles, const double* quartic,
                                            const double* K, const double* L, const double* S,
@@ -103,10 +99,13 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
                                                     const double* K, const double* L,
                                                     const double* S, const snapspace_basis* basis,
                                                     int* error) {
-  if (dimension < 1 || handles < 1 || !is_cubature(cubature) || !K || !L || !S || !is_basis(basis))
+  if (dimension < 1 || handles < 1 || !cubature || cubature->tets < 1 || !cubature->rows ||
+      !cubature->weights || !K || !L || !S || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
-  Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights,
-                   {cubature->lam, cubature->mu});
+  TetMaterial material;
+  const int wrong = read_material(cubature->material, cubature->tets, material);
+  if (wrong != SNAPSPACE_OK) return fail(error, wrong);
+  Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material);
   return begin(std::make_unique<CubatureSolver>(std::move(elastic), handles, K, L, S), *basis,
                error);
 }
@@ -122,8 +121,8 @@ void snapspace_destroy(snapspace_session* session) { delete session; }
 
 int snapspace_set_offsets(snapspace_session* session, const double* offsets) {
   if (!session || !offsets) return SNAPSPACE_BAD_ARGUMENT;
-  if (session->posing) return set_offsets(*session->posing, offsets);
-  if (session->cubature) return set_offsets(*session->cubature, offsets);
+  if (session->posing) return set_offsets(*session, *session->posing, offsets);
+  if (session->cubature) return set_offsets(*session, *session->cubature, offsets);
   return SNAPSPACE_WRONG_KIND;
 }
 
@@ -132,6 +131,7 @@ int snapspace_set_weights(snapspace_session* session, const double* weights) {
   if (!session->blending) return SNAPSPACE_WRONG_KIND;
   if (!all_finite(weights, session->blending->poses())) return SNAPSPACE_NOT_FINITE;
   session->blending->set_weights(weights);
+  std::copy_n(weights, session->state.size(), session->state.data());
   return SNAPSPACE_OK;
 }
 

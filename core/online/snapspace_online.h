@@ -3,8 +3,9 @@
  *
  * A session is made from the arrays of a .snapspace file (safetensors layout): it takes new handle
  * positions or pose weights, solves, and gives coordinates and vertices. No function throws,
- * prints, reads files or starts threads, and only the two that create a session take memory; they
- * end the program as C++ does if there is none. A session may be used by one thread at a time.
+ * prints, reads files or starts threads, and only those that create a session or set its probe take
+ * memory; they end the program as C++ does if there is none. A session may be used by one thread at
+ * a time.
  *
  * All numbers are doubles, all arrays row-major. Functions return 0, or one of the errors below;
  * after an error the session is as it was.
@@ -16,10 +17,11 @@ extern "C" {
 
 enum snapspace_error {
   SNAPSPACE_OK = 0,
-  SNAPSPACE_BAD_ARGUMENT = -1, /* a null pointer, a size or an option out of range */
-  SNAPSPACE_NOT_FINITE = -2,   /* a number is NaN or infinite */
-  SNAPSPACE_NOT_DEFINITE = -3, /* the Hessian at tau is not positive: the model is damaged */
-  SNAPSPACE_WRONG_KIND = -4    /* offsets for a blending session, or weights for a posing one */
+  SNAPSPACE_BAD_ARGUMENT = -1,    /* a null pointer, a size or an option out of range */
+  SNAPSPACE_NOT_FINITE = -2,      /* a number is NaN or infinite */
+  SNAPSPACE_NOT_DEFINITE = -3,    /* the Hessian at tau is not positive: the model is damaged */
+  SNAPSPACE_WRONG_KIND = -4,      /* offsets for a blending session, or weights for a posing one */
+  SNAPSPACE_UNKNOWN_MATERIAL = -5 /* no density has this name */
 };
 
 enum snapspace_method { SNAPSPACE_NEWTON = 0, SNAPSPACE_BFGS = 1 };
@@ -45,7 +47,7 @@ typedef struct snapspace_basis {
 typedef struct snapspace_options {
   enum snapspace_method method;
   double tolerance;        /* of the termination tests; 1e-7 for posing, 1e-9 for blending */
-  double value_scale;      /* unit of energy: 0.01 mu * volume */
+  double value_scale;      /* unit of energy: 0.01 times the sum of mu * volume */
   double coordinate_scale; /* unit of q: 0.1 * diagonal * sqrt(volume) */
   int max_iterations;      /* bounds on the work of one solve; 300 */
   int max_evaluations;     /* 500 */
@@ -66,15 +68,37 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
                                            const double* K, const double* L, const double* S,
                                            const snapspace_basis* basis, int* error);
 
-/* The elastic energy as a sum over few tets (cubature), of St.Venant-Kirchhoff material. rows (tets
- * x 9 x dimension) make displacement gradients of coordinates, entry 3 a + b of the second is d u_a
- * / d x_b; weights (tets) are the volumes that the tets stand for. */
+/* What tets are made of. Moduli are energies per volume, none of them negative. */
+typedef struct snapspace_material {
+  const char* kind;     /* name of the density, such as "stable-neo-hookean" */
+  int count;            /* rows of moduli: 1, the same in all tets, or one per tet */
+  const double* moduli; /* count x number of the density's moduli, in its order */
+} snapspace_material;
+
+/* Number of a density's moduli, or SNAPSPACE_UNKNOWN_MATERIAL. */
+int snapspace_moduli(const char* kind);
+
+/* Name of a modulus, from 0; null if there is none. */
+const char* snapspace_modulus_name(const char* kind, int modulus);
+
+/* The unit of energy of a body of tets with these volumes, for snapspace_options. */
+int snapspace_value_scale(const snapspace_material* material, int tets, const double* volumes,
+                          double* value_scale);
+
+/* The elastic energy as a sum over few tets (cubature). rows (tets x 9 x dimension) make
+ * displacement gradients of coordinates, entry 3 a + b of the second is d u_a / d x_b; weights
+ * (tets) are the volumes that the tets stand for. */
 typedef struct snapspace_cubature {
   int tets;
   const float* rows;
   const double* weights;
-  double lam, mu;
+  snapspace_material material;
 } snapspace_cubature;
+
+/* Rows of a cubature: of modes in some tets. points (tets x 4 x 3) are their corners at rest, none
+ * without volume, and modes (tets x 4 x 3 x dimension) the displacements there. */
+int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
+                                float* rows);
 
 /* A posing session with a cubature instead of a quartic: copies its arrays, too. Its solves are
  * fastest with SNAPSPACE_BFGS, which goes on with the inverse Hessian of the last frame. */
@@ -117,6 +141,34 @@ int snapspace_set_q(snapspace_session* session, const double* q);
 
 /* The present shape, x0 y0 z0 x1 ... (3 vertices). */
 int snapspace_get_vertices(const snapspace_session* session, double* vertices);
+
+/* The tets around some sampled vertices of the body. Their corners are numbered from 0; all arrays
+ * of corners are in that order. */
+typedef struct snapspace_probe {
+  int corners;
+  int tets;
+  int rests; /* 1, or the number of poses of a blending session */
+  int samples;
+  int pins;                    /* sampled corners that handles hold; 0 for blending */
+  const double* tau;           /* corners x 3 */
+  const double* modes;         /* dimension x 3 corners */
+  const double* rest_shapes;   /* rests x corners x 3, no tet without volume */
+  const int* tet_corners;      /* tets x 4 */
+  snapspace_material material; /* of these tets */
+  const int* sampled;          /* samples */
+  const double* weights;       /* samples, what the squares of residuals there count */
+  const int* pinned;           /* pins */
+  const int* pin_handles;      /* pins */
+  const double* pulls;         /* pins, twice the weights of their springs */
+  const double* arms;          /* pins x 3, from the centroid of the handle at rest */
+} snapspace_probe;
+
+/* Gives a session what snapspace_residual needs. Copies all arrays; takes memory. */
+int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe);
+
+/* sqrt(sum_v weight_v |g_v|^2) over the sampled vertices v, with the gradient g of the full
+ * objective at the present shape, for what is set. SNAPSPACE_WRONG_KIND before a probe is set. */
+int snapspace_residual(snapspace_session* session, double* residual);
 
 #ifdef __cplusplus
 }

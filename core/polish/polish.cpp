@@ -1,12 +1,11 @@
 #include "polish/polish.h"
 
-#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "polish/two_level_system.h"
-#include "snapshots/lbfgs.h"
+#include "polish/two_level.h"
+#include "snapshots/run_lanes.h"
 #include "threads/flush_denormals.h"
 
 namespace snapspace {
@@ -14,16 +13,18 @@ namespace snapspace {
 namespace {
 
 /// Hands one sample to a solver and keeps its solution.
-struct OneSample {
+struct OneSample final : SampleExchange {
   std::optional<Sample> waiting;
   bool finished = false;
   SolveReport report = {};
   std::vector<double> shape = {};
 
-  std::optional<Sample> take(int) { return std::exchange(waiting, std::nullopt); }
-  [[nodiscard]] bool exhausted() const { return !waiting.has_value(); }
-  void tell(int, int) const {}
-  void finish(int, const SolveReport& how, std::vector<double> solution) {
+  explicit OneSample(Sample sample) : waiting(std::move(sample)) {}
+
+  std::optional<Sample> take(int) override { return std::exchange(waiting, std::nullopt); }
+  [[nodiscard]] bool exhausted() const override { return !waiting.has_value(); }
+  void tell(int, int) override {}
+  void finish(int, SolveReport how, std::vector<double> solution) override {
     finished = true;
     report = how;
     shape = std::move(solution);
@@ -32,16 +33,16 @@ struct OneSample {
 
 }  // namespace
 
-template <class System>
-Solution polish(const System& system, const CoarseSpace& coarse, const Eigen::MatrixXf& inverse,
-                const Sample& sample, const SolveOptions& options, const SolveControl& control) {
+Solution polish(const SampleSystem& system, const CoarseSpace& coarse,
+                const Eigen::MatrixXf& inverse, const Sample& sample, const SolveOptions& options,
+                const SolveControl& control) {
   const FlushDenormals flush;
-  OneSample exchange{sample};
+  OneSample exchange(sample);
   system.numbering.to_internal(sample.start.data(), exchange.waiting->start.data());
   LowestShape lowest;
-  const TwoLevelSystem<System> two_level{system, coarse, inverse, lowest};
-  LaneLbfgs<TwoLevelSystem<System>, Lanes<2>>(two_level, options, options.threads)
-      .run(exchange, control);
+  // B has the right scale already: the seed is not scaled.
+  run_lanes(kLongMemory, on_two_levels(system.lanes(), coarse, inverse, lowest), 2, options,
+            options.threads, exchange, control);
 
   Solution result{sample.id, {}, sample.start};
   std::vector<double> internal = std::move(lowest.shape);
@@ -57,10 +58,5 @@ Solution polish(const System& system, const CoarseSpace& coarse, const Eigen::Ma
   system.numbering.to_external(internal.data(), result.shape.data());
   return result;
 }
-
-template Solution polish(const PosingSystem&, const CoarseSpace&, const Eigen::MatrixXf&,
-                         const Sample&, const SolveOptions&, const SolveControl&);
-template Solution polish(const InterpolationSystem&, const CoarseSpace&, const Eigen::MatrixXf&,
-                         const Sample&, const SolveOptions&, const SolveControl&);
 
 }  // namespace snapspace

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,11 +36,12 @@ int pair_column(int dimension, int i, int j) { return 1 + dimension + j * (j + 1
 /// Adds the rows of the tets from begin to end.
 void add_tets(const ElasticEnergy& energy, const VertexModes& modes, int dimension, int begin,
               int end, GramSum& gram) {
-  StrainRows strain(energy.material, modes, dimension);
+  StrainRows strain(modes, dimension);
+  const TetMaterial material = energy.material.view();
   for (int first = begin; first < end; first += kPanelTets) {
     const int count = std::min(kPanelTets, end - first);
     for (int t = 0; t < count; ++t) {
-      strain.fill(energy.rest.tets[first + t]);
+      strain.fill(energy.rest.tets[first + t], material.small_strains(first + t));
       for (int s = 0; s < 6; ++s) gram.set_row(6 * t + s, strain.row(s));
     }
     gram.add(6 * count);
@@ -70,6 +73,9 @@ std::size_t monomial(std::array<int, 4> index) {
 
 std::vector<double> quartic_coefficients(const ElasticEnergy& energy, const double* modes,
                                          int dimension, int threads) {
+  if (energy.material.view().kind != material_index(StVK::kName))
+    throw std::invalid_argument("the energy is no polynomial of degree four: it is that of " +
+                                std::string(energy.material.name()));
   const int columns = 1 + dimension + static_cast<int>(online::pair_count(dimension));
   const GramSum gram = gram_matrix(energy, modes, dimension, columns, threads);
   // Factors (i, j) of x = (1, q) that each column of A stands for.

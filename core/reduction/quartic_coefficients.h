@@ -14,6 +14,7 @@ namespace snapspace {
 /// multiply-adds for m tets. Every entry is summed in the same order for any number of threads.
 ///
 /// @param modes    (d + 1) x 3n row-major, displacements from rest: the offset, then the basis
+/// @throws std::invalid_argument  for a material other than St.Venant-Kirchhoff
 /// @param threads  0: as many as the machine has
 [[nodiscard]] std::vector<double> quartic_coefficients(const ElasticEnergy& energy,
                                                        const double* modes, int dimension,

@@ -7,24 +7,21 @@
 
 namespace snapspace {
 
-StrainRows::StrainRows(const StVK& material, const VertexModes& modes, int dimension)
+StrainRows::StrainRows(const VertexModes& modes, int dimension)
     : modes_(modes),
       dimension_(dimension),
       packs_(modes.packs()),
       columns_(1 + dimension + static_cast<int>(online::pair_count(dimension))),
       stride_(static_cast<std::size_t>(columns_) + kWideLanes),
-      shear_(std::sqrt(2.0 * material.mu)),
-      diagonal_(std::sqrt(material.mu)),
-      trace_((std::sqrt(material.mu + 1.5 * material.lam) - diagonal_) / 3.0),
       gradients_(9 * packs_),
       rows_(6 * stride_) {}
 
-void StrainRows::fill(const RestTet& tet) {
+void StrainRows::fill(const RestTet& tet, const Lame& lame) {
   static constexpr int kRow[6] = {0, 1, 2, 0, 0, 1};
   static constexpr int kColumn[6] = {0, 1, 2, 1, 2, 2};
   fill_gradients(tet);
   for (int s = 0; s < 6; ++s) fill_strain(kRow[s], kColumn[s], &rows_[s * stride_]);
-  scale(std::sqrt(tet.volume));
+  scale(tet.volume, lame);
 }
 
 void StrainRows::fill_gradients(const RestTet& tet) {
@@ -74,9 +71,12 @@ void StrainRows::fill_strain(int a, int b, double* row) const {
   }
 }
 
-void StrainRows::scale(double root_volume) {
-  const double diagonal = root_volume * diagonal_;
-  const double trace = root_volume * trace_, shear = root_volume * shear_;
+/// By the square root of the density: strains E become rows shear * E_rc and diagonal * E_rr +
+/// trace
+/// * tr(E), whose squares add up to volume * (mu |E|^2 + lam/2 tr(E)^2).
+void StrainRows::scale(double volume, const Lame& lame) {
+  const double diagonal = std::sqrt(volume * lame.mu), shear = std::sqrt(2.0 * volume * lame.mu);
+  const double trace = (std::sqrt(volume * (lame.mu + 1.5 * lame.lam)) - diagonal) / 3.0;
   double* __restrict xx = rows_.data();
   double* __restrict yy = xx + stride_;
   double* __restrict zz = yy + stride_;

@@ -2,29 +2,31 @@
 #include <cstddef>
 #include <vector>
 
-#include "energy/elastic_energy.h"
+#include "element/rest_tet.h"
+#include "material/lame.h"
 #include "reduction/vertex_modes.h"
 
 namespace snapspace {
 
-/// The six rows of A for a tet: its strain, a quadratic function of q, with coefficients for 1, the
-/// q_i, and the q_i q_j with i <= j, by j. Squares of the rows add up to the energy of the tet.
+/// The six rows of A for a tet of St.Venant-Kirchhoff material: its strain, a quadratic function of
+/// q, with coefficients for 1, the q_i, and the q_i q_j with i <= j, by j. Squares of the rows add
+/// up to the energy of the tet.
 class StrainRows {
  public:
-  StrainRows(const StVK& material, const VertexModes& modes, int dimension);
+  StrainRows(const VertexModes& modes, int dimension);
 
   [[nodiscard]] int columns() const { return columns_; }
 
   /// Row s of the tet, s < 6: columns() numbers, until the next call.
   const double* row(int s) const { return &rows_[s * stride_]; }
-  void fill(const RestTet& tet);
+  void fill(const RestTet& tet, const Lame& lame);
 
  private:
   using Wide = Lanes<kWideLanes>;
 
   void fill_gradients(const RestTet& tet);
   void fill_strain(int a, int b, double* row) const;
-  void scale(double root_volume);
+  void scale(double volume, const Lame& lame);
 
   /// Entry (r, c) of the displacement gradients of all modes.
   [[nodiscard]] const Wide* gradient(int r, int c) const {
@@ -37,9 +39,6 @@ class StrainRows {
   const VertexModes& modes_;
   int dimension_, packs_, columns_;
   std::size_t stride_;  // with room for a pack behind the columns
-  // the square root of the density: strains E become rows shear * E_rc and
-  // diagonal * E_rr + trace * tr(E), whose squares add up to mu |E|^2 + lam/2 tr(E)^2
-  double shear_, diagonal_, trace_;
   std::vector<Wide> gradients_;
   std::vector<double> rows_;
 };

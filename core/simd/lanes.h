@@ -76,7 +76,10 @@ struct alignas(Width * sizeof(T)) Pack {
   friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
   friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
   friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+  friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
   friend Pack operator-(Pack a) { return Pack(-a.v); }
+  /// Not zero in the lanes where a < b.
+  friend Pack is_less(Pack a, Pack b) { return Pack(a.v < b.v ? Vector{} + T(1) : Vector{}); }
   /// a where the mask's lane is not zero, else b. Never a product: the unused side may be NaN.
   friend Pack select(Pack mask, Pack a, Pack b) { return Pack(mask.v != T(0) ? a.v : b.v); }
 #else
@@ -100,7 +103,13 @@ struct alignas(Width * sizeof(T)) Pack {
   friend Pack operator*(const Pack& a, const Pack& b) {
     return zip(a, b, [](T x, T y) { return x * y; });
   }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return zip(a, b, [](T x, T y) { return x / y; });
+  }
   friend Pack operator-(const Pack& a) { return Pack(T(0)) - a; }
+  friend Pack is_less(const Pack& a, const Pack& b) {
+    return zip(a, b, [](T x, T y) { return x < y ? T(1) : T(0); });
+  }
   friend Pack select(const Pack& mask, const Pack& a, const Pack& b) {
     Pack r;
     for (int i = 0; i < Width; ++i) r.v[i] = mask.v[i] != T(0) ? a.v[i] : b.v[i];
@@ -127,7 +136,9 @@ struct alignas(Width * sizeof(T)) Pack<T, Width> {
   friend Pack operator+(Pack a, Pack b) { return {a.low + b.low, a.high + b.high}; }
   friend Pack operator-(Pack a, Pack b) { return {a.low - b.low, a.high - b.high}; }
   friend Pack operator*(Pack a, Pack b) { return {a.low * b.low, a.high * b.high}; }
+  friend Pack operator/(Pack a, Pack b) { return {a.low / b.low, a.high / b.high}; }
   friend Pack operator-(Pack a) { return {-a.low, -a.high}; }
+  friend Pack is_less(Pack a, Pack b) { return {is_less(a.low, b.low), is_less(a.high, b.high)}; }
   friend Pack select(Pack mask, Pack a, Pack b) {
     return {select(mask.low, a.low, b.low), select(mask.high, a.high, b.high)};
   }
@@ -210,6 +221,8 @@ inline Pack<T, Width> rounded(Pack<T, Width> product) {
     return product;
   }
 }
+
+inline double rounded(double product) { return product; }
 
 /// What a lane holds; a number is a pack of one.
 template <class Real>

@@ -1,13 +1,13 @@
 #include "snapshots/find_soft_modes.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "dense/symmetric_pencil.h"
 #include "multigrid/pseudo_random.h"
 #include "snapshots/mode_block.h"
 #include "threads/flush_denormals.h"
@@ -22,12 +22,13 @@ constexpr int kBlock = ModeBlock::kColumns;
 static_assert(kBlock == 2 * SoftModes::kCount);
 constexpr int kMostSteps = 40;
 /// Change of the sum of the wanted eigenvalues in a step that ends the search, as a share.
-constexpr double kEnough = 0.06;
+constexpr double kConverged = 0.06;
 /// Solutions are bent and stretched, and stiffer along the modes than the rest shape: by 8 to 60 in
 /// the mean on the Dragon. With too small a factor directions overshoot; beyond 40 little changes.
 constexpr double kStiffening = 40.0;
+/// Least root of a pivot of columns that are not dependent; products are of 1e-6.
+constexpr double kDependent = 1e-2;
 
-using Small = ModeBlock::Small;
 using Pack = ModeBlock::Pack;
 
 /// Shapes with what A and H make of them, 3n blocks each.
@@ -47,33 +48,36 @@ struct Span {
 
 constexpr int kSpan = 3 * kBlock;
 
-/// Gram matrices of a span with A and H, of which only the lower triangles are used.
+/// Gram matrices of a span with A and H, lower triangles only.
 struct Gram {
-  Small scalar = Small::Zero(kSpan, kSpan), hessian = Small::Zero(kSpan, kSpan);
+  SquareMatrix scalar{kSpan}, hessian{kSpan};
 };
 
 /// Two blocks of a span, the later one first.
 using BlockPair = std::array<int, 2>;
 using BlockPairs = std::vector<BlockPair>;
 
-/// Their products in one of the Gram matrices.
-auto products_of(const BlockPair& pair, Small& all) {
-  return all.block(pair[0] * kBlock, pair[1] * kBlock, kBlock, kBlock);
-}
-
-/// The part of some entries. All products of a chunk of entries find them in a cache.
+/// The products of these pairs, over some entries. All products of a chunk of entries find them in
+/// a cache.
 Gram partial_gram(const Span& span, const BlockPairs& pairs, std::size_t begin, std::size_t end) {
   constexpr std::size_t kChunk = 128;
   Gram gram;
   for (; begin < end; begin += kChunk) {
     const std::size_t stop = std::min(end, begin + kChunk);
-    for (const BlockPair& pair : pairs) {
-      const Columns &a = span[pair[0]], &b = span[pair[1]];
-      a.shapes.add_products(b.scalar, begin, stop, products_of(pair, gram.scalar));
-      a.shapes.add_products(b.forces, begin, stop, products_of(pair, gram.hessian));
+    for (const auto& [i, j] : pairs) {
+      const Columns &a = span[i], &b = span[j];
+      a.shapes.add_products(b.scalar, begin, stop, gram.scalar, i * kBlock, j * kBlock);
+      a.shapes.add_products(b.forces, begin, stop, gram.hessian, i * kBlock, j * kBlock);
     }
   }
   return gram;
+}
+
+/// The block of a pair of `to` becomes that of `from`, or the sum of both.
+void take_block(const BlockPair& pair, const SquareMatrix& from, bool add, SquareMatrix& to) {
+  for (int c = pair[1] * kBlock; c < (pair[1] + 1) * kBlock; ++c)
+    for (int r = pair[0] * kBlock; r < (pair[0] + 1) * kBlock; ++r)
+      to(r, c) = add ? to(r, c) + from(r, c) : from(r, c);
 }
 
 /// Measures the products of these pairs of blocks; the others stay.
@@ -82,49 +86,23 @@ void measure(const Span& span, const BlockPairs& pairs, Gram& gram) {
   for_parts(span.x.shapes.size(), [&](int part, std::size_t begin, std::size_t end) {
     parts[part] = partial_gram(span, pairs, begin, end);
   });
-  for (const BlockPair& pair : pairs) {
-    auto scalar = products_of(pair, gram.scalar), hessian = products_of(pair, gram.hessian);
-    scalar.setZero();
-    hessian.setZero();
-    for (Gram& part : parts) {
-      scalar += products_of(pair, part.scalar);
-      hessian += products_of(pair, part.hessian);
+  for (const BlockPair& pair : pairs)
+    for (int part = 0; part < kModeParts; ++part) {
+      take_block(pair, parts[part].scalar, part > 0, gram.scalar);
+      take_block(pair, parts[part].hessian, part > 0, gram.hessian);
     }
-  }
 }
 
-/// Of x and past, when they have become combinations of the span: products need not be measured
-/// again, which is half of them.
-Gram combined(const Gram& gram, const Small& coefficients) {
-  Small both = Small::Zero(kSpan, kSpan);
-  both.leftCols(kBlock) = coefficients;
-  both.bottomRightCorner(2 * kBlock, kBlock) = coefficients.bottomRows(2 * kBlock);
-  const auto of = [&](const Small& all) -> Small {
-    return both.transpose() * (all.selfadjointView<Eigen::Lower>() * both);
-  };
-  return {of(gram.scalar), of(gram.hessian)};
-}
-
-/// The lowest kBlock pairs of the pencil (H, A) on a span.
-struct Ritz {
-  Small coefficients;  // (columns of the span) x kBlock, A-orthonormal
-  Eigen::VectorXd values;
-};
-
-/// On the first columns of a span. Nothing if these are dependent to the precision of their
-/// products.
-std::optional<Ritz> rayleigh_ritz(const Gram& gram, int columns) {
-  const Eigen::VectorXd lengths = gram.scalar.diagonal().head(columns).cwiseSqrt();
-  if (!(lengths.minCoeff() > 0.0)) return std::nullopt;
-  const auto inverse = lengths.cwiseInverse().asDiagonal();
-  const Small scalar = inverse * gram.scalar.topLeftCorner(columns, columns) * inverse;
-  const Small hessian = inverse * gram.hessian.topLeftCorner(columns, columns) * inverse;
-  const Eigen::LLT<Small> factor(scalar);  // of lower triangles, as everything here
-  constexpr double kDependent = 1e-2;      // least root of a pivot; products are of 1e-6
-  if (factor.info() != Eigen::Success || factor.matrixLLT().diagonal().minCoeff() < kDependent)
-    return std::nullopt;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Small> solver(hessian, scalar);
-  return Ritz{inverse * solver.eigenvectors().leftCols(kBlock), solver.eigenvalues().head(kBlock)};
+/// The Gram matrices when x and past have become combinations of the span: products need not be
+/// measured again, which is half of them.
+Gram combined(const Gram& gram, const std::vector<double>& coefficients) {
+  // x has the coefficients, the next block none, and past those without the first block
+  std::vector<double> both(std::size_t(kSpan) * kSpan, 0.0);
+  std::copy(coefficients.begin(), coefficients.end(), both.begin());
+  for (int c = 0; c < kBlock; ++c)
+    for (int r = kBlock; r < kSpan; ++r)
+      both[(2 * kBlock + c) * kSpan + r] = coefficients[c * kSpan + r];
+  return {congruent(gram.scalar, both), congruent(gram.hessian, both)};
 }
 
 void fill_at_random(ModeBlock& block) {
@@ -156,7 +134,7 @@ void precondition(const PosingSystem& system, Columns& columns, std::vector<Scra
 }
 
 /// fresh.scalar = the residual of the pairs in x
-void set_residuals(const Columns& x, const Eigen::VectorXd& values, Columns& fresh) {
+void set_residuals(const Columns& x, const std::vector<double>& values, Columns& fresh) {
   for (int p = 0; p < ModeBlock::kPacks; ++p) {
     Pack shifts;
     for (int k = 0; k < ModeBlock::kLanes; ++k)
@@ -167,7 +145,7 @@ void set_residuals(const Columns& x, const Eigen::VectorXd& values, Columns& fre
   }
 }
 
-SoftModes soft_modes(const Columns& columns, const Eigen::VectorXd& values) {
+SoftModes soft_modes(const Columns& columns, const std::vector<double>& values) {
   StreamedVector<float> modes(columns.shapes.size() * SoftModes::kCount);
   for (std::size_t i = 0; i < columns.shapes.size(); ++i)
     for (int k = 0; k < SoftModes::kCount; ++k)
@@ -187,17 +165,18 @@ SoftModes find_soft_modes(const PosingSystem& system) {
   std::vector<Scratch> scratch(ModeBlock::kPacks);
   fill_at_random(x.scalar);
   precondition(system, x, scratch);
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(kBlock);
+  std::vector<double> values(kBlock, 0.0);
   Gram gram;
   const auto improve = [&](int columns) {
-    const std::optional<Ritz> ritz = rayleigh_ritz(gram, columns);
-    if (!ritz) return false;
-    Small coefficients = Small::Zero(kSpan, kBlock);
-    coefficients.topRows(columns) = ritz->coefficients;
+    const PencilPairs lowest = lowest_pairs(gram.hessian, gram.scalar, columns, kBlock, kDependent);
+    if (lowest.values.empty()) return false;
+    std::vector<double> coefficients(std::size_t(kSpan) * kBlock, 0.0);
+    for (int c = 0; c < kBlock; ++c)
+      std::copy_n(&lowest.coefficients[c * columns], columns, &coefficients[c * kSpan]);
     x.shapes.combine(coefficients, fresh.shapes, past.shapes);
     x.scalar.combine(coefficients, fresh.scalar, past.scalar);
     x.forces.combine(coefficients, fresh.forces, past.forces);
-    values = ritz->values;
+    values = lowest.values;
     gram = combined(gram, coefficients);
     return true;
   };
@@ -209,8 +188,8 @@ SoftModes find_soft_modes(const PosingSystem& system) {
     precondition(system, fresh, scratch);
     measure(span, {{1, 0}, {1, 1}, {2, 1}}, gram);
     if (!(step > 0 && improve(kSpan)) && !improve(2 * kBlock)) break;
-    const double sum = values.head(SoftModes::kCount).sum();
-    if (step > 0 && before - sum <= kEnough * sum) break;
+    const double sum = std::accumulate(values.begin(), values.begin() + SoftModes::kCount, 0.0);
+    if (step > 0 && before - sum <= kConverged * sum) break;
     before = sum;
   }
   return soft_modes(x, values);

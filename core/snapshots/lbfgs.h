@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -18,41 +19,34 @@
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
 #include "snapshots/lane.h"
+#include "snapshots/lane_objective.h"
 #include "snapshots/lbfgs_vectors.h"
-#include "snapshots/sample_queue.h"
+#include "snapshots/sample_exchange.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
-/// @tparam System  has kMemory, and an Objective<Real> with size(), negligible(),
-///                 load(lane, input), value_and_gradient(u, g, visitor) (see mesh/sweep.h), and
-///                 precondition(v, result), which returns v . result
-/// @tparam Real    a pack, in the precision of shapes and gradients; values and inner products are
-///                 in double precision anyway
-template <class System, class Real>
+/// @tparam Real  a pack, in the precision of shapes and gradients; values and inner products are in
+///               double precision anyway
+template <LbfgsMemory memory, class Real>
 class LaneLbfgs {
  public:
   static constexpr int kWidth = Real::kWidth;
 
   /// @param threads  that the objective may use for itself
-  LaneLbfgs(const System& system, const SolveOptions& options, int threads)
-      : system_(system),
+  LaneLbfgs(const LaneObjectives& objectives, const SolveOptions& options, int threads)
+      : objectives_(objectives),
         options_(options),
         threads_(threads),
-        objective_(system, threads),
-        size_(objective_.size()),
-        vectors_(system.masses()),
+        objective_(objectives.objective<Real>(threads)),
+        size_(objective_->size()),
+        vectors_(objectives.masses()),
         trial_(size_, Real(0)),
         gradient_(size_, Real(0)),
         work_(std::is_same_v<Single, Real> ? 0 : size_, 0.0f) {}
 
   /// Solves samples until there are no more.
-  ///
-  /// @param exchange  has take(held) -> the next Sample, if any, for one who works on `held`
-  ///                  samples; exhausted(): no more come; tell(id, evaluations); and
-  ///                  finish(id, report, shape)
-  template <class Exchange>
-  void run(Exchange& exchange, const SolveControl& control) {
+  void run(SampleExchange& exchange, const SolveControl& control) {
     while (const int busy = fill(exchange)) {
       if constexpr (kWidth > 2)
         if (2 * busy <= kWidth && exchange.exhausted()) {
@@ -72,26 +66,26 @@ class LaneLbfgs {
   }
 
  private:
-  template <class, class>
+  template <LbfgsMemory, class>
   friend class LaneLbfgs;
   /// Half as wide: for the last samples, when half of the lanes would be empty. What it computes
   /// has the same bits.
-  using Half = LaneLbfgs<System, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
+  using Half = LaneLbfgs<memory, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
-  static constexpr int kPairs = System::kMemory.pairs;
+  static constexpr int kPairs = memory.pairs;
   /// Relative error of a value: sums of many terms of the precision's rounding each.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
-  using Pairs = PairProducts<System::kMemory>;
-  using Vectors = LbfgsVectors<Real, System::kMemory>;
+  using Pairs = PairProducts<memory>;
+  using Vectors = LbfgsVectors<Real, memory>;
   using Products = typename Vectors::Products;
   using Outcome = typename Vectors::Outcome;
   using Verdict = Lane::Verdict;
 
   /// Takes over the samples of a wider pack that has at most kWidth.
   template <class Wide>
-  explicit LaneLbfgs(Wide& from) : LaneLbfgs(from.system_, from.options_, from.threads_) {
+  explicit LaneLbfgs(Wide& from) : LaneLbfgs(from.objectives_, from.options_, from.threads_) {
     std::vector<int> lanes;
     for (int lane = 0; lane < Wide::kWidth; ++lane)
       if (from.lanes_[lane].busy()) lanes.push_back(lane);
@@ -100,15 +94,14 @@ class LaneLbfgs {
       const int there = lanes[lane];
       lanes_[lane] = std::exchange(from.lanes_[there], {});
       steps_.set(lane, from.steps_[there]);
-      objective_.load(lane, lanes_[lane].sample->input.data());
+      objective_->load(lane, lanes_[lane].sample->input.data());
       pairs_[lane] = from.pairs_[there];
       for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][there]);
     }
   }
 
   /// Gives samples to the empty lanes; how many are busy then.
-  template <class Exchange>
-  int fill(Exchange& exchange) {
+  int fill(SampleExchange& exchange) {
     int busy = static_cast<int>(
         std::count_if(lanes_, lanes_ + kWidth, [](const Lane& lane) { return lane.busy(); }));
     for (int lane = 0; lane < kWidth && busy < kWidth; ++lane) {
@@ -126,9 +119,8 @@ class LaneLbfgs {
     return verdicts_[lane] == Verdict::refused ? vectors_.at(lane, i) : trial_[i][lane];
   }
 
-  template <class Exchange>
-  void hand_over(int lane, Exchange& exchange) {
-    std::vector<double>& shape = lanes_[lane].sample->start;  // of which nobody knows any more
+  void hand_over(int lane, SampleExchange& exchange) {
+    std::vector<double>& shape = lanes_[lane].sample->start;  // which nobody needs any more
     for (int i = 0; i < size_; ++i) shape[i] = at(lane, i);
     exchange.finish(lanes_[lane].id(), lanes_[lane].report(), std::move(shape));
     lanes_[lane].sample.reset();
@@ -142,7 +134,7 @@ class LaneLbfgs {
     lane.begin = std::chrono::steady_clock::now();
     verdicts_[index] = Verdict::refused;
     pairs_[index].forget();
-    objective_.load(index, sample.input.data());
+    objective_->load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
       vectors_.place(index, i, sample.start[i]);
       if (!pending_) set_lane(trial_[i], index, sample.start[i]);  // otherwise the next pass does
@@ -155,10 +147,10 @@ class LaneLbfgs {
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
     Pass pass(*this);
-    const Total value = objective_.value_and_gradient(trial_.data(), gradient_.data(), pass);
+    const Total value = objective_->value_and_gradient(trial_.data(), gradient_.data(), pass);
     const Products& products = pass.products;
     if (control.cancelled) return false;
-    const Total itself = objective_.precondition(single_gradient(), single_gradient());
+    const Total itself = objective_->precondition(single_gradient(), single_gradient());
     if (control.cancelled) return false;
     for (int lane = 0; lane < kWidth; ++lane) {
       verdicts_[lane] =
@@ -175,7 +167,7 @@ class LaneLbfgs {
 
   /// What a step does with the vectors, while the objective passes by: first what the step before
   /// has decided, and when a gradient is complete its products.
-  struct Pass {
+  struct Pass final : SweepVisitor {
     LaneLbfgs& solver;
     Outcome outcome;
     Products products;
@@ -189,12 +181,12 @@ class LaneLbfgs {
       if (!solver.pending_) return;
       outcome = solver.decided();
     }
-    void before(int begin, int end) {
+    void before(int begin, int end) override {
       if (solver.pending_)
         solver.vectors_.combine(begin, end, outcome, solver.single_gradient(),
                                 solver.trial_.data());
     }
-    void after(int begin, int end) {
+    void after(int begin, int end) override {
       solver.vectors_.add_products(begin, end, solver.trial_.data(), solver.gradient_.data(),
                                    shrink, solver.single_gradient(), products);
     }
@@ -263,7 +255,7 @@ class LaneLbfgs {
     Lane& lane = lanes_[index];
     lane.slope = slope;
     if (slope > 0.0) return restart(index);
-    if (lane.converged(options_.tolerance, objective_.negligible()) ||
+    if (lane.converged(options_.tolerance, objective_->negligible()) ||
         lane.settled(options_.settling))
       return lane.finish(SolveStatus::converged);
     if (lane.iterations >= options_.max_iterations) lane.finish(SolveStatus::max_iterations);
@@ -278,10 +270,10 @@ class LaneLbfgs {
     lanes_[index].fresh = true;
   }
 
-  const System& system_;
+  const LaneObjectives& objectives_;
   SolveOptions options_;
   int threads_;
-  typename System::template Objective<Real> objective_;
+  std::unique_ptr<LaneObjective<Real>> objective_;
   int size_;
   Vectors vectors_;
   Pairs pairs_[kWidth];

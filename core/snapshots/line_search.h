@@ -30,4 +30,27 @@ inline double shorter_step(double value0, double slope0, double step, double val
   return std::clamp(next, 0.1 * step, 0.5 * step);
 }
 
+/// What a line search finds at a step.
+struct LineTrial {
+  double value;
+  double slope;  ///< along the direction
+};
+
+/// Tries the whole step, and shorter ones until one decreases enough; whether one did.
+///
+/// @param trial            trial(step) evaluates there; the last call is that of the accepted step
+/// @param after_infinite   share of a step that is tried after one without a finite value
+template <class Trial>
+bool search_line(double value0, double slope0, int max_shortenings, double after_infinite,
+                 Trial&& trial) {
+  double step = 1.0;
+  for (int shortening = 0; shortening <= max_shortenings; ++shortening) {
+    const LineTrial found = trial(step);
+    if (sufficient_decrease(value0, slope0, step, found.value, found.slope)) return true;
+    step = std::isfinite(found.value) ? shorter_step(value0, slope0, step, found.value, found.slope)
+                                      : after_infinite * step;
+  }
+  return false;
+}
+
 }  // namespace snapspace

@@ -3,7 +3,7 @@
 namespace snapspace {
 
 void ModeBlock::add_products(const ModeBlock& other, std::size_t begin, std::size_t end,
-                             Eigen::Ref<Small> all) const {
+                             SquareMatrix& all, int row, int column) const {
   for (int p = 0; p < kPacks; ++p)
     for (int q = 0; q < kPacks; ++q) {
       const auto* lefts = reinterpret_cast<const float*>(pack(p));
@@ -17,15 +17,17 @@ void ModeBlock::add_products(const ModeBlock& other, std::size_t begin, std::siz
         for (int k = 0; k < kLanes; ++k) sums[k] += Pack(lefts[i * kLanes + k]) * right;
       }
       for (int k = 0; k < kLanes; ++k)
-        for (int j = 0; j < kLanes; ++j) all(p * kLanes + k, q * kLanes + j) += sums[k][j];
+        for (int j = 0; j < kLanes; ++j)
+          all(row + p * kLanes + k, column + q * kLanes + j) += sums[k][j];
     }
 }
 
-void ModeBlock::combine(const Small& coefficients, const ModeBlock& fresh, ModeBlock& past) {
+void ModeBlock::combine(const std::vector<double>& coefficients, const ModeBlock& fresh,
+                        ModeBlock& past) {
   Pack rows[3 * kColumns][kPacks];
   for (int k = 0; k < 3 * kColumns; ++k)
     for (int j = 0; j < kColumns; ++j)
-      set_lane(rows[k][j / kLanes], j % kLanes, coefficients(k, j));
+      set_lane(rows[k][j / kLanes], j % kLanes, coefficients[j * 3 * kColumns + k]);
   const auto add = [&](const ModeBlock& block, int first, std::size_t i, Pack* sums) {
     for (int p = 0; p < kPacks; ++p) {
       const auto* entries = reinterpret_cast<const float*>(block.pack(p) + i);

@@ -1,8 +1,8 @@
 #pragma once
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
+#include "dense/symmetric_pencil.h"
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
 #include "threads/parallel.h"
@@ -17,7 +17,6 @@ class ModeBlock {
   static constexpr int kLanes = kWideLanes < 4 ? 2 * kWideLanes : 8;
   static constexpr int kPacks = kColumns / kLanes;
   using Pack = SingleLanes<kLanes>;
-  using Small = Eigen::MatrixXd;
 
   explicit ModeBlock(std::size_t size) : packs_(kPacks, StreamedVector<Pack>(size, Pack(0))) {}
 
@@ -29,14 +28,14 @@ class ModeBlock {
     set_lane(packs_[k / kLanes][i], k % kLanes, value);
   }
 
-  /// sums += this^T other of the entries from begin to before end, in single precision: for a few
-  /// hundred entries.
-  void add_products(const ModeBlock& other, std::size_t begin, std::size_t end,
-                    Eigen::Ref<Small> sums) const;
+  /// The block of `all` from (row, column) on += this^T other of the entries from begin to before
+  /// end, in single precision: for a few hundred entries.
+  void add_products(const ModeBlock& other, std::size_t begin, std::size_t end, SquareMatrix& all,
+                    int row, int column) const;
 
-  /// With the coefficients (48 x 16) of three blocks: this becomes the combination of all, and
-  /// `past` that of the other two.
-  void combine(const Small& coefficients, const ModeBlock& fresh, ModeBlock& past);
+  /// With the coefficients (48 x 16, column by column) of three blocks: this becomes the
+  /// combination of all, and `past` that of the other two.
+  void combine(const std::vector<double>& coefficients, const ModeBlock& fresh, ModeBlock& past);
 
  private:
   std::vector<StreamedVector<Pack>> packs_;

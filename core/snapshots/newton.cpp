@@ -4,39 +4,36 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "snapshots/interpolation_system.h"
 #include "snapshots/line_search.h"
-#include "snapshots/posing_system.h"
 
 namespace snapspace {
 
 namespace {
 
-/// Relative decrement below which the minimum is near enough for the unclamped Hessian.
+/// Relative decrement below which the minimum is near enough for the Hessian itself.
 constexpr double kNearMinimum = 1e-2;
 
 }  // namespace
 
-template <class Objective>
-Newton<Objective>::Newton(Objective objective, const SolveOptions& options, double clamp)
-    : objective_(std::move(objective)),
+Newton::Newton(const SampleSystem& system, const SolveOptions& options,
+               const HessianOptions& hessian)
+    : system_(system),
       options_(options),
-      clamp_(clamp),
-      hessian_(objective_.hessian_pattern()),
-      conjugate_gradients_(objective_.size()) {
+      hessian_options_(hessian),
+      objective_(system.objective()),
+      hessian_(system.hessian_pattern()),
+      conjugate_gradients_(system.size()) {
   for (auto* v : {&u_, &gradient_, &direction_, &trial_, &trial_gradient_})
-    v->resize(objective_.size());
+    v->resize(system.size());
 }
 
-template <class Objective>
-SolveReport Newton<Objective>::solve(const Sample& sample, const SolveControl& control) {
+SolveReport Newton::solve(const Sample& sample, const SolveControl& control) {
   const auto begin = std::chrono::steady_clock::now();
   SolveReport report;
-  objective_.load(0, sample.input.data());
+  objective_->load(0, sample.input.data());
   u_ = sample.start;
-  report.value = objective_.value_and_gradient(u_.data(), gradient_.data());
+  report.value = value_and_gradient(u_, gradient_);
   report.evaluations = 1;
   double previous_decrement = std::numeric_limits<double>::infinity();
   while (!control.cancelled) {
@@ -44,11 +41,12 @@ SolveReport Newton<Objective>::solve(const Sample& sample, const SolveControl& c
       report.status = SolveStatus::not_finite;
       break;
     }
-    // Elements that stay below the clamping threshold at the minimum make the clamped Hessian a
-    // wrong one, with linear and often very slow convergence. Once the minimum is near, the Hessian
-    // itself is used.
-    const bool near = previous_decrement < kNearMinimum * std::abs(report.value);
-    objective_.assemble(u_.data(), near ? kUnclamped : clamp_, hessian_);
+    // Elements that are projected at the minimum make the projected Hessian a wrong one, with
+    // linear and often very slow convergence. Once the minimum is near, the Hessian itself is used.
+    HessianOptions options = hessian_options_;
+    if (previous_decrement < kNearMinimum * std::abs(report.value))
+      options.projection = Projection::none;
+    system_.assemble(sample.input.data(), u_.data(), options, hessian_);
     // Loose systems far from the minimum, tight ones near it (Eisenstat & Walker 1996): the
     // relative decrement of the last step tells which.
     const double scale = std::max(std::abs(report.value), 1e-300);
@@ -57,7 +55,7 @@ SolveReport Newton<Objective>::solve(const Sample& sample, const SolveControl& c
     const double slope = -find_direction(forcing, control);
     if (control.cancelled) break;  // the direction may be half done
     report.decrement = previous_decrement = -slope;
-    if (-slope <= std::max(options_.tolerance * std::abs(report.value), objective_.negligible())) {
+    if (-slope <= std::max(options_.tolerance * std::abs(report.value), objective_->negligible())) {
       report.status = SolveStatus::converged;
       break;
     }
@@ -77,38 +75,36 @@ SolveReport Newton<Objective>::solve(const Sample& sample, const SolveControl& c
 }
 
 /// Solves H d = -g as far as it pays; returns -g.d.
-template <class Objective>
-double Newton<Objective>::find_direction(double relative_residual, const SolveControl& control) {
+double Newton::find_direction(double relative_residual, const SolveControl& control) {
   constexpr int kMaxIterations = 1000;
   linear_iterations_ += conjugate_gradients_.solve(
       gradient_, relative_residual, kMaxIterations,
       [&](const double* v, double* product) { hessian_.multiply(v, product); },
-      [&](const double* v, double* result) { objective_.precondition(v, result); },
+      [&](const double* v, double* result) { objective_->precondition(v, result); },
       [&] { return control.cancelled.load(); }, direction_);
   return -dot(gradient_, direction_);
 }
 
-template <class Objective>
-bool Newton<Objective>::line_search(SolveReport& report, double slope) {
+bool Newton::line_search(SolveReport& report, double slope) {
   constexpr int kMaxShortenings = 30;
-  double step = 1.0;
-  for (int shortening = 0; shortening <= kMaxShortenings; ++shortening) {
+  LineTrial last;
+  const bool found = search_line(report.value, slope, kMaxShortenings, 0.1, [&](double step) {
     for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] + step * direction_[i];
-    const double value = objective_.value_and_gradient(trial_.data(), trial_gradient_.data());
-    const double trial_slope = dot(trial_gradient_, direction_);
     ++report.evaluations;
-    if (sufficient_decrease(report.value, slope, step, value, trial_slope)) {
-      u_.swap(trial_);
-      gradient_.swap(trial_gradient_);
-      report.value = value;
-      return true;
-    }
-    step = shorter_step(report.value, slope, step, value, trial_slope);
-  }
-  return false;
+    last.value = value_and_gradient(trial_, trial_gradient_);
+    last.slope = dot(trial_gradient_, direction_);
+    return last;
+  });
+  if (!found) return false;
+  u_.swap(trial_);
+  gradient_.swap(trial_gradient_);
+  report.value = last.value;
+  return true;
 }
 
-template class Newton<PosingObjective<double>>;
-template class Newton<InterpolationObjective<double>>;
+double Newton::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
+  SweepVisitor nobody;
+  return objective_->value_and_gradient(u.data(), gradient.data(), nobody);
+}
 
 }  // namespace snapspace

@@ -1,24 +1,20 @@
 #pragma once
+#include <memory>
 #include <vector>
 
-#include "energy/block_hessian.h"
 #include "snapshots/conjugate_gradients.h"
 #include "snapshots/sample_queue.h"
+#include "snapshots/sample_system.h"
 #include "snapshots/solve_report.h"
 
 namespace snapspace {
 
-/// The paper's snapshot solver (sec. 4.2): Newton's method with the Hessian assembled from elements
-/// at their clamped signed SVD, and a line search. The linear systems are solved by conjugate
-/// gradients on the objective's preconditioner.
-///
-/// @tparam Objective  of one lane; has what LaneLbfgs needs, hessian_pattern() and
-///                    assemble(u, clamp, hessian)
-template <class Objective>
+/// Newton's method with projected Hessians and a line search; with Projection::stretches the
+/// paper's snapshot solver (sec. 4.2). The linear systems are solved by conjugate gradients on the
+/// system's inverse.
 class Newton {
  public:
-  /// @param clamp  singular values are raised to at least this; the paper uses 0.5 to 0.8
-  Newton(Objective objective, const SolveOptions& options, double clamp);
+  Newton(const SampleSystem& system, const SolveOptions& options, const HessianOptions& hessian);
 
   /// Solves one sample; its shape is left in shape().
   SolveReport solve(const Sample& sample, const SolveControl& control);
@@ -30,9 +26,12 @@ class Newton {
   double find_direction(double relative_residual, const SolveControl& control);
   bool line_search(SolveReport& report, double slope);
 
-  Objective objective_;
+  double value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient);
+
+  const SampleSystem& system_;
   SolveOptions options_;
-  double clamp_;
+  HessianOptions hessian_options_;
+  std::unique_ptr<LaneObjective<double>> objective_;
   BlockHessian hessian_;
   ConjugateGradients conjugate_gradients_;
   long linear_iterations_ = 0;

@@ -11,14 +11,18 @@ struct LbfgsMemory {
   bool scaled;  ///< whether the newest pair scales the seed (Nocedal & Wright 2006, eq. 7.20)
 };
 
+/// For problems whose solves are short, and for others: see the systems.
+inline constexpr LbfgsMemory kShortMemory{.pairs = 1, .scaled = true};
+inline constexpr LbfgsMemory kLongMemory{.pairs = 2, .scaled = false};
+
 /// The recursion of L-BFGS of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
 ///
 /// The seed is a fixed inverse A^-1, or seed * A^-1 where it is scaled. With z = A^-1 g for the
 /// gradient at every point, and p_k = A^-1 y_k, the difference of two z, beside the step s_k, all
 /// that the two loops (Nocedal & Wright 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
 ///   direction = -seed z + sum_k (image[k] p_k + step[k] s_k).
-/// Which is why z and s_k are all that is kept, and one pass over them gives all products that are
-/// new. Pairs and vectors are numbered from the newest.
+/// Hence only z and s_k are stored, and one pass gives all new products. Pairs and vectors are
+/// numbered from the newest.
 template <LbfgsMemory memory>
 class PairProducts {
  public:

@@ -36,19 +36,19 @@ Column combined(const LinearResponse& response, const std::vector<Real>& coordin
 }
 
 /// How far the shape x is from the nearest one, as forces.
-void fill_residual(const PosingSystem& system, const Column& linear,
-                   const std::vector<Real>& targets, const Column& x, Column& residual) {
+void fill_residual(const PosingSystem& system, const std::vector<float>& stiffnesses,
+                   const Column& linear, const std::vector<Real>& targets, const Column& x,
+                   Column& residual) {
   std::fill(residual.begin(), residual.end(), Real(0));
-  const auto stiffness =
-      static_cast<float>(2.0 * system.energy.material.mu + system.energy.material.lam);
+  const float* stiffness = stiffnesses.data();
   for (const RestTetOf<float>& tet : system.energy.rest.single_tets) {
+    const Real weight(*stiffness++ * tet.volume);
     Real G[3][3], wanted[3][3];
     displacement_gradient(tet, linear.data(), G);
     rotation_strain(G, wanted);
     displacement_gradient(tet, x.data(), G);
     for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c)
-        wanted[r][c] = Real(stiffness * tet.volume) * (wanted[r][c] - G[r][c]);
+      for (int c = 0; c < 3; ++c) wanted[r][c] = weight * (wanted[r][c] - G[r][c]);
     scatter_stress(tet, wanted, residual.data());
   }
   for (std::size_t k = 0; k < system.pinned.size(); ++k)
@@ -65,6 +65,8 @@ void warp(const PosingSystem& system, const LinearResponse& response, const doub
           const double* inputs, int samples, double* displacements) {
   const std::size_t size = response.size();
   const int steps = system.inverse.kind() == InverseKind::cycle ? kCycles : 1;
+  const std::vector<double> wide = system.energy.stiffnesses();
+  const std::vector<float> stiffnesses(wide.begin(), wide.end());
   parallel_for((samples + kLanes - 1) / kLanes, 0, [&](int pack) {
     const FlushDenormals flush;
     const std::size_t first = std::size_t(pack) * kLanes;
@@ -76,7 +78,7 @@ void warp(const PosingSystem& system, const LinearResponse& response, const doub
     Column x(size, Real(0)), residual(size, Real(0));
     Scratch scratch;
     for (int step = 0; step < steps; ++step) {
-      fill_residual(system, linear, targets, x, residual);
+      fill_residual(system, stiffnesses, linear, targets, x, residual);
       system.inverse.apply(residual.data(), residual.data(), scratch);
       for (std::size_t i = 0; i < size; ++i) x[i] += residual[i];
     }

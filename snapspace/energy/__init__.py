@@ -1,6 +1,5 @@
-"""Elastic materials and energies."""
+"""Elastic energies."""
 
 from .elastic_energy import ElasticEnergy
-from .material import StVK
 
-__all__ = ["ElasticEnergy", "StVK"]
+__all__ = ["ElasticEnergy"]

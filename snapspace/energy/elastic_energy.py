@@ -8,21 +8,27 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
-from .. import _core as core
+from .. import _core
+from ..material import Material
 from ..mesh import TetMesh
-from .material import StVK
 
 FloatArray = NDArray[np.float64]
 
 
 class ElasticEnergy:
-    """St.Venant-Kirchhoff energy of a mesh: the sum over tets of volume * density.
+    """Elastic energy of a mesh: the sum over tets of volume * density.
 
     Parameters
     ----------
     mesh : TetMesh
         The rest shape.
-    material : StVK
+    material : Material
+        With the same moduli everywhere, or those of every tet.
+
+    Raises
+    ------
+    ValueError
+        If the material has moduli for another number of tets.
 
     Notes
     -----
@@ -30,15 +36,15 @@ class ElasticEnergy:
     ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.
     """
 
-    def __init__(self, mesh: TetMesh, material: StVK) -> None:
+    def __init__(self, mesh: TetMesh, material: Material) -> None:
+        material.check_tets(len(mesh.tets), "ElasticEnergy")
         self.mesh = mesh
         self.material = material
 
     @cached_property
-    def core(self) -> core.ElasticEnergy:
+    def core(self) -> _core.ElasticEnergy:
         """The compiled energy; it takes displacements."""
-        mesh, material = self.mesh, self.material
-        return core.ElasticEnergy(mesh.vertices, mesh.tets, material.lam, material.mu)
+        return _core.ElasticEnergy(self.mesh.vertices, self.mesh.tets, self.material.core)
 
     def value(self, x: ArrayLike) -> float:
         """Energy at x."""
@@ -63,12 +69,33 @@ class ElasticEnergy:
         """Hessian with every tet at its signed singular values clamped to at least `threshold`.
 
         The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian`
-        where no singular value is below the threshold; positive semi-definite at threshold 1.
+        where no singular value is below the threshold; for St.Venant-Kirchhoff positive
+        semi-definite at threshold 1.
         """
         if not 0 < threshold <= 1:
             raise ValueError(f"clamped_hessian: threshold is {threshold}, but must be in (0, 1]")
-        blocks = self.core.clamped_hessian_blocks(self._displacement(x), threshold)
-        return self._matrix(*blocks)
+        return self._projected(x, _core.Projection.stretches, threshold)
+
+    def projected_hessian(self, x: ArrayLike, *, projection: str = "clamp") -> csr_array:
+        """Hessian with that of every tet made positive semi-definite, (3n, 3n) sparse symmetric.
+
+        Parameters
+        ----------
+        x : array_like, (3n,) or (n, 3)
+        projection : "clamp" or "absolute", default "clamp"
+            Negative eigenvalues of a tet's Hessian become zero (Teran, Sifakis, Irving, Fedkiw
+            2005), or change their sign (Chen et al. 2024).
+
+        Raises
+        ------
+        ValueError
+            For another projection.
+        """
+        if projection not in ("clamp", "absolute"):
+            raise ValueError(
+                f"projected_hessian: unknown projection '{projection}'; known are clamp, absolute"
+            )
+        return self._projected(x, _core.Projection[projection], 0.0)
 
     def inverted_tets(self, x: ArrayLike) -> int:
         """Number of tets with det F <= 0 at x."""
@@ -83,6 +110,12 @@ class ElasticEnergy:
                 f"{len(self.mesh.vertices)} vertices, which need {rest.size}"
             )
         return positions - rest
+
+    def _projected(self, x: ArrayLike, projection: _core.Projection, threshold: float) -> csr_array:
+        blocks = self.core.hessian_blocks(
+            self._displacement(x), projection=projection, threshold=threshold
+        )
+        return self._matrix(*blocks)
 
     def _matrix(
         self, row_start: NDArray[np.int32], columns: NDArray[np.int32], blocks: FloatArray

@@ -1,0 +1,80 @@
+#include <utility>
+#include <vector>
+
+#include "bindings/arrays.h"
+#include "snapshots/interpolation_system.h"
+#include "snapshots/posing_system.h"
+
+namespace snapspace {
+
+namespace {
+
+LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatrixIn& tets) {
+  require(tets.shape(1) == 4, "tets must be (m, 4)");
+  const auto n = static_cast<std::int32_t>(count);
+  require_below(tets, count, "a tet has a vertex index out of range");
+  return {vertices, n, tets.data(), static_cast<int>(tets.shape(0))};
+}
+
+}  // namespace
+
+void bind_systems(nb::module_& m) {
+  nb::class_<PosingSystem, System> posing(
+      m, "PosingSystem",
+      "What all samples of a posing problem share, with its scalar "
+      "factor. Inputs are displacements of the pinned vertices.");
+  posing.def(
+      "__init__",
+      [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, const MaterialField& material,
+         IndexVectorIn pinned, VectorIn weights, InverseKind inverse) {
+        require(vertices.shape(1) == 3, "vertices must be (n, 3)");
+        require(pinned.size() == weights.size(), "one weight per pinned vertex is needed");
+        const auto n = static_cast<std::int32_t>(vertices.shape(0));
+        for (std::size_t i = 0; i < pinned.size(); ++i)
+          require(pinned.data()[i] >= 0 && pinned.data()[i] < n, "a pinned vertex is out of range");
+        const nb::gil_scoped_release release;
+        const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
+        new (self) PosingSystem(mesh, material, {pinned.data(), pinned.data() + pinned.size()},
+                                {weights.data(), weights.data() + weights.size()}, inverse);
+      },
+      nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("material"),
+      nb::arg("pinned").noconvert(), nb::arg("weights"), nb::kw_only(),
+      nb::arg("inverse") = InverseKind::automatic);
+
+  nb::class_<InterpolationSystem, System> interpolation(
+      m, "InterpolationSystem",
+      "What all samples of an interpolation problem share, with its scalar factor. Inputs are the "
+      "weights; displacements are from pose 0.");
+  interpolation.def(
+      "__init__",
+      [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets,
+         const MaterialField& material) {
+        require(poses.shape(0) >= 1 && poses.shape(2) == 3, "poses must be (k, n, 3)");
+        const nb::gil_scoped_release release;
+        const LocalMesh mesh = local_mesh(poses.data(), poses.shape(1), tets);
+        const Numbering numbering(mesh.order);
+        const std::size_t size = 3 * poses.shape(1);
+        std::vector<double> renumbered(poses.size());
+        for (std::size_t k = 0; k < poses.shape(0); ++k)
+          numbering.to_internal(poses.data() + k * size, renumbered.data() + k * size);
+        new (self)
+            InterpolationSystem(mesh, renumbered, static_cast<int>(poses.shape(0)), material);
+      },
+      nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("material"));
+  interpolation.def(
+      "adapted",
+      [](const InterpolationSystem& self, MatrixIn shapes) {
+        require(shapes.shape(0) >= 1 && shapes.shape(1) == static_cast<std::size_t>(self.size()),
+                "shapes must be (k, 3n)");
+        std::vector<double> renumbered(shapes.size());
+        for (std::size_t k = 0; k < shapes.shape(0); ++k)
+          self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
+                                     renumbered.data() + k * shapes.shape(1));
+        nb::gil_scoped_release release;
+        return self.adapted(renumbered, static_cast<int>(shapes.shape(0)));
+      },
+      nb::arg("shapes"),
+      "The same problem with an inverse for solutions near displacements (k, 3n).");
+}
+
+}  // namespace snapspace

@@ -1,0 +1,30 @@
+#pragma once
+#include <vector>
+
+namespace snapspace {
+
+/// A square matrix, column by column.
+struct SquareMatrix {
+  int size = 0;
+  std::vector<double> entries;
+
+  explicit SquareMatrix(int n = 0) : size(n), entries(static_cast<std::size_t>(n) * n, 0.0) {}
+  double& operator()(int row, int column) { return entries[row + column * std::size_t(size)]; }
+  double operator()(int row, int column) const { return entries[row + column * std::size_t(size)]; }
+};
+
+/// The lowest pairs of a symmetric pencil (H, A): H c = value A c.
+struct PencilPairs {
+  std::vector<double> values;        ///< ascending; empty where A is not positive definite
+  std::vector<double> coefficients;  ///< (columns of the pencil) x pairs, A-orthonormal
+};
+
+/// On the leading `columns` rows and columns, of the lower triangles. No pairs if these columns are
+/// dependent: if A, scaled to a unit diagonal, has a root of a pivot below `least_pivot`.
+[[nodiscard]] PencilPairs lowest_pairs(const SquareMatrix& hessian, const SquareMatrix& scalar,
+                                       int columns, int pairs, double least_pivot);
+
+/// B^T M B of a symmetric M, given by its lower triangle; B has as many rows as M.
+[[nodiscard]] SquareMatrix congruent(const SquareMatrix& M, const std::vector<double>& B);
+
+}  // namespace snapspace

@@ -1,0 +1,85 @@
+#include "energy/elastic_energy.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include "material/principal_hessian.h"
+
+namespace snapspace {
+
+ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
+    : rest(std::move(shape)), material(std::move(field)), negligible_(0.0) {
+  if (!material.fits(rest.tets.size()))
+    throw std::invalid_argument("the material has moduli for another number of tets");
+  const TetMaterial view = material.view();
+  const int count = material_moduli(view.kind);
+  moduli_.resize(rest.tets.size() * count);
+  lame_.resize(2 * rest.tets.size());
+  for (int t = 0; t < tets(); ++t) {
+    const double volume = rest.tets[t].volume;
+    for (int k = 0; k < count; ++k) moduli_[t * std::size_t(count) + k] = volume * view.of(t)[k];
+    const Lame lame = view.small_strains(t);
+    lame_[2 * t] = volume * lame.lam;
+    lame_[2 * t + 1] = volume * lame.mu;
+    negligible_ += 1e-24 * volume * lame.mu;
+  }
+  single_moduli_.assign(moduli_.begin(), moduli_.end());
+}
+
+double ElasticEnergy::value_and_gradient(const double* u, double* gradient,
+                                         SweepVisitor& visitor) const {
+  using Narrow = Lanes<2>;
+  const std::size_t size = 3 * static_cast<std::size_t>(rest.vertex_count);
+  visitor.before(0, rest.vertex_count);
+  std::vector<Narrow> shape(u, u + size), forces(size);
+  const double value = value_and_gradient(shape.data(), forces.data())[0];
+  for (std::size_t i = 0; i < size; ++i) gradient[i] = forces[i][0];
+  visitor.after(0, rest.vertex_count);
+  return value;
+}
+
+void ElasticEnergy::hessian_product(const double* u, const double* v, double* product) const {
+  std::fill_n(product, 3 * rest.vertex_count, 0.0);
+  const TetMaterial view = material.view();
+  for (int t = 0; t < tets(); ++t) {
+    const RestTet& tet = rest.tets[t];
+    double G[3][3], dF[3][3], dP[3][3];
+    displacement_gradient(tet, u, G);
+    displacement_gradient(tet, v, dF);
+    PrincipalHessian(view, t, G).multiply(dF, dP);
+    for (auto& row : dP)
+      for (double& entry : row) entry *= tet.volume;
+    scatter_stress(tet, dP, product);
+  }
+}
+
+void ElasticEnergy::tet_stresses(const double* u, double* stresses, double* energies) const {
+  const TetMaterial view = material.view();
+  const int count = material_moduli(view.kind);
+  Densities::with(view.kind, [&]<class Density>() {
+    for (int t = 0; t < tets(); ++t) {
+      double G[3][3], P[3][3];
+      displacement_gradient(rest.tets[t], u, G);
+      *energies++ = Density::value_and_stress(&moduli_[t * std::size_t(count)], G, P);
+      for (const auto& row : P)
+        for (const double entry : row) *stresses++ = entry;
+    }
+  });
+}
+
+std::vector<double> ElasticEnergy::stiffnesses() const {
+  std::vector<double> result(rest.tets.size());
+  for (int t = 0; t < tets(); ++t) result[t] = material.view().small_strains(t).stiffness();
+  return result;
+}
+
+int ElasticEnergy::inverted_tets(const double* u) const {
+  return static_cast<int>(
+      std::count_if(rest.tets.begin(), rest.tets.end(), [&](const RestTet& tet) {
+        double G[3][3];
+        displacement_gradient(tet, u, G);
+        return VolumeChange<double>(G).determinant <= -1.0;
+      }));
+}
+
+}  // namespace snapspace

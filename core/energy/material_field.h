@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "material/tet_material.h"
+
+namespace snapspace {
+
+/// The material of a mesh, with arrays of its own: one row of moduli for all tets, or one per tet.
+class MaterialField {
+ public:
+  /// @param moduli  rows x material_moduli(kind)
+  /// @throws std::invalid_argument  for a name that is no density's, or other sizes
+  MaterialField(const char* name, std::vector<double> moduli, int rows)
+      : kind_(material_index(name)), rows_(rows), moduli_(std::move(moduli)) {
+    if (kind_ < 0) throw std::invalid_argument("unknown material '" + std::string(name) + "'");
+    if (rows < 1 || moduli_.size() != static_cast<std::size_t>(rows) * material_moduli(kind_))
+      throw std::invalid_argument("moduli must be (1 or tets, " +
+                                  std::to_string(material_moduli(kind_)) + ")");
+  }
+
+  [[nodiscard]] TetMaterial view() const { return {kind_, rows_, moduli_.data()}; }
+  [[nodiscard]] int rows() const { return rows_; }
+  [[nodiscard]] const char* name() const { return material_name(kind_); }
+  [[nodiscard]] bool fits(std::size_t tets) const {
+    return rows_ == 1 || static_cast<std::size_t>(rows_) == tets;
+  }
+
+  /// The material of the same tets in another order: of tet order[i] at i.
+  /// @throws std::invalid_argument  if it is of another number of tets
+  [[nodiscard]] MaterialField reordered(const std::vector<std::int32_t>& order) const {
+    if (!fits(order.size()))
+      throw std::invalid_argument("the material has moduli for another number of tets");
+    if (rows_ == 1) return *this;
+    MaterialField result = *this;
+    const int count = material_moduli(kind_);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (int k = 0; k < count; ++k)
+        result.moduli_[i * count + k] = moduli_[static_cast<std::size_t>(order[i]) * count + k];
+    return result;
+  }
+
+ private:
+  int kind_, rows_;
+  std::vector<double> moduli_;
+};
+
+}  // namespace snapspace

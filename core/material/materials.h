@@ -1,0 +1,70 @@
+#pragma once
+#include <cstring>
+
+#include "material/arap.h"
+#include "material/corotational.h"
+#include "material/stable_neo_hookean.h"
+#include "material/stvk.h"
+#include "material/symmetric_dirichlet.h"
+
+namespace snapspace {
+
+/// The densities, and the only switch over them.
+///
+/// A density has a name, names of its moduli, and three functions:
+///   small_strains(moduli)              its Lame parameters at rest
+///   value_and_stress(moduli, G, P)     psi and the first Piola-Kirchhoff stress at the
+///   displacement
+///                                      gradient G = F - I, for a number or a pack
+///   curvature(moduli, s)               PrincipalCurvature at signed singular values
+/// It is isotropic, stress-free at rest and linear in its moduli: moduli times a volume give the
+/// energy of that volume.
+template <class... Density>
+struct DensityList {
+  static constexpr int kCount = sizeof...(Density);
+
+  /// act.template operator()<Density>() of the density at an index.
+  template <class Act>
+  static auto with(int index, Act&& act) {
+    return choose<Act, Density...>(index, act);
+  }
+
+ private:
+  template <class Act, class First, class... Others>
+  static auto choose(int index, Act& act) {
+    if constexpr (sizeof...(Others) > 0)
+      if (index > 0) return choose<Act, Others...>(index - 1, act);
+    return act.template operator()<First>();
+  }
+};
+
+using Densities = DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet>;
+
+/// The most moduli that a density may have.
+inline constexpr int kMostModuli = 4;
+
+inline const char* material_name(int index) {
+  return Densities::with(index, []<class Density>() { return Density::kName; });
+}
+
+/// Number of a density's moduli.
+inline int material_moduli(int index) {
+  return Densities::with(index, []<class Density>() {
+    static_assert(Density::kModuli <= kMostModuli);
+    return Density::kModuli;
+  });
+}
+
+inline const char* modulus_name(int index, int modulus) {
+  return Densities::with(index,
+                         [modulus]<class Density>() { return Density::kModulusNames[modulus]; });
+}
+
+/// Index of the density with this name; -1 if there is none.
+inline int material_index(const char* name) {
+  for (int index = 0; index < Densities::kCount; ++index)
+    if (std::strcmp(name, material_name(index)) == 0) return index;
+  return -1;
+}
+
+}  // namespace snapspace

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+#include "element/make_rest_tet.h"
+
+namespace snapspace::online {
+
+/// Displacement gradients of modes in some tets: entry 3 a + b of the second index of `rows` is d
+/// u_a / d x_b. Differences of nodal values come first: sums over all four corners would lose
+/// digits on slivers.
+/// @param points  tets x 4 x 3, the corners at rest; no tet without volume
+/// @param modes  tets x 4 x 3 x dimension, displacements of the corners
+/// @param rows  tets x 9 x dimension, overwritten
+inline void displacement_rows(int tets, int dimension, const double* points, const double* modes,
+                              float* rows) {
+  constexpr std::int32_t kCorners[4] = {0, 1, 2, 3};
+  const auto d = static_cast<std::size_t>(dimension);
+  for (int t = 0; t < tets; ++t, points += 12, modes += 12 * d) {
+    const RestTet tet = make_rest_tet(points, kCorners);
+    for (int entry = 0; entry < 9; ++entry, rows += d) {
+      const int a = entry / 3, b = entry % 3;
+      const double* origin = modes + a * d;
+      const double g1 = tet.inverse_edges[0][b], g2 = tet.inverse_edges[1][b],
+                   g3 = tet.inverse_edges[2][b];
+      for (std::size_t i = 0; i < d; ++i) {
+        const double u0 = origin[i];
+        rows[i] = static_cast<float>((origin[3 * d + i] - u0) * g1 + (origin[6 * d + i] - u0) * g2 +
+                                     (origin[9 * d + i] - u0) * g3);
+      }
+    }
+  }
+}
+
+}  // namespace snapspace::online

@@ -1,0 +1,84 @@
+#include "online/residual_probe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "element/make_rest_tet.h"
+#include "element/tet.h"
+#include "online/reconstruct.h"
+
+namespace snapspace::online {
+
+ResidualProbe::ResidualProbe(const ProbeBody& body, const ProbeSample& sample,
+                             const ProbePins& pins)
+    : dimension_(body.dimension),
+      corners_(body.corners),
+      rests_(body.rests),
+      kind_(body.material.kind),
+      moduli_per_tet_(body.material.rows == 1 ? 0 : material_moduli(kind_)),
+      sampled_(sample.corners, sample.corners + sample.count),
+      pinned_(pins.corners, pins.corners + pins.count),
+      handles_(pins.handles, pins.handles + pins.count),
+      sample_weights_(sample.weights, sample.weights + sample.count),
+      pulls_(pins.pulls, pins.pulls + pins.count),
+      arms_(pins.arms, pins.arms + 3 * static_cast<std::size_t>(pins.count)) {
+  const std::size_t size = 3 * static_cast<std::size_t>(corners_);
+  tau_.assign(body.tau, body.tau + size);
+  modes_.assign(body.modes, body.modes + dimension_ * size);
+  rest_shapes_.assign(body.rest_shapes, body.rest_shapes + rests_ * size);
+  const std::size_t moduli = static_cast<std::size_t>(body.material.rows) * material_moduli(kind_);
+  moduli_.assign(body.material.moduli, body.material.moduli + moduli);
+  tets_.reserve(static_cast<std::size_t>(rests_) * body.tets);
+  for (int k = 0; k < rests_; ++k)
+    for (int t = 0; t < body.tets; ++t)
+      tets_.push_back(make_rest_tet(rest_shapes_.data() + k * size, body.tet_corners + 4 * t));
+  for (auto* numbers : {&shape_, &displacement_, &gradient_}) numbers->resize(size);
+}
+
+double ResidualProbe::norm(const double* q, int dimension, const double* offsets,
+                           const double* weights) {
+  reconstruct(shape_.size(), dimension, tau_.data(), modes_.data(), q, shape_.data());
+  std::fill(gradient_.begin(), gradient_.end(), 0.0);
+  const std::size_t tets = tets_.size() / rests_;
+  for (int k = 0; k < rests_; ++k)
+    add_elastic(rest_shapes_.data() + k * shape_.size(), tets_.data() + k * tets,
+                weights ? weights[k] : 1.0);
+  if (offsets) add_pins(offsets);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < sampled_.size(); ++i) {
+    const double* g = gradient_.data() + 3 * sampled_[i];
+    sum += sample_weights_[i] * (g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+  }
+  return std::sqrt(sum);
+}
+
+void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, double weight) {
+  for (std::size_t i = 0; i < shape_.size(); ++i) displacement_[i] = shape_[i] - rest_shape[i];
+  Densities::with(kind_, [&]<class Density>() {
+    const double* moduli = moduli_.data();
+    const RestTet* const end = tets + tets_.size() / rests_;
+    for (const RestTet* tet = tets; tet != end; ++tet, moduli += moduli_per_tet_) {
+      double weighted[Density::kModuli], G[3][3], P[3][3];
+      for (int i = 0; i < Density::kModuli; ++i) weighted[i] = weight * tet->volume * moduli[i];
+      displacement_gradient(*tet, displacement_.data(), G);
+      Density::value_and_stress(weighted, G, P);
+      scatter_stress(*tet, P, gradient_.data());
+    }
+  });
+}
+
+void ResidualProbe::add_pins(const double* offsets) {
+  for (std::size_t i = 0; i < pinned_.size(); ++i) {
+    const double* arm = arms_.data() + 3 * i;
+    const std::size_t at = 3 * static_cast<std::size_t>(pinned_[i]);
+    for (int a = 0; a < 3; ++a) {
+      const double* row = offsets + 12 * static_cast<std::size_t>(handles_[i]) + 4 * a;
+      const double wanted = row[0] * arm[0] + row[1] * arm[1] + row[2] * arm[2] + row[3];
+      // displacement_ is that from the only shape at rest: poses are not pinned
+      gradient_[at + a] += pulls_[i] * (displacement_[at + a] - wanted);
+    }
+  }
+}
+
+}  // namespace snapspace::online

@@ -1,0 +1,78 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "material/tet_material.h"
+#include "online/blending_solver.h"
+#include "online/cubature.h"
+#include "online/posing_solver.h"
+#include "online/quartic.h"
+#include "online/residual_probe.h"
+#include "online/snapspace_online.h"
+
+/// One of the three solvers, with its coordinates, and what it is told to solve for.
+struct snapspace_session {
+  using Posing = snapspace::online::PosingSolver<snapspace::online::Quartic>;
+  using PosingCubature = snapspace::online::PosingSolver<snapspace::online::Cubature>;
+  using Blending = snapspace::online::BlendingSolver;
+
+  std::unique_ptr<Posing> posing;
+  std::unique_ptr<PosingCubature> cubature;
+  std::unique_ptr<Blending> blending;
+  std::unique_ptr<snapspace::online::ResidualProbe> probe;
+  snapspace_basis basis;
+  std::vector<double> q;         // as many as the model has
+  std::vector<double> gradient;  // as many; of a value that is asked for
+  std::vector<double> state;     // offsets of the handles, or weights of the poses
+
+  void take(std::unique_ptr<Posing> solver) {
+    state.assign(12 * static_cast<std::size_t>(solver->handles()), 0.0);
+    posing = std::move(solver);
+  }
+  void take(std::unique_ptr<PosingCubature> solver) {
+    state.assign(12 * static_cast<std::size_t>(solver->handles()), 0.0);
+    cubature = std::move(solver);
+  }
+  void take(std::unique_ptr<Blending> solver) {
+    state.assign(solver->poses(), 1.0 / solver->poses());
+    blending = std::move(solver);
+  }
+
+  /// What `act` returns for the solver that is there.
+  template <class Act>
+  auto with_solver(Act act) const {
+    if (posing) return act(*posing);
+    if (cubature) return act(*cubature);
+    return act(*blending);
+  }
+  [[nodiscard]] int dimension() const {
+    return with_solver([](const auto& solver) { return solver.dimension(); });
+  }
+};
+
+namespace snapspace::online {
+
+inline bool all_finite(const double* numbers, std::size_t count) {
+  return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
+}
+
+/// Reads a material for so many tets.
+/// @returns SNAPSPACE_OK or an error, and then `result` is as it was
+inline int read_material(const snapspace_material& given, int tets, TetMaterial& result) {
+  if (!given.kind) return SNAPSPACE_BAD_ARGUMENT;
+  const int kind = material_index(given.kind);
+  if (kind < 0) return SNAPSPACE_UNKNOWN_MATERIAL;
+  if (!given.moduli || (given.count != 1 && given.count != tets)) return SNAPSPACE_BAD_ARGUMENT;
+  const std::size_t size = static_cast<std::size_t>(given.count) * material_moduli(kind);
+  if (!all_finite(given.moduli, size)) return SNAPSPACE_NOT_FINITE;
+  if (std::any_of(given.moduli, given.moduli + size, [](double x) { return x < 0.0; }))
+    return SNAPSPACE_BAD_ARGUMENT;
+  result = {kind, given.count, given.moduli};
+  return SNAPSPACE_OK;
+}
+
+}  // namespace snapspace::online

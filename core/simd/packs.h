@@ -1,0 +1,32 @@
+#pragma once
+#include "simd/lanes.h"
+
+/// X(pack) for all packs of samples that this build solves with. What is a template over packs, and
+/// long, is defined in a source file and instantiated there for these: others only declare it.
+#define SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<2>) X(SingleLanes<4>) X(Lanes<2>)
+#if defined(__AVX512F__)
+#define SNAPSPACE_LANE_PACKS(X) \
+  SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<8>) X(SingleLanes<16>) X(Lanes<4>) X(Lanes<8>)
+#elif defined(__AVX__)
+#define SNAPSPACE_LANE_PACKS(X) SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<8>) X(Lanes<4>)
+#else
+#define SNAPSPACE_LANE_PACKS(X) SNAPSPACE_NARROW_PACKS(X)
+#endif
+/// The same, and the number.
+#define SNAPSPACE_PACKS(X) SNAPSPACE_LANE_PACKS(X) X(double)
+
+namespace snapspace {
+
+template <class... Real>
+struct PackList {};
+
+#define SNAPSPACE_LISTED(Real) , Real
+template <class Nothing, class... Real>
+struct Listed {
+  using Packs = PackList<Real...>;
+};
+/// All of SNAPSPACE_LANE_PACKS as a type.
+using LanePacks = Listed<void SNAPSPACE_LANE_PACKS(SNAPSPACE_LISTED)>::Packs;
+#undef SNAPSPACE_LISTED
+
+}  // namespace snapspace

@@ -1,0 +1,129 @@
+#include "snapshots/interpolation_system.h"
+
+#include <utility>
+
+#include "energy/scalar_hessian.h"
+#include "threads/flush_denormals.h"
+#include "threads/parallel.h"
+
+namespace snapspace {
+
+namespace {
+
+Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
+                                          const std::vector<double>& shapes, int count) {
+  ScalarHessian hessian(energy.energy(0).rest);
+  const int size = energy.size();
+  std::vector<double> shifted(size);
+  for (int shape = 0; shape < count; ++shape)
+    for (int k = 0; k < energy.poses(); ++k) {
+      const double* u = shapes.data() + static_cast<std::size_t>(shape) * size;
+      for (int i = 0; i < size; ++i) shifted[i] = u[i] + energy.offset(k)[i];
+      hessian.add(energy.energy(k), shifted.data(), 1.0 / (count * energy.poses()));
+    }
+  Eigen::SparseMatrix<double> A = hessian.matrix();
+  A.coeffRef(0, 0) *= 2.0;
+  return A;
+}
+
+/// The objective; see InterpolationSystem.
+template <class Real>
+class InterpolationObjective final : public LaneObjective<Real> {
+ public:
+  using Single = typename LaneObjective<Real>::Single;
+
+  /// @param threads  that it may use for itself
+  InterpolationObjective(const InterpolationSystem& system, int threads)
+      : system_(system),
+        threads_(threads),
+        weights_(system.input_size(), Real(0.0)),
+        second_half_(system.size(), Real(0.0)) {}
+
+  [[nodiscard]] int size() const override { return system_.size(); }
+  [[nodiscard]] double negligible() const override {
+    return system_.energy->energy(0).negligible();
+  }
+
+  void load(int lane, const double* weights) override {
+    for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
+  }
+
+  /// Few samples are a pack or two, which would leave threads idle: the tets are visited in two
+  /// halves, whatever the number of threads and the width of the pack, because sums of other parts
+  /// would round differently.
+  Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) override {
+    visitor.before(0, size() / 3);
+    const int tets = system_.energy->tets();
+    Sum<Real> values[2];
+    parallel_for(2, threads_, [&](int half) {
+      const FlushDenormals flush;  // as on the caller's thread
+      values[half] = system_.energy->value_and_gradient(
+          weights_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
+          half == 0 ? tets / 2 : tets);
+    });
+    for (int i = 0; i < size(); ++i) gradient[i] += second_half_[i];
+    visitor.after(0, size() / 3);
+    return values[0] + values[1];
+  }
+
+  Sum<Single> precondition(const Single* vector, Single* result) override {
+    return system_.inverse.apply(vector, result, scratch_);
+  }
+
+ private:
+  const InterpolationSystem& system_;
+  int threads_;
+  std::vector<Real> weights_;
+  std::vector<Real> second_half_;  // of the gradient
+  Scratch scratch_;
+};
+
+}  // namespace
+
+InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vector<double>& poses,
+                                         int count, const MaterialField& material)
+    : InterpolationSystem(
+          Numbering(mesh.order),
+          std::make_shared<BlendedEnergy>(poses.data(), count, static_cast<int>(mesh.order.size()),
+                                          mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4),
+                                          material.reordered(mesh.tet_order))) {}
+
+InterpolationSystem::InterpolationSystem(Numbering numbers,
+                                         std::shared_ptr<const BlendedEnergy> blended)
+    : InterpolationSystem(
+          std::move(numbers), blended,
+          ScalarInverse(scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1))) {}
+
+InterpolationSystem::InterpolationSystem(Numbering numbers,
+                                         std::shared_ptr<const BlendedEnergy> blended,
+                                         ScalarInverse scalar)
+    : SampleSystem(std::move(numbers), std::move(scalar)), energy(std::move(blended)) {}
+
+InterpolationSystem InterpolationSystem::adapted(const std::vector<double>& shapes,
+                                                 int count) const {
+  return {numbering, energy, inverse.of(scalar_matrix(*energy, shapes, count))};
+}
+
+LaneObjectives InterpolationSystem::lanes() const {
+  return {energy->energy(0).rest.lumped_shares(), [this]<class Real>(int threads) {
+            return std::make_unique<InterpolationObjective<Real>>(*this, threads);
+          }};
+}
+
+std::unique_ptr<LaneObjective<double>> InterpolationSystem::objective() const {
+  return std::make_unique<InterpolationObjective<double>>(*this, 1);
+}
+
+void InterpolationSystem::assemble(const double* weights, const double* u,
+                                   const HessianOptions& options, BlockHessian& hessian) const {
+  hessian.clear();
+  std::vector<double> shifted(size());
+  for (int k = 0; k < energy->poses(); ++k) {
+    const std::vector<double>& offset = energy->offset(k);
+    for (int i = 0; i < size(); ++i) shifted[i] = u[i] + offset[i];
+    hessian.add(energy->energy(k), shifted.data(), options.projection, options.threshold,
+                weights[k]);
+  }
+}
+
+}  // namespace snapspace

@@ -1,0 +1,83 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "mesh/sweep.h"
+#include "simd/lanes.h"
+#include "simd/packs.h"
+
+namespace snapspace {
+
+/// The pack of the same samples in single precision, in which they are preconditioned; a number
+/// stays as it is.
+template <class Real>
+struct SinglePackOf {
+  using type = Real;
+};
+template <class T, int Width>
+struct SinglePackOf<Pack<T, Width>> {
+  using type = SingleLanes<Width>;
+};
+
+/// The objective of the samples that are in the lanes now: all that L-BFGS knows of a problem. Real
+/// is a pack, in the precision of shapes and gradients, or double for a single sample.
+template <class Real>
+class LaneObjective {
+ public:
+  using Single = typename SinglePackOf<Real>::type;
+
+  virtual ~LaneObjective() = default;
+
+  [[nodiscard]] virtual int size() const = 0;
+  /// A decrease below this is none.
+  [[nodiscard]] virtual double negligible() const = 0;
+  /// The lane takes the input of a sample (input_size() numbers of the system).
+  virtual void load(int lane, const double* input) = 0;
+  /// F at u (3n); its gradient overwrites `gradient`, and the visitor sees it whole.
+  virtual Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) = 0;
+  /// result = the seed of the inverse Hessian times vector, both 3n; they may be the same array.
+  /// Returns vector . result.
+  virtual Sum<Single> precondition(const Single* vector, Single* result) = 0;
+};
+
+/// Makes the objectives of one system for packs of every width: solvers get narrower towards the
+/// end of their work.
+class LaneObjectives {
+ public:
+  template <class Real>
+  using Maker = std::function<std::unique_ptr<LaneObjective<Real>>(int threads)>;
+
+  /// @param masses  of the vertices, where lengths of displacements are compared
+  /// @param make    make.template operator()<Real>(threads) is a new LaneObjective<Real>; threads
+  ///                are those that it may use for itself
+  template <class Make>
+  LaneObjectives(std::vector<float> masses, const Make& make)
+      : masses_(std::move(masses)), makers_(makers(make, LanePacks())) {}
+
+  [[nodiscard]] const std::vector<float>& masses() const { return masses_; }
+
+  template <class Real>
+  [[nodiscard]] std::unique_ptr<LaneObjective<Real>> objective(int threads) const {
+    return std::get<Maker<Real>>(makers_)(threads);
+  }
+
+ private:
+  template <class... Real>
+  static std::tuple<Maker<Real>...> tuple_of(PackList<Real...>);
+  using Makers = decltype(tuple_of(LanePacks()));
+
+  template <class Make, class... Real>
+  static Makers makers(const Make& make, PackList<Real...>) {
+    return {[make](int threads) -> std::unique_ptr<LaneObjective<Real>> {
+      return make.template operator()<Real>(threads);
+    }...};
+  }
+
+  std::vector<float> masses_;
+  Makers makers_;
+};
+
+}  // namespace snapspace

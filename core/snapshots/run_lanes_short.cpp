@@ -1,0 +1,8 @@
+#include "snapshots/run_lanes_of.h"
+
+namespace snapspace {
+
+template void run_lanes<kShortMemory>(const LaneObjectives&, int, const SolveOptions&, int,
+                                      SampleExchange&, const SolveControl&);
+
+}  // namespace snapspace

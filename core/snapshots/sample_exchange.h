@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "snapshots/sample_queue.h"
+#include "snapshots/solve_report.h"
+
+namespace snapspace {
+
+/// Where a solver gets its samples, and hands over what became of them; shapes are in the internal
+/// numbering.
+class SampleExchange {
+ public:
+  virtual ~SampleExchange() = default;
+  /// The next sample, if any, for a solver that works on `held` samples.
+  [[nodiscard]] virtual std::optional<Sample> take(int held) = 0;
+  /// Whether no more come.
+  [[nodiscard]] virtual bool exhausted() const = 0;
+  /// How many evaluations a sample has had so far.
+  virtual void tell(int id, int evaluations) = 0;
+  virtual void finish(int id, SolveReport report, std::vector<double> shape) = 0;
+};
+
+}  // namespace snapspace

@@ -1,0 +1,52 @@
+#pragma once
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "energy/block_hessian.h"
+#include "snapshots/lane_objective.h"
+#include "snapshots/numbering.h"
+#include "snapshots/pair_products.h"
+#include "snapshots/scalar_inverse.h"
+
+namespace snapspace {
+
+/// How Newton's method assembles Hessians.
+struct HessianOptions {
+  Projection projection = Projection::clamp;
+  double threshold = 0.65;  ///< of Projection::stretches; the paper uses 0.5 to 0.8
+};
+
+/// What all samples of a problem share. Only the inputs differ from sample to sample, and one
+/// inverse preconditions them all. Shapes are displacements (3n) in the internal numbering.
+class SampleSystem {
+ public:
+  Numbering numbering;
+  ScalarInverse inverse;  ///< of a scalar matrix near the Hessian
+
+  virtual ~SampleSystem() = default;
+  SampleSystem(const SampleSystem&) = default;
+  SampleSystem(SampleSystem&&) = default;
+
+  [[nodiscard]] virtual int size() const = 0;
+  /// Numbers that a sample is given by.
+  [[nodiscard]] virtual int input_size() const = 0;
+  /// Tets with another orientation than in the rest shape, or the first pose.
+  [[nodiscard]] virtual int inverted_tets(const double* u) const = 0;
+  /// What L-BFGS keeps of its way.
+  [[nodiscard]] virtual LbfgsMemory memory() const = 0;
+  /// Objectives for L-BFGS; they refer to this system.
+  [[nodiscard]] virtual LaneObjectives lanes() const = 0;
+  /// The objective of a single sample.
+  [[nodiscard]] virtual std::unique_ptr<LaneObjective<double>> objective() const = 0;
+  [[nodiscard]] virtual BlockHessian hessian_pattern() const = 0;
+  /// The Hessian at u of the sample with this input.
+  virtual void assemble(const double* input, const double* u, const HessianOptions& options,
+                        BlockHessian& hessian) const = 0;
+
+ protected:
+  SampleSystem(Numbering numbers, ScalarInverse scalar)
+      : numbering(std::move(numbers)), inverse(std::move(scalar)) {}
+};
+
+}  // namespace snapspace

@@ -1,0 +1,21 @@
+"""Materials: elastic densities and their moduli."""
+
+from .arap import ARAP
+from .corotational import Corotational
+from .material import Material
+from .materials import DEFAULT_MATERIAL, MATERIALS, material_class
+from .stable_neo_hookean import StableNeoHookean
+from .stvk import StVK
+from .symmetric_dirichlet import SymmetricDirichlet
+
+__all__ = [
+    "ARAP",
+    "DEFAULT_MATERIAL",
+    "MATERIALS",
+    "Corotational",
+    "Material",
+    "StVK",
+    "StableNeoHookean",
+    "SymmetricDirichlet",
+    "material_class",
+]
