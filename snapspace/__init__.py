@@ -4,12 +4,22 @@ from importlib.metadata import version as _version
 
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
-from .cubature import CubatureErrors, hyper_reduce
-from .energy import ElasticEnergy, StVK
+from .cubature import Cubature, CubatureErrors
+from .displacements import DisplacementRows, SnapshotGram
+from .energy import ElasticEnergy
 from .filling import fill_surface, stuff_surface
 from .fitting import PoseFit, PoseFits, fit_poses
 from .greedy import greedy_snapshots
 from .growing import Growth, growing_models
+from .material import (
+    ARAP,
+    MATERIALS,
+    Corotational,
+    Material,
+    StableNeoHookean,
+    StVK,
+    SymmetricDirichlet,
+)
 from .mesh import (
     EmbeddedSurface,
     MeshNotice,
@@ -39,7 +49,6 @@ from .problem import (
     read_problem_surface,
 )
 from .reduction import (
-    Cubature,
     HandleQuadric,
     InterpolationModel,
     PosingModel,
@@ -53,10 +62,8 @@ from .session import BlendingSession, FrameReport, Polished, PosingSession, Sess
 from .snapshots import (
     Checkpoint,
     CheckpointNotice,
-    DisplacementRows,
     Interrupted,
     SampleReport,
-    SnapshotGram,
     Snapshots,
     SolveProgress,
     SolverOptions,
@@ -64,17 +71,20 @@ from .snapshots import (
     carried,
     solve_snapshots,
 )
-from .subspace import AffineSubspace, pca, snapshot_pca
+from .subspace import AffineSubspace, affine_subspace, pca, snapshot_pca
 from .validation import Validation, validate
 
 __version__ = _version("snapspace")
 
 __all__ = [
+    "ARAP",
+    "MATERIALS",
     "AffineSubspace",
     "BlendingSession",
     "Certificate",
     "Checkpoint",
     "CheckpointNotice",
+    "Corotational",
     "Cubature",
     "CubatureErrors",
     "DisplacementRows",
@@ -90,6 +100,7 @@ __all__ = [
     "InterpolationModel",
     "InterpolationProblem",
     "Interrupted",
+    "Material",
     "MeshNotice",
     "Polished",
     "PoseFit",
@@ -109,9 +120,12 @@ __all__ = [
     "SolveProgress",
     "SolverOptions",
     "StVK",
+    "StableNeoHookean",
+    "SymmetricDirichlet",
     "TetMesh",
     "UnsavedSamplesError",
     "Validation",
+    "affine_subspace",
     "boundary_surface",
     "calibrated",
     "carried",
@@ -121,7 +135,6 @@ __all__ = [
     "fit_poses",
     "greedy_snapshots",
     "growing_models",
-    "hyper_reduce",
     "in_box",
     "in_sphere",
     "load",

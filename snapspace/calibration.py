@@ -77,7 +77,7 @@ def calibrated(
         raise ValueError(f"calibrated: samples is {samples}, but must be at least 2")
     problem = model.problem
     # as tight as in `validate`: at 1e-7 the errors of a creature's frames come out 5 % too small
-    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.snapshot_tolerance)
+    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
     options = SolverOptions(tolerance=tolerance, max_iterations=5000)
     solved = solve_snapshots(
         problem,

@@ -13,7 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from .interruptible import begin_abandonable
 from .mesh import EmbeddedSurface
 from .problem import InterpolationProblem, PosingProblem
-from .reduction import InterpolationModel, PosingModel, reduce
+from .reduction import (
+    InterpolationModel,
+    PosingModel,
+    fewest_snapshots,
+    reduce,
+    training_tolerance,
+)
 from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
 from .subspace import snapshot_pca
 
@@ -23,10 +29,6 @@ FloatArray = NDArray[np.float64]
 FIRST_SAMPLES, FIRST_DIMENSION = 36, 16
 #: Dimension of the second model: its coefficients take an eighth of the time of d = 40.
 MIDDLE_DIMENSION = 24
-#: Times the tolerance, for the first model's samples; they are solved to the end afterwards. On the
-#: Dragon 36 samples leave a median error of 0.078 with 1000, 0.088 with 1300 and 0.117 with 2500
-#: (d = 15), after 18, 17 and 13 evaluations each.
-FIRST_SLACK = 1000.0
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,13 @@ def growing_models(
     """
     begin = time.perf_counter()
     samples = np.atleast_2d(np.asarray(parameters, np.float64))
-    wanted = options or SolverOptions()
+    fewest = fewest_snapshots(problem, dimension)
+    if len(samples) < fewest:
+        raise ValueError(
+            f"growing_models: {len(samples)} samples are too few, the energy of "
+            f"{problem.material.title} is trained on {fewest}; give more samples"
+        )
+    wanted = options or SolverOptions(tolerance=training_tolerance(problem, dimension))
     loose = _loosened(wanted, problem)
     done: Snapshots | None = None
     starts = known
@@ -133,7 +141,7 @@ def _loosened(
     options: SolverOptions, problem: PosingProblem | InterpolationProblem
 ) -> SolverOptions:
     """By the energy: loose samples are far from settling, and what counts is how far."""
-    tolerance = FIRST_SLACK * (options.tolerance or problem.snapshot_tolerance)
+    tolerance = max(options.tolerance or 0.0, problem.solving.loose_tolerance)
     return replace(options, tolerance=tolerance, settling=None, soft_modes=False)
 
 

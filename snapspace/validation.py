@@ -99,7 +99,7 @@ def validate(
         If no full solution converged.
     """
     parameters = unseen_parameters(model.problem.domain, samples, seed=seed)
-    tolerance = min(REFERENCE_TOLERANCE, 0.01 * model.problem.snapshot_tolerance)
+    tolerance = min(REFERENCE_TOLERANCE, 0.01 * model.problem.solving.tolerance)
     options = SolverOptions(tolerance=tolerance, max_iterations=5000)
     solved = solve_snapshots(
         model.problem, parameters, options=options, threads=threads, progress=progress

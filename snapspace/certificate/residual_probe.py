@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
+from ..material import Material
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .residual_sample import ResidualSample
@@ -19,7 +20,8 @@ class ResidualProbe(ABC):
     """The full objective's gradient at the vertices of a sample, for shapes of a subspace.
 
     It takes the tets around these vertices out of the mesh, with the modes at their corners; within
-    them the gradient is exact. About 1 ms on any mesh.
+    them the gradient is exact, for every material. About 1 ms on any mesh; the page has the same
+    loop (core/online/residual_probe.h).
 
     Parameters
     ----------
@@ -31,15 +33,33 @@ class ResidualProbe(ABC):
     ----------
     corners : (c,), the vertices of these tets, ascending
     tets : (t, 4) int32, among the corners
-    places : (s,), of the sampled vertices among the corners
+    rests : (1 or k, c, 3), the corners at rest, or in all poses
+    material : Material of these tets
+    places : (s,) int32, of the sampled vertices among the corners
     weights : (s,), of the sample
+    pinned, handles : (p,) int32, the sampled vertices that handles hold, among the corners, and the
+        indices of their handles; none for blending
+    pulls : (p,), twice the weights of their springs
+    arms : (p, 3), from the centroids of their handles at rest
+
+    Raises
+    ------
+    ValueError
+        If the sample has a vertex that the mesh does not have.
     """
+
+    material: Material
+    pinned: NDArray[np.int32]
+    handles: NDArray[np.int32]
+    pulls: FloatArray
+    arms: FloatArray
 
     def __init__(
         self,
         problem: PosingProblem | InterpolationProblem,
         subspace: AffineSubspace,
         sample: ResidualSample,
+        rests: FloatArray,
     ) -> None:
         n, tets = len(problem.mesh.vertices), problem.mesh.tets
         if sample.vertices.min() < 0 or sample.vertices.max() >= n:
@@ -47,17 +67,32 @@ class ResidualProbe(ABC):
                 f"ResidualProbe: the sample has vertex {sample.vertices.max()}, but the mesh has "
                 f"{n} vertices; calibrate the model again"
             )
-        chosen = np.zeros(n, np.bool_)
-        chosen[sample.vertices] = True
-        around = tets[chosen[tets].any(axis=1)]
-        self.corners, local = np.unique(around, return_inverse=True)
+        sampled = np.zeros(n, np.bool_)
+        sampled[sample.vertices] = True
+        chosen = np.flatnonzero(sampled[tets].any(axis=1))
+        self.corners, local = np.unique(tets[chosen], return_inverse=True)
         self.tets = local.reshape(-1, 4).astype(np.int32)
-        self.places = np.searchsorted(self.corners, sample.vertices)
+        self.rests = np.ascontiguousarray(rests.reshape(len(rests), n, 3)[:, self.corners])
+        self.material = problem.material.of_tets(chosen)
+        self.places = np.searchsorted(self.corners, sample.vertices).astype(np.int32)
         self.weights = sample.weights
-        self._tau = subspace.tau.reshape(-1, 3)[self.corners].reshape(-1)
-        modes = subspace.basis.reshape(n, 3, -1)[self.corners].reshape(len(self._tau), -1)
-        self._modes = np.ascontiguousarray(modes.T)
+        self._find_pins(problem, sampled)
+        modes = subspace.basis.reshape(n, 3, -1)[self.corners]
+        self._core = core.ResidualProbe(
+            np.ascontiguousarray(subspace.tau.reshape(n, 3)[self.corners]),
+            np.ascontiguousarray(np.moveaxis(modes, 2, 0)),
+            self.rests,
+            self.tets,
+            self.material.core,
+            self.places,
+            self.weights,
+            pinned=self.pinned,
+            handles=self.handles,
+            pulls=self.pulls,
+            arms=self.arms,
+        )
 
+    @abstractmethod
     def norm(self, q: FloatArray, state: FloatArray) -> float:
         """Estimate of sqrt(g^T D^-1 g), see `ResidualSample`, at tau + U q.
 
@@ -66,50 +101,35 @@ class ResidualProbe(ABC):
         q : (d,), or fewer leading coordinates
         state : offsets (h, 3, 4) of the handles, or weights of the poses
         """
-        shape = core.reconstruct(self._tau, self._modes[: len(q)], q)
-        squares = (self._gradient(shape, state)[self.places] ** 2).sum(axis=1)
-        return float(np.sqrt(self.weights @ squares))
 
-    @abstractmethod
-    def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
-        """Of the objective, (c, 3) at the corners of the tets; true at the sampled vertices."""
-
-    def _energy(self, rest: FloatArray, problem: PosingProblem | InterpolationProblem) -> _Part:
-        """The elastic energy of the tets around, with rest (n, 3)."""
-        corners = np.ascontiguousarray(rest[self.corners])
-        material = problem.material
-        energy = core.ElasticEnergy(corners, self.tets, material.lam, material.mu)
-        return _Part(energy, corners.reshape(-1))
+    def _find_pins(
+        self, problem: PosingProblem | InterpolationProblem, sampled: NDArray[np.bool_]
+    ) -> None:
+        """Sets `pinned`, `handles`, `pulls` and `arms`."""
+        self.pinned = self.handles = np.zeros(0, np.int32)
+        self.pulls, self.arms = np.zeros(0), np.zeros((0, 3))
+        if not isinstance(problem, PosingProblem):
+            return
+        sizes = [len(handle.vertices) for handle in problem.handles]
+        owners = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
+        seen = sampled[problem.pinned]
+        vertices = problem.pinned[seen]
+        self.handles = owners[seen]
+        self.pinned = np.searchsorted(self.corners, vertices).astype(np.int32)
+        self.pulls = 2.0 * problem.pin_weights[seen]
+        self.arms = problem.mesh.vertices[vertices] - problem.centroids[self.handles]
 
 
 class PosingProbe(ResidualProbe):
-    """Of a posing problem; the state are the handles' offsets (h, 3, 4).
-
-    Attributes
-    ----------
-    pinned, handles, pulls : (p,), the sampled vertices that handles hold: places among the corners,
-    indices of the handles, twice the weights (p, 1) of their springs
-    """
+    """Of a posing problem; the state are the handles' offsets (h, 3, 4)."""
 
     def __init__(
         self, problem: PosingProblem, subspace: AffineSubspace, sample: ResidualSample
     ) -> None:
-        super().__init__(problem, subspace, sample)
-        self._part = self._energy(problem.mesh.vertices, problem)
-        sizes = [len(handle.vertices) for handle in problem.handles]
-        handles = np.repeat(np.arange(len(sizes)), sizes)
-        seen = np.isin(problem.pinned, sample.vertices)
-        self.handles = handles[seen]
-        self.pinned = np.searchsorted(self.corners, problem.pinned[seen])
-        self.pulls = 2.0 * problem.pin_weights[seen, None]
-        arms = problem.mesh.vertices[problem.pinned[seen]] - problem.centroids[self.handles]
-        self._arms = np.column_stack([arms, np.ones(len(arms))])
+        super().__init__(problem, subspace, sample, problem.mesh.vertices[None])
 
-    def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
-        moved, gradient = self._part.displacement_and_gradient(shape)
-        wanted = np.einsum("prk,pk->pr", state[self.handles], self._arms)
-        np.add.at(gradient, self.pinned, self.pulls * (moved[self.pinned] - wanted))
-        return gradient
+    def norm(self, q: FloatArray, state: FloatArray) -> float:
+        return self._core.norm(q, offsets=state)
 
 
 class BlendingProbe(ResidualProbe):
@@ -118,24 +138,7 @@ class BlendingProbe(ResidualProbe):
     def __init__(
         self, problem: InterpolationProblem, subspace: AffineSubspace, sample: ResidualSample
     ) -> None:
-        super().__init__(problem, subspace, sample)
-        self._parts = [self._energy(pose.reshape(-1, 3), problem) for pose in problem.pose_shapes]
+        super().__init__(problem, subspace, sample, problem.pose_shapes)
 
-    def _gradient(self, shape: FloatArray, state: FloatArray) -> FloatArray:
-        gradient = np.zeros((len(self.corners), 3))
-        for weight, part in zip(state, self._parts, strict=True):
-            gradient += weight * part.displacement_and_gradient(shape)[1]
-        return gradient
-
-
-class _Part:
-    """An elastic energy of some tets, as a function of positions."""
-
-    def __init__(self, energy: core.ElasticEnergy, rest: FloatArray) -> None:
-        self._core, self._rest = energy, rest
-
-    def displacement_and_gradient(self, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Both (c, 3), at positions (3c,)."""
-        displacement = shape - self._rest
-        _, gradient = self._core.value_and_gradient(displacement)
-        return displacement.reshape(-1, 3), gradient.reshape(-1, 3)
+    def norm(self, q: FloatArray, state: FloatArray) -> float:
+        return self._core.norm(q, weights=state)

@@ -85,8 +85,7 @@ def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray
     volumes = np.abs(tet_volumes(problem.tau.reshape(-1, 3), tets))
     hats = np.linalg.inv(edges)  # columns are the gradients of the hat functions 1, 2, 3
     hats = np.concatenate([-hats.sum(axis=2, keepdims=True), hats], axis=2)
-    stiffness = 2.0 * problem.material.mu + problem.material.lam
-    parts = stiffness * volumes[:, None] * (hats**2).sum(axis=1)
+    parts = (problem.material.stiffness * volumes)[:, None] * (hats**2).sum(axis=1)
     diagonal: FloatArray = np.zeros(len(problem.tau) // 3)
     np.add.at(diagonal, tets, parts)
     if isinstance(problem, PosingProblem):

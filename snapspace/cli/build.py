@@ -13,18 +13,16 @@ import click
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
+from ..reduction import ENERGIES, Energy
 from .choices import Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
+from .energy import EnergyChoice
 from .options import FILE, dask_option, json_option, threads_option
 from .pipeline import build_model
 from .summary import print_summary
 
 DIMENSION = 40
-#: Of a cubature's samples. Sessions with a closure use the forces that the reduced energy leaves at
-#: them, and samples that have only settled are too far from equilibrium for that. Three times as
-#: many evaluations on the Dragon.
-CUBATURE_TOLERANCE = 1e-5
 
 
 @click.command(short_help="Make a model from a problem.")
@@ -37,19 +35,19 @@ CUBATURE_TOLERANCE = 1e-5
 )
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol")
 @click.option(
-    "--method",
-    type=click.Choice(["quartic", "cubature"]),
-    default="quartic",
+    "--energy",
+    type=click.Choice(ENERGIES),
+    default="auto",
     show_default=True,
-    help="Energy of the model. quartic: exact, up to about 60 modes. cubature: that of a few tets, "
-    "for 100 modes and more; its samples are solved to a tolerance of 1e-5, which takes two to "
-    "three times as long.",
+    help="Of the model. exact: a quartic, for St.Venant-Kirchhoff, up to about 60 modes. cubature: "
+    "that of a few tets, for all materials; its samples are solved more tightly. auto: exact where "
+    "the material has it, up to 48 modes.",
 )
 @click.option(
     "--tets",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Of the cubature [default: 8 for each mode, at most 1000].",
+    help="Of a cubature [default: 8 for each mode, at most 1000].",
 )
 @click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
 @threads_option
@@ -59,7 +57,7 @@ def build(
     mesh: Path | None,
     problem_file: Path,
     output: Path,
-    method: str,
+    energy: Energy,
     tets: int | None,
     repair: bool,
     choices: Choices,
@@ -76,19 +74,22 @@ def build(
     Examples:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace build --problem dragon.json --samples 600 --dimension 60 -o dragon60.snapspace
-      snapspace build --problem dragon.json --dimension 120 --method cubature -o dragon120.snapspace
+      snapspace build --problem dragon.json --dimension 120 --energy cubature -o dragon120.snapspace
       snapspace build --problem dragon.json finer.msh --energy-fraction 0.9999 -o finer.snapspace
     """
     begin = time.perf_counter()
     check_output(output)
     problem, surface, source = _read(problem_file, mesh, repair=repair)
+    dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
+    choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)
+    choice.check(problem, choices.samples)
     recipe = choices.recipe(
         problem.domain,
         dimension=DIMENSION,
         threads=threads,
-        tolerance=CUBATURE_TOLERANCE if method == "cubature" else None,
+        tolerance=choice.tolerance(problem),
     )
-    recipe = replace(recipe, energy=method, tets=tets)
+    recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
     built = build_model(
         problem, recipe, output, source=source, surface=surface, begin=begin, executor=executor

@@ -10,8 +10,9 @@ from typing import Any, Literal
 import click
 
 from ..greedy import CANDIDATES, check_target
+from ..problem import Projection
 from ..sampling import METHODS, Domain, Method, sample
-from ..snapshots import SOLVERS, SolverOptions
+from ..snapshots import PROJECTIONS, SOLVERS, SolverOptions
 from ..snapshots.solver_options import Solver
 from .console import notice
 from .recipe import Recipe
@@ -36,6 +37,7 @@ class Choices:
     tolerance: float | None
     settling: float | None
     max_iterations: int
+    projection: Projection | None
     clamp: float
     lumped: bool
     include_unconverged: bool
@@ -51,6 +53,7 @@ class Choices:
             tolerance=tolerance if neither else self.tolerance,
             settling=self.settling,
             max_iterations=self.max_iterations,
+            projection=self.projection,
             clamp=self.clamp,
         )
 
@@ -192,14 +195,15 @@ def _options(
             "--tolerance",
             type=float,
             help="Converged: the decrease still expected is below this share of the energy "
-            "[default: 1e-9 for interpolation, 1e-5 for a cubature, and else --settling decides].",
+            "[default: 1e-9 for interpolation, 1e-6 for a cubature, less for Poisson ratios above "
+            "0.25, but 1e-5 with St.Venant-Kirchhoff, and else --settling decides].",
         ),
         click.option(
             "--settling",
             type=float,
             help="Converged: 8 directions as long as the last 4 together are below this share of "
-            "the displacement [default: 0.01 for a quartic of posing without --tolerance, else 0: "
-            "never].",
+            "the displacement [default: 0.01 for an exact energy of posing without --tolerance, "
+            "else 0: never].",
         ),
         click.option(
             "--max-iterations",
@@ -209,11 +213,17 @@ def _options(
             help="Per sample.",
         ),
         click.option(
+            "--projection",
+            type=click.Choice(PROJECTIONS),
+            help="Newton: how Hessians of tets become positive semi-definite [default: stretches, "
+            "as in the paper, with St.Venant-Kirchhoff, else clamp].",
+        ),
+        click.option(
             "--clamp",
             type=float,
             default=SolverOptions.clamp,
             show_default=True,
-            help="Newton: least singular value in the Hessian, in (0, 1].",
+            help="Newton with the projection stretches: least singular value, in (0, 1].",
         ),
         click.option("--lumped", is_flag=True, help="Diagonal mass matrix."),
         click.option(

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..generators import CREATURE_REGIONS, creature_paint
+from ..material import DEFAULT_MATERIAL
 from ..pictures import render_row
 from ..reduction import PosingModel
 from .motions import Motion, as_parameters
@@ -15,7 +16,7 @@ from .motions import Motion, as_parameters
 # Translations up to a tenth of the animal's length.
 PROBLEM: dict[str, Any] = {
     "mesh": "creature.msh",
-    "material": {"model": "stvk", "lam": 1.0, "mu": 1.0},
+    "material": {"model": DEFAULT_MATERIAL.kind, "lam": 1.0, "mu": 1.0},
     "stiffness": 2000,
     "domain": {"translation": 0.3, "angle_degrees": 45},
     "handles": [{"name": name, **region} for name, region in CREATURE_REGIONS.items()],

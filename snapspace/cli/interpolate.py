@@ -12,8 +12,8 @@ import click
 from rich import box
 from rich.table import Table
 
-from ..energy import StVK
 from ..fitting import DEVIATION, PoseFit, check_deviation
+from ..material import StVK
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy

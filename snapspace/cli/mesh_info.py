@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..input_error import fault_of
 from ..mesh import MeshNotice, TetMesh, read_surface, read_tets
 
 Info = tuple[dict[str, Any], list[tuple[str, str]]]
@@ -27,7 +28,7 @@ def mesh_info(file: Path) -> Info:
     try:
         mesh = read_tets(file)
     except ValueError as error:
-        fault = str(error).removeprefix(f"{file}: ")
+        fault = fault_of(error)
         mesh, repairs = _repaired(file, error)
     facts = [("valid", "yes" if fault is None else f"no: {fault}")]
     facts += [("a repair", note) for note in repairs]

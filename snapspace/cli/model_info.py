@@ -21,7 +21,7 @@ _DIMENSIONS = (1, 2, 5, 10, 20, 30, 40, 60, 80, 100, 150, 200, 300)
 def model_info(file: Path) -> Info:
     """JSON content and facts of a model file; ValueError if it is not one."""
     model = load(file)
-    subspace = model.subspace
+    subspace, eigenvalues = model.subspace, model.subspace.eigenvalues
     if isinstance(model, PosingModel):
         figures_of_problem = problem_figures(model.problem)
         facts_of_problem = problem_facts(figures_of_problem)
@@ -34,17 +34,17 @@ def model_info(file: Path) -> Info:
         "bytes": file.stat().st_size,
         "dimension": model.dimension,
         "samples": len(model.training_parameters),
-        "energy": _energy(model),
+        "energy": energy_text(model),
         "energy_fraction": subspace.energy_fraction,
         "lumped_mass": subspace.lumped,
-        "eigenvalues": subspace.eigenvalues.tolist(),
+        "eigenvalues": None if eigenvalues is None else eigenvalues.tolist(),
         **figures_of_problem,
         "mesh": mesh_figures(model.problem.mesh),
         "provenance": model.provenance,
     }
     facts = [
         ("dimension", f"{model.dimension}, from {figures['samples']} snapshots"),
-        ("not captured", _decay(subspace.eigenvalues, model.dimension)),
+        ("not captured", _decay(eigenvalues, model.dimension)),
         ("energy", figures["energy"]),
         ("file", in_bytes(figures["bytes"])),
         *facts_of_problem,
@@ -54,14 +54,17 @@ def model_info(file: Path) -> Info:
     return figures, facts
 
 
-def _energy(model: ReducedModel) -> str:
+def energy_text(model: ReducedModel) -> str:
+    """What the reduced energy is."""
     if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
         return f"cubature of {len(model.elastic.tets)} tets"
     return "exact quartic"
 
 
-def _decay(eigenvalues: NDArray[np.float64], dimension: int) -> str:
+def _decay(eigenvalues: NDArray[np.float64] | None, dimension: int) -> str:
     """The snapshots' relative error beyond d modes: the root of the share of their energy."""
+    if eigenvalues is None:
+        return "not known: the basis is not from snapshots"
     tails = np.cumsum(eigenvalues[::-1])[::-1] / eigenvalues.sum()
     shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
     errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)

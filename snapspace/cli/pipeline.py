@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ..cubature import hyper_reduce
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
@@ -20,6 +19,7 @@ from ..snapshots import Checkpoint, Snapshots
 from ..stopping import ctrl_c_as_itself
 from ..subspace import AffineSubspace, snapshot_pca
 from .console import notice
+from .energy import EnergyChoice
 from .memory import peak_memory_bytes
 from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
@@ -87,11 +87,13 @@ def build_model(
     Raises
     ------
     ValueError
-        If the basis cannot be made; the samples are kept.
+        If the energy is not possible, or the basis cannot be made; then the samples are kept.
     KeyboardInterrupt
         On Ctrl-C, with a line that says what is kept.
     """
     begin = time.perf_counter() if begin is None else begin
+    choice = EnergyChoice(energy=recipe.energy, tets=recipe.tets, dimension=recipe.dimension)
+    choice.check(problem, recipe.samples.count)
     checkpoint = Checkpoint.beside(output, recipe.samples.key(problem, recipe.solver))
     seconds: dict[str, float] = {}
     with _telling_what_is_kept(recipe, checkpoint):
@@ -106,8 +108,15 @@ def build_model(
             usable = np.ones(len(snapshots), bool)
             if not recipe.include_unconverged:
                 usable = snapshots.usable
-            used = snapshots.select(usable)
-            model = _reduced(problem, subspace, used, surface, recipe)
+            model = reduce(
+                problem,
+                subspace,
+                energy=recipe.energy,
+                snapshots=snapshots.select(usable),
+                tets=recipe.tets,
+                surface=surface,
+                threads=recipe.threads,
+            )
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
         model = replace(model, provenance={**model.provenance, **record})
         model.save(output)
@@ -148,22 +157,6 @@ def _solved(
             checkpoint=checkpoint,
             executor=executor,
         )
-
-
-def _reduced(
-    problem: PosingProblem | InterpolationProblem,
-    subspace: AffineSubspace,
-    snapshots: Snapshots,
-    surface: EmbeddedSurface | None,
-    recipe: Recipe,
-) -> PosingModel | InterpolationModel:
-    if isinstance(problem, InterpolationProblem):
-        return reduce(
-            problem, subspace, snapshots=snapshots, surface=surface, threads=recipe.threads
-        )
-    if recipe.energy == "cubature":
-        return hyper_reduce(problem, subspace, snapshots, tets=recipe.tets, surface=surface)
-    return reduce(problem, subspace, snapshots=snapshots, surface=surface, threads=recipe.threads)
 
 
 def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:

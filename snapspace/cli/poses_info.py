@@ -8,6 +8,7 @@ import numpy as np
 
 from ..problem import InterpolationProblem
 from ..reduction import InterpolationModel
+from .material_info import material_figures, material_text
 
 
 def poses_figures(model: InterpolationModel) -> dict[str, Any]:
@@ -16,7 +17,7 @@ def poses_figures(model: InterpolationModel) -> dict[str, Any]:
     return {
         "poses": _poses(problem),
         "parameters": problem.parameter_count,
-        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "material": material_figures(problem.material),
         "extrapolation": problem.domain.extrapolation,
         "surface": {"vertices": len(model.surface.corners), "faces": len(model.surface.faces)},
     }
@@ -24,7 +25,7 @@ def poses_figures(model: InterpolationModel) -> dict[str, Any]:
 
 def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
     """The same for people."""
-    material, surface = figures["material"], figures["surface"]
+    surface = figures["surface"]
     poses = [
         (
             "" if number else "poses",
@@ -40,7 +41,7 @@ def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
         *poses,
         ("parameters", f"{figures['parameters']}, {domain}"),
         ("surface", f"{surface['vertices']} vertices, {surface['faces']} faces"),
-        ("material", f"St.Venant-Kirchhoff, lam {material['lam']:g}, mu {material['mu']:g}"),
+        ("material", material_text(figures["material"])),
     ]
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..problem import PosingProblem, read_problem
 from ..problem.domain_entries import domain_content
+from .material_info import material_figures, material_text
 from .mesh_info import Info, mesh_facts, mesh_figures
 
 
@@ -35,7 +36,7 @@ def problem_figures(problem: PosingProblem) -> dict[str, Any]:
     return {
         "handles": handles,
         "parameters": problem.parameter_count,
-        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "material": material_figures(problem.material),
         "stiffness": problem.stiffness,
         "domain": domain_content(common.bounds[0]),
     }
@@ -43,7 +44,6 @@ def problem_figures(problem: PosingProblem) -> dict[str, Any]:
 
 def problem_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
     """The same for people."""
-    material, domain = figures["material"], figures["domain"]
     handles = [
         (
             "" if number else "handles",
@@ -56,11 +56,10 @@ def problem_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
     return [
         *handles,
         ("parameters", str(figures["parameters"])),
-        ("domain", _domain(domain)),
+        ("domain", _domain(figures["domain"])),
         (
             "material",
-            f"St.Venant-Kirchhoff, lam {material['lam']:g}, mu {material['mu']:g}; "
-            f"handle stiffness {figures['stiffness']:g}",
+            f"{material_text(figures['material'])}; handle stiffness {figures['stiffness']:g}",
         ),
     ]
 

@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from .. import __version__, _core
+from ..reduction import Energy
 from ..snapshots import Snapshots, SolverOptions, solver_key
 from .samples import Samples
 
@@ -22,7 +23,7 @@ class Recipe:
     sampling : how they were chosen, for the record
     solver : SolverOptions
     dimension, energy_fraction : one of them; see `snapshot_pca`
-    energy : quartic, exact, or cubature
+    energy : as for `reduce`
     tets : of the cubature, None for its default
     lumped, include_unconverged : as for `snapshot_pca`
     threads : None for all
@@ -38,7 +39,7 @@ class Recipe:
     include_unconverged: bool = False
     threads: int | None = None
     known: int = 0
-    energy: str = "quartic"
+    energy: Energy = "auto"
     tets: int | None = None
 
     def __post_init__(self) -> None:
@@ -46,8 +47,6 @@ class Recipe:
             raise ValueError("give either --dimension or --energy-fraction")
         if self.dimension is not None:
             check_dimension(self.dimension, self.samples.count, known=self.known)
-        if self.tets is not None and self.energy != "cubature":
-            raise ValueError("--tets is for --method cubature")
         if self.energy_fraction is not None and not 0 < self.energy_fraction <= 1:
             raise ValueError(f"energy fraction is {self.energy_fraction}, but must be in (0, 1]")
 

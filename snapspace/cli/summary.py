@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .console import print_facts
+from .model_info import energy_text
 from .pipeline import Built
 from .units import in_bytes, in_time
 
@@ -26,6 +27,7 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
             f"dimension {figures['dimension']}, holds {_percent(figures['energy_fraction'])} of "
             "the snapshots' energy",
         ),
+        ("energy", energy_text(built.model)),
         ("time", seconds),
         ("memory", f"{in_bytes(figures['peak_memory_bytes'])} at the most"),
         ("model", f"{built.path}, {in_bytes(figures['model_bytes'])}"),

@@ -1,6 +1,7 @@
-"""Hyper-reduction: reduced energies summed over few tets."""
+"""Cubature: elastic energies in reduced coordinates, summed over few tets."""
 
+from .cubature import Cubature
 from .held_out_errors import CubatureErrors
-from .hyper_reduce import hyper_reduce
+from .train import FEWEST_SNAPSHOTS, default_tets, train_cubature
 
-__all__ = ["CubatureErrors", "hyper_reduce"]
+__all__ = ["FEWEST_SNAPSHOTS", "Cubature", "CubatureErrors", "default_tets", "train_cubature"]

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
 from ..problem import PosingProblem
-from ..reduction import Cubature
 from ..subspace import AffineSubspace
+from .cubature import Cubature
 
 FloatArray = NDArray[np.float64]
 

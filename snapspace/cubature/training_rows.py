@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
 from ..problem import PosingProblem
-from ..reduction.displacement_gradients import displacement_gradients
 from ..subspace import AffineSubspace
+from .displacement_gradients import displacement_gradients
 
 FloatArray = NDArray[np.float64]
 

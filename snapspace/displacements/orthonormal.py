@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy.linalg import cholesky, solve_triangular
 from scipy.sparse import csr_array
 
-from ..snapshots.displacement_rows import BLOCK
-from ..snapshots.snapshot_gram import SnapshotGram
+from .displacement_rows import BLOCK
+from .snapshot_gram import SnapshotGram
 
 FloatArray = NDArray[np.float64]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..generators import stuff
 from ..mesh import TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
 from ..stopping import check_stop
+from ..stuffing import stuff
 from .closed_input import check_share, closed_input
 
 # Vertices of the surface that are farther from the tets, in edge lengths, belong to a lost part.
@@ -47,7 +47,7 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
 
     Notes
     -----
-    Isosurface stuffing (Labelle and Shewchuk 2007, see `generators.stuff`) of the signed distance:
+    Isosurface stuffing (Labelle and Shewchuk 2007, see `stuffing.stuff`) of the signed distance:
     seconds where `fill_surface`, which keeps to the surface within a tolerance, takes minutes.
     """
     surface = closed_input(vertices, faces, who="stuff_surface")

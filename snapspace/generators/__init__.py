@@ -9,7 +9,7 @@ from snapspace.generators.creature_paint import creature_paint
 from snapspace.generators.creature_shape import CREATURE_LOWER, CREATURE_UPPER, creature_shape
 from snapspace.generators.cylinder import cylinder
 from snapspace.generators.helix import helix
-from snapspace.generators.isosurface_stuffing import stuff
+from snapspace.stuffing.isosurface_stuffing import stuff
 
 __all__ = [
     "CREATURE_LOWER",

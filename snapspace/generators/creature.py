@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from snapspace.generators.arguments import require_count
 from snapspace.generators.creature_shape import CREATURE_LOWER, CREATURE_UPPER, creature_shape
-from snapspace.generators.isosurface_stuffing import stuff_unchecked
-from snapspace.generators.manifold import euler_characteristic, is_closed_manifold
 from snapspace.mesh.tet_mesh import TetMesh
+from snapspace.stuffing.arguments import require_count
+from snapspace.stuffing.isosurface_stuffing import stuff_unchecked
+from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 
 # tets * cell^3 = 12 volume + c cell: the lattice has 12 tets per cell, and the layer clipped by the
 # surface adds some (c measured from 5k to 1M tets).

@@ -7,13 +7,13 @@ from concurrent.futures import Executor
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import SnapshotGram
 from ..problem import InterpolationProblem, PosingProblem
 from ..sampling import sample
 from ..snapshots import (
     Checkpoint,
     Interrupted,
     Progress,
-    SnapshotGram,
     Snapshots,
     SolverOptions,
     solve_snapshots,
@@ -50,8 +50,9 @@ def greedy_snapshots(
     The first batch begins a scrambled Sobol sequence. For each batch after it a reduced model with
     d <= 20 is made, and solved at the next `candidates * batch` points of the sequence. Of these
     the batch takes points whose `estimated_errors` are large and differ from each other, see
-    `largest_pivots`. It is the greedy method of reduced bases (Veroy, Prud'homme, Rovas & Patera
-    2003) with another indicator, and in batches.
+    `largest_pivots`; or the first points, while there are too few samples to train a cubature on,
+    ten, where the model needs one. It is the greedy method of reduced bases (Veroy, Prud'homme,
+    Rovas & Patera 2003) with another indicator, and in batches.
 
     Parameters
     ----------
@@ -163,8 +164,8 @@ def _worst(
     threads: int | None,
 ) -> FloatArray:
     """The points (batch, p) of some where the model's estimated errors are largest, and differ."""
-    if len(points) <= batch:
-        return points
+    if len(points) <= batch or not so_far.enough:
+        return points[:batch]
     problem = so_far.problem
     model = so_far.model(threads=threads)
     single = options.resolved(problem).single

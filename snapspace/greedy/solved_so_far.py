@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import InterpolationModel, PosingModel, reduce
+from ..reduction import InterpolationModel, PosingModel, fewest_snapshots, reduce
 from ..snapshots import Snapshots
 from ..snapshots.held_out import HeldOutError
 from ..subspace import snapshot_pca
@@ -59,15 +59,19 @@ class SolvedSoFar:
         self._append(batch)
         self.held_out_error = self._errors.of_last(self.all.usable, len(batch))
 
+    @property
+    def enough(self) -> bool:
+        """Whether there are as many samples as the energy of a model asks for."""
+        fewest = fewest_snapshots(self.problem, MODEL_DIMENSION)
+        return int(self.all.usable.sum()) >= fewest
+
     def model(self, *, threads: int | None) -> PosingModel | InterpolationModel:
         """A small reduced model of it; ValueError if no sample is usable."""
-        everything, problem = self.all, self.problem
+        everything = self.all
         dimension = min(MODEL_DIMENSION, max(1, self._directions() // 2))
         subspace = snapshot_pca(everything, dimension=dimension, gram=self._errors.gram)
         used = everything.select(everything.usable)
-        if isinstance(problem, PosingProblem):
-            return reduce(problem, subspace, snapshots=used, threads=threads)
-        return reduce(problem, subspace, snapshots=used, threads=threads)
+        return reduce(self.problem, subspace, snapshots=used, threads=threads)
 
     def result(self) -> Snapshots:
         """The solved samples, without what was known before."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..input_error import InputError
+
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
 
@@ -15,9 +17,9 @@ def as_points(values: ArrayLike, *, who: str, what: str = "vertices") -> FloatAr
     """A fresh C-contiguous float64 copy of n points, (n, 3); ValueError for anything else."""
     array = _as_array(values, who=who, what=what)
     if array.ndim != 2 or array.shape[1] != 3:
-        raise ValueError(f"{who}: {what} must have shape (n, 3), got {array.shape}")
+        raise InputError(who, f"{what} must have shape (n, 3), got {array.shape}")
     if array.dtype.kind not in "fiu":
-        raise ValueError(f"{who}: {what} must be real numbers, got dtype {array.dtype}")
+        raise InputError(who, f"{what} must be real numbers, got dtype {array.dtype}")
     return np.array(array, dtype=np.float64, order="C")
 
 
@@ -28,11 +30,11 @@ def as_indices(values: ArrayLike, *, corners: int, who: str, what: str) -> Index
     """
     array = _as_array(values, who=who, what=what)
     if array.ndim != 2 or array.shape[1] != corners:
-        raise ValueError(f"{who}: {what} must have shape (m, {corners}), got {array.shape}")
+        raise InputError(who, f"{what} must have shape (m, {corners}), got {array.shape}")
     if array.dtype.kind not in "iu":
-        raise ValueError(f"{who}: {what} must be integers, got dtype {array.dtype}")
+        raise InputError(who, f"{what} must be integers, got dtype {array.dtype}")
     if array.size and (int(array.max()) > _LARGEST_INDEX or int(array.min()) < -_LARGEST_INDEX):
-        raise ValueError(f"{who}: {what} has an index that does not fit in 32 bits")
+        raise InputError(who, f"{what} has an index that does not fit in 32 bits")
     return np.array(array, dtype=np.int32, order="C")
 
 
@@ -40,4 +42,4 @@ def _as_array(values: ArrayLike, *, who: str, what: str) -> NDArray[np.generic]:
     try:
         return np.asarray(values)
     except (TypeError, ValueError):
-        raise ValueError(f"{who}: {what} is not a rectangular array of numbers") from None
+        raise InputError(who, f"{what} is not a rectangular array of numbers") from None

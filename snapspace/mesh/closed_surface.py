@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..input_error import InputError
 from .arrays import FloatArray, IndexArray
 
 
@@ -24,22 +25,24 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
         such edges and the first one.
     """
     if not len(faces):
-        raise ValueError(f"{who}: the surface has no faces; at least four are needed")
+        raise InputError(who, "the surface has no faces; at least four are needed")
     edges, balance, uses = _edge_balance(faces)
     boundary = np.flatnonzero(uses % 2 == 1)
     if boundary.size:
         first, second = edges[boundary[0]]
-        raise ValueError(
-            f"{who}: the surface is not closed, it has {boundary.size} boundary edges (the first "
+        raise InputError(
+            who,
+            f"the surface is not closed, it has {boundary.size} boundary edges (the first "
             f"between vertices {first} and {second}): fill its holes, and merge vertices that "
-            "are one point"
+            "are one point",
         )
     turned = np.flatnonzero(balance)
     if turned.size:
         first, second = edges[turned[0]]
-        raise ValueError(
-            f"{who}: neighbouring faces have opposite orientations at {turned.size} edges (the "
-            f"first between vertices {first} and {second}): orient all faces alike"
+        raise InputError(
+            who,
+            f"neighbouring faces have opposite orientations at {turned.size} edges (the "
+            f"first between vertices {first} and {second}): orient all faces alike",
         )
 
 

@@ -6,15 +6,17 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..input_error import InputError
+
 
 def existing_file(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path:
     """The path as given; ValueError unless it is a file with one of the known extensions."""
     file = Path(path)
     _check_extension(file, known)
     if file.is_dir():
-        raise ValueError(f"{file}: this is a folder; a file is needed")
+        raise InputError(file, "this is a folder; a file is needed")
     if not file.exists():
-        raise ValueError(f"{file}: there is no such file")
+        raise InputError(file, "there is no such file")
     return file
 
 
@@ -23,9 +25,9 @@ def writable_path(path: str | os.PathLike[str], *, known: Iterable[str]) -> Path
     file = Path(path)
     _check_extension(file, known)
     if file.is_dir():
-        raise ValueError(f"{file}: this is a folder; give a file name")
+        raise InputError(file, "this is a folder; give a file name")
     if not file.parent.is_dir():
-        raise ValueError(f"{file}: there is no folder {file.parent}; create it first")
+        raise InputError(file, f"there is no folder {file.parent}; create it first")
     return file
 
 
@@ -34,4 +36,4 @@ def _check_extension(file: Path, known: Iterable[str]) -> None:
     known = list(known)
     if suffix not in known:
         what = f"unknown extension {suffix!r}" if suffix else "no extension"
-        raise ValueError(f"{file}: {what}; known are {', '.join(known)}")
+        raise InputError(file, f"{what}; known are {', '.join(known)}")

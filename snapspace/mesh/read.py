@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..input_error import located
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import CellArray, FileContent
 from .input_path import existing_file
@@ -54,7 +55,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
         that begins with the path.
     """
     file = existing_file(path, known=_READERS)
-    try:
+    with located(file):
         content = _READERS[file.suffix.lower()](file)
         tets = _linear_tets(content)
         if repair:
@@ -62,9 +63,6 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
         else:
             tets, notes = _flip_if_all_inverted(content.vertices, tets)
             mesh = TetMesh(content.vertices, tets)
-    except (ValueError, OSError) as error:
-        reason = str(error).removeprefix("TetMesh: ").removeprefix("repair_tets: ")
-        raise ValueError(f"{file}: {reason}") from None
     for note in notes:
         warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
     return mesh
@@ -77,14 +75,12 @@ def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArra
     `read_tets` for the file, for coordinates that are not finite and for indices out of range.
     """
     file = existing_file(path, known=_READERS)
-    try:
+    with located(file):
         content = _READERS[file.suffix.lower()](file)
         vertices = as_points(content.vertices, who="read_tets")
         tets = as_indices(_linear_tets(content), corners=4, who="read_tets", what="tets")
         check_points(vertices, who="read_tets")
         check_indices(tets, len(vertices), who="read_tets", what="tet")
-    except (ValueError, OSError) as error:
-        raise ValueError(f"{file}: {str(error).removeprefix('read_tets: ')}") from None
     return vertices, tets
 
 

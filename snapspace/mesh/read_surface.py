@@ -7,6 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
+from ..input_error import located
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import FileContent
 from .input_path import existing_file
@@ -41,7 +42,7 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
         that are not finite, or an index out of range. One line that begins with the path.
     """
     file = existing_file(path, known=_READERS)
-    try:
+    with located(file):
         content = _READERS[file.suffix.lower()](file)
         triangles = content.cells.get("triangle")
         if triangles is None or not len(triangles):
@@ -50,8 +51,6 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
         faces = as_indices(triangles, corners=3, who="read_surface", what="faces")
         check_points(vertices, who="read_surface")
         check_indices(faces, len(vertices), who="read_surface", what="face")
-    except (ValueError, OSError) as error:
-        raise ValueError(f"{file}: {str(error).removeprefix('read_surface: ')}") from None
     return vertices, faces
 
 

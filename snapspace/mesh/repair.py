@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..input_error import InputError
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .components import tet_components
 from .quality import flat_tets, tet_volumes
@@ -57,8 +58,8 @@ def _drop_degenerate(points: FloatArray, tets: IndexArray, notes: list[str]) -> 
 def _drop(tets: IndexArray, bad: NDArray[np.bool_], which: str, notes: list[str]) -> IndexArray:
     count = int(bad.sum())
     if count == len(tets):
-        raise ValueError(
-            f"repair_tets: no tet would be left after dropping the {count} tets {which}"
+        raise InputError(
+            "repair_tets", f"no tet would be left after dropping the {count} tets {which}"
         )
     if count:
         notes.append(f"dropped {count} of {len(tets)} tets {which}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..input_error import InputError
 from .arrays import FloatArray, IndexArray
 from .components import tet_components
 from .quality import flat_tets, tet_volumes
@@ -27,7 +28,7 @@ def check_mesh(vertices: FloatArray, tets: IndexArray, *, who: str) -> FloatArra
 def check_values(vertices: FloatArray, tets: IndexArray, *, who: str) -> None:
     """Raise ValueError for what no repair can mend: no tets, not finite, index out of range."""
     if not len(tets):
-        raise ValueError(f"{who}: there are no tets; at least one is needed")
+        raise InputError(who, "there are no tets; at least one is needed")
     check_points(vertices, who=who)
     check_indices(tets, len(vertices), who=who, what="tet")
 
@@ -37,10 +38,11 @@ def check_points(vertices: FloatArray, *, who: str) -> None:
     bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if bad.size:
         x, y, z = vertices[bad[0]]
-        raise ValueError(
-            f"{who}: vertex {bad[0]} is not finite ({x:g}, {y:g}, {z:g}); "
+        raise InputError(
+            who,
+            f"vertex {bad[0]} is not finite ({x:g}, {y:g}, {z:g}); "
             f"{_number(bad.size, 'vertex', 'vertices')} of {len(vertices)} affected: mend the "
-            "coordinates where they come from"
+            "coordinates where they come from",
         )
 
 
@@ -55,9 +57,9 @@ def check_indices(rows: IndexArray, vertex_count: int, *, who: str, what: str) -
         hint = ""
         if rows.min() >= 1 and rows.max() == vertex_count:
             hint = "; the indices seem to start at 1: subtract 1 from all of them"
-        raise ValueError(
-            f"{who}: {what} {row} has vertex index {index}, "
-            f"but vertices has {vertex_count} rows{hint}"
+        raise InputError(
+            who,
+            f"{what} {row} has vertex index {index}, but vertices has {vertex_count} rows{hint}",
         )
 
 
@@ -86,16 +88,18 @@ def duplicate_tets(tets: IndexArray) -> NDArray[np.bool_]:
 def _check_tets(tets: IndexArray, vertex_count: int, *, who: str) -> None:
     bad = np.flatnonzero(repeated_vertex(tets))
     if bad.size:
-        raise ValueError(
-            f"{who}: tet {bad[0]} repeats a vertex ({_indices(tets[bad[0]])}); "
-            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}"
+        raise InputError(
+            who,
+            f"tet {bad[0]} repeats a vertex ({_indices(tets[bad[0]])}); "
+            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
         )
     bad = np.flatnonzero(duplicate_tets(tets))
     if bad.size:
-        raise ValueError(
-            f"{who}: tet {bad[0]} has the same four vertices as an earlier tet "
+        raise InputError(
+            who,
+            f"tet {bad[0]} has the same four vertices as an earlier tet "
             f"({_indices(tets[bad[0]])}); {_number(bad.size, 'such tet')} of {len(tets)}: "
-            f"drop with {_CURE}"
+            f"drop with {_CURE}",
         )
 
 
@@ -103,37 +107,42 @@ def _check_volumes(
     vertices: FloatArray, tets: IndexArray, volumes: FloatArray, *, who: str
 ) -> None:
     if not np.isfinite(volumes).all():
-        raise ValueError(
-            f"{who}: coordinates up to {np.abs(vertices).max():g} are too large for the volumes to "
-            "be computed: choose another unit of length"
+        raise InputError(
+            who,
+            f"coordinates up to {np.abs(vertices).max():g} are too large for the volumes to "
+            "be computed: choose another unit of length",
         )
     bad = np.flatnonzero(flat_tets(vertices, tets, volumes))
     if bad.size:
-        raise ValueError(
-            f"{who}: tet {bad[0]} ({_indices(tets[bad[0]])}) has zero volume; "
-            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}"
+        raise InputError(
+            who,
+            f"tet {bad[0]} ({_indices(tets[bad[0]])}) has zero volume; "
+            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
         )
     bad = np.flatnonzero(volumes < 0)
     if bad.size == len(tets):
-        raise ValueError(
-            f"{who}: every tet ({len(tets)}) is inverted (negative volume), the file or program "
-            f"they come from orders them the other way: flip with tets[:, [0, 2, 1, 3]] or {_CURE}"
+        raise InputError(
+            who,
+            f"every tet ({len(tets)}) is inverted (negative volume), the file or program "
+            f"they come from orders them the other way: flip with tets[:, [0, 2, 1, 3]] or {_CURE}",
         )
     if bad.size:
-        raise ValueError(
-            f"{who}: tet {bad[0]} ({_indices(tets[bad[0]])}) is inverted (volume "
+        raise InputError(
+            who,
+            f"tet {bad[0]} ({_indices(tets[bad[0]])}) is inverted (volume "
             f"{volumes[bad[0]]:g}); {_number(bad.size, 'such tet')} of {len(tets)}: "
-            f"flip with {_CURE}"
+            f"flip with {_CURE}",
         )
 
 
 def _check_vertices(tets: IndexArray, vertex_count: int, *, who: str) -> None:
     unused = np.flatnonzero(np.bincount(tets.ravel(), minlength=vertex_count) == 0)
     if unused.size:
-        raise ValueError(
-            f"{who}: vertex {unused[0]} belongs to no tet; "
+        raise InputError(
+            who,
+            f"vertex {unused[0]} belongs to no tet; "
             f"{_number(unused.size, 'such vertex', 'such vertices')} of {vertex_count}: "
-            f"drop with {_CURE}"
+            f"drop with {_CURE}",
         )
 
 
@@ -141,9 +150,10 @@ def _check_one_component(tets: IndexArray, vertex_count: int, *, who: str) -> No
     sizes = np.bincount(tet_components(tets, vertex_count))
     if len(sizes) > 1:
         more = ", ..." if len(sizes) > 5 else ""
-        raise ValueError(
-            f"{who}: the mesh has {len(sizes)} components ({_indices(sizes[:5])}{more} tets), "
-            f"one is needed: keep the largest with {_CURE}, or mesh the parts as one"
+        raise InputError(
+            who,
+            f"the mesh has {len(sizes)} components ({_indices(sizes[:5])}{more} tets), "
+            f"one is needed: keep the largest with {_CURE}, or mesh the parts as one",
         )
 
 

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from ..energy import StVK
 from ..problem import InterpolationProblem, Poses
 from ..reduction import InterpolationModel, coefficient_count
 from ..subspace import AffineSubspace
-from . import shown_surface
+from . import eigenvalues, shown_surface
+from . import material as material_file
 from .container import Arrays, check_shapes
 
 DTYPES: dict[str, type] = {
@@ -19,7 +19,6 @@ DTYPES: dict[str, type] = {
     "mean_shape": np.float64,
     **shown_surface.DTYPES,
     "basis": np.float64,
-    "eigenvalues": np.float64,
     "quartics": np.float64,
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
@@ -28,14 +27,16 @@ DTYPES: dict[str, type] = {
 
 def interpolation_arrays(model: InterpolationModel) -> Arrays:
     """The arrays of a model; the names are those of DTYPES."""
+    problem = model.problem
     return {
-        "poses": model.problem.poses.shapes,
-        "tets": model.problem.poses.tets,
+        "poses": problem.poses.shapes,
+        "tets": problem.poses.tets,
         "mean_shape": model.subspace.tau,
         **shown_surface.surface_arrays(model.surface),
         # (d, 3n): a mode is contiguous, and fewer modes are a prefix
         "basis": model.subspace.basis.T,
-        "eigenvalues": model.subspace.eigenvalues,
+        **eigenvalues.eigenvalue_arrays(model.subspace),
+        **material_file.material_arrays(problem.material),
         "quartics": model.coefficients,
         "training_parameters": model.training_parameters,
         "training_coordinates": model.training_coordinates,
@@ -46,7 +47,7 @@ def interpolation_content(model: InterpolationModel) -> dict[str, Any]:
     """What of the problem is not an array, as JSON."""
     problem = model.problem
     return {
-        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "material": material_file.material_content(problem.material),
         "extrapolation": problem.domain.extrapolation,
         "poses": list(problem.poses.names),
         "accept_inverted": bool(problem.poses.inverted_tets.any()),
@@ -66,7 +67,7 @@ def interpolation_model(
     )
     problem = InterpolationProblem(
         poses,
-        material=StVK(lam=content["material"]["lam"], mu=content["material"]["mu"]),
+        material=material_file.material(arrays, content["material"], len(poses.tets)),
         extrapolation=content["extrapolation"],
         mean_shape=arrays["mean_shape"],
     )
@@ -85,7 +86,7 @@ def interpolation_model(
     mass = problem.mass(lumped=content["lumped_mass"])
     return InterpolationModel(
         problem=problem,
-        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"]),
+        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues")),
         coefficients=arrays["quartics"],
         surface=shown_surface.surface(arrays, problem.mesh),
         training_parameters=arrays["training_parameters"],

@@ -7,11 +7,13 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
-from . import error_estimator, interpolation, posing, shown_surface
+from . import eigenvalues, error_estimator, interpolation, material, posing, shown_surface
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
-VERSION = 1
+VERSION = 2
+#: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff.
+READABLE = (1, 2)
 SUFFIX = ".snapspace"
 POSING, CUBATURE, INTERPOLATION = "posing", "posing-cubature", "interpolation"
 _DTYPES = {
@@ -60,9 +62,9 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     Raises
     ------
     ValueError
-        If the file is missing, truncated, altered (checksum), of another kind or of a newer
-        version, or if an array is missing or has the wrong type or size. The message names the
-        file and the cure.
+        If the file is missing, truncated, altered (checksum), of another kind, of a newer version
+        or of a material that is not known, or if an array is missing or has the wrong type or size.
+        The message names the file and the cure.
     """
     path = Path(path)
     if not path.is_file():
@@ -70,10 +72,11 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     arrays, header = read_container(path)
     if header.get("format") != FORMAT:
         raise ValueError(f"{path}: not a snapspace model; `snapspace build` makes one")
-    if header.get("version") != str(VERSION):
+    if header.get("version") not in {str(version) for version in READABLE}:
         raise ValueError(
-            f"{path}: model version {header.get('version')}, this snapspace reads version "
-            f"{VERSION}; install the snapspace that wrote it, or build the model again"
+            f"{path}: model version {header.get('version')}, this snapspace reads versions "
+            f"{' and '.join(map(str, READABLE))}; install the snapspace that wrote it, or build "
+            "the model again"
         )
     kind = header.get("kind", POSING)  # the first files had only one
     if kind not in _DTYPES:
@@ -81,8 +84,9 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: a model of kind '{kind}', this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    optional = error_estimator.dtypes(arrays) | shown_surface.dtypes(arrays)
-    check_dtypes(path, arrays, _DTYPES[kind] | optional)
+    for part in (error_estimator, shown_surface, material, eigenvalues):
+        check_dtypes(path, arrays, part.dtypes(arrays))
+    check_dtypes(path, arrays, _DTYPES[kind])
     if header.get("checksum") != checksum(arrays, header):
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
@@ -91,6 +95,8 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     try:
         model = make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
         return replace(model, error_estimator=error_estimator.estimator(arrays))
+    except material.UnknownMaterialError as error:
+        raise ValueError(f"{path}: {error}; install the snapspace that wrote it") from None
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(
             f"{path}: the model does not fit together ({error}); build it again"

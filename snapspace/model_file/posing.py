@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from ..energy import StVK
 from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
 from ..subspace import AffineSubspace
-from . import shown_surface
+from . import eigenvalues, shown_surface
+from . import material as material_file
 from .container import Arrays, check_shapes
 
 _COMMON: dict[str, type] = {
@@ -20,7 +20,6 @@ _COMMON: dict[str, type] = {
     "handle_vertices": np.int32,
     "handle_sizes": np.int32,
     "basis": np.float64,
-    "eigenvalues": np.float64,
     "handle_K": np.float64,
     "handle_L": np.float64,
     "handle_S": np.float64,
@@ -47,7 +46,8 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "handle_sizes": np.array(sizes, np.int32),
         # (d, 3n): a mode is contiguous, and fewer modes are a prefix
         "basis": model.subspace.basis.T,
-        "eigenvalues": model.subspace.eigenvalues,
+        **eigenvalues.eigenvalue_arrays(model.subspace),
+        **material_file.material_arrays(problem.material),
         **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
@@ -65,7 +65,7 @@ def posing_content(model: PosingModel) -> dict[str, Any]:
     # one row where bounds are common, as before handles could have their own
     bounds = domain.bounds if domain.common is not domain else domain.bounds[0]
     return {
-        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "material": material_file.material_content(problem.material),
         "stiffness": problem.stiffness,
         "domain": {
             "translation": bounds[..., :3].tolist(),
@@ -95,7 +95,7 @@ def posing_model(
         },
     )
     mass = mass_matrix(problem.mesh, lumped=content["lumped_mass"])
-    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays["eigenvalues"])
+    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues"))
     return PosingModel(
         problem=problem,
         subspace=subspace,
@@ -127,10 +127,11 @@ def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:
     ends = np.cumsum(arrays["handle_sizes"])[:-1]
     handles = Handles(np.split(arrays["handle_vertices"], ends), names=content["handles"])
     domain = content["domain"]
+    mesh = TetMesh(arrays["vertices"], arrays["tets"])
     return PosingProblem(
-        TetMesh(arrays["vertices"], arrays["tets"]),
+        mesh,
         handles,
-        material=StVK(lam=content["material"]["lam"], mu=content["material"]["mu"]),
+        material=material_file.material(arrays, content["material"], len(mesh.tets)),
         stiffness=content["stiffness"],
         domain=HandleBox(
             translation=np.array(domain["translation"]),

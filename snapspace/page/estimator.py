@@ -21,25 +21,23 @@ def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     arrays: Arrays = {}
     probe: ResidualProbe
     if isinstance(model, PosingModel):
-        probe = pins = PosingProbe(model.problem, subspace, sample)
-        rests = model.problem.mesh.vertices[None]
+        probe = PosingProbe(model.problem, subspace, sample)
         arrays = {
-            "estimator_pin_corners": pins.pinned.astype(np.int32),
-            "estimator_pin_handles": pins.handles.astype(np.int32),
-            "estimator_pin_pulls": pins.pulls[:, 0],
+            "estimator_pin_corners": probe.pinned,
+            "estimator_pin_handles": probe.handles,
+            "estimator_pin_pulls": probe.pulls,
         }
     else:
         probe = BlendingProbe(model.problem, subspace, sample)
-        poses = model.problem.pose_shapes
-        rests = poses.reshape(len(poses), -1, 3)
     modes = subspace.basis.T.reshape(model.dimension, -1, 3)[:, probe.corners]
     return arrays | {
         "estimator_mass": np.array([estimator.mass]),
-        "estimator_rests": np.ascontiguousarray(rests[:, probe.corners]),
+        "estimator_rests": probe.rests,
         "estimator_base": subspace.tau.reshape(-1, 3)[probe.corners],
         "estimator_modes": modes.reshape(model.dimension, -1).astype(np.float32),
         "estimator_tets": probe.tets,
-        "estimator_places": probe.places.astype(np.int32),
+        "estimator_moduli": probe.material.moduli,
+        "estimator_places": probe.places,
         "estimator_weights": probe.weights,
         "estimator_coordinates": estimator.coordinates.astype(np.float32),
         "estimator_ratios": estimator.residual_ratios,

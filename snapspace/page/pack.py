@@ -14,7 +14,8 @@ from ..reduction import Cubature, InterpolationModel, PosingModel, Quartic, Redu
 from .estimator import estimator_arrays
 from .shape_space import quantised
 
-FORMAT, VERSION = "snapspace-page", 1
+#: Since version 2 the page takes any material, by name.
+FORMAT, VERSION = "snapspace-page", 2
 AXES = ("x", "y", "z")
 
 FloatArray = NDArray[np.float64]
@@ -62,7 +63,7 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         "diagonal": model.problem.mesh.diagonal,
         "value_scale": model.value_scale,
         "coordinate_scale": model.coordinate_scale,
-        "material": {"lam": model.problem.material.lam, "mu": model.problem.material.mu},
+        "material": {"model": model.problem.material.kind},
     }
     header = {
         "format": FORMAT,
@@ -104,7 +105,11 @@ def _posing_arrays(model: PosingModel) -> Arrays:
 
 def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
     if isinstance(elastic, Cubature):
-        return {"cubature_rows": elastic.rows, "cubature_weights": elastic.weights}
+        return {
+            "cubature_rows": elastic.rows,
+            "cubature_weights": elastic.weights,
+            "cubature_moduli": elastic.material.moduli,
+        }
     return {"quartic": elastic.coefficients.astype(np.float32)}
 
 

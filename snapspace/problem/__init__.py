@@ -10,6 +10,7 @@ from .problem import Problem, solutions_beyond_tau
 from .problem_file import problem_content, read_problem, read_problem_surface
 from .region import in_box, in_sphere
 from .simplex import Simplex
+from .solver_traits import Projection, SolverTraits
 
 __all__ = [
     "Handle",
@@ -19,7 +20,9 @@ __all__ = [
     "Poses",
     "PosingProblem",
     "Problem",
+    "Projection",
     "Simplex",
+    "SolverTraits",
     "affine_offset",
     "euler_of_rotation",
     "in_box",

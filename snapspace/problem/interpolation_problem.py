@@ -13,13 +13,14 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..energy import StVK
 from ..interruptible import run_abandonable
+from ..material import Material, StVK
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
 from .mean_shape import mean_displacement
 from .poses import Poses
 from .simplex import Simplex
+from .solver_traits import SolverTraits, interpolation_traits
 
 FloatArray = NDArray[np.float64]
 
@@ -37,6 +38,7 @@ class InterpolationProblem:
     poses : Poses, or a sequence of TetMesh
         Two or more; each may be in a frame of its own.
     material : StVK, default StVK(lam=1, mu=1)
+        Moduli are numbers, or arrays with one number per tet.
     extrapolation : float, default 0
         Samples also come from outside of the simplex, which is enlarged by this share about its
         centre. Negative weights may have no minimum; such samples are reported as not converged.
@@ -46,7 +48,8 @@ class InterpolationProblem:
     Raises
     ------
     ValueError
-        As `Poses.of`, for a negative extrapolation, or a mean shape of another size.
+        As `Poses.of`, for another material, moduli for another number of tets, a negative
+        extrapolation, or a mean shape of another size.
 
     Notes
     -----
@@ -57,12 +60,12 @@ class InterpolationProblem:
         self,
         poses: Poses | Sequence[TetMesh],
         *,
-        material: StVK | None = None,
+        material: Material | None = None,
         extrapolation: float = 0.0,
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = poses if isinstance(poses, Poses) else Poses.of(poses)
-        self.material = material or StVK()
+        self.material = self._checked_material(StVK() if material is None else material)
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
             self.mean_shape = self._checked_shape(mean_shape)
@@ -73,33 +76,10 @@ class InterpolationProblem:
         return self.poses.reference
 
     @property
-    def snapshot_tolerance(self) -> float:
-        """Default tolerance: without handles soft modes need a tight one."""
-        return 1e-9
-
-    @property
-    def snapshot_settling(self) -> float:
-        """Never: without handles, soft modes go on moving in steps too short to tell."""
-        return 0.0
-
-    @property
-    def soft_modes(self) -> None:
-        """Not known: nothing holds the shape, and poses differ in what is soft."""
-        return None
-
-    @property
-    def solutions_far_apart(self) -> bool:
-        """Yes: halfway between distant poses a linear blend shrinks and turns inside out."""
-        return True
-
-    @property
-    def patience(self) -> int:
-        """Iterations after which a sample gets a factor of its own.
-
-        Most samples of the Centaur take 200. Those that start far from their minimum take 650 on
-        the shared factor, and 220 more after so many on one of their own.
-        """
-        return 240
+    def solving(self) -> SolverTraits:
+        """What it asks of the solvers."""
+        # made anew each time: kept here, it and the problem would keep each other in memory
+        return interpolation_traits(system_near=self._system_near)
 
     @property
     def parameter_count(self) -> int:
@@ -120,7 +100,7 @@ class InterpolationProblem:
     @cached_property
     def system(self) -> core.InterpolationSystem:
         """The compiled problem, its scalar factor made for shapes near the mean."""
-        return self.system_near(self.mean_shape - self.base)
+        return self._system_near(self.mean_shape - self.base)
 
     @cached_property
     def mean_shape(self) -> FloatArray:
@@ -158,7 +138,7 @@ class InterpolationProblem:
         content = {
             "kind": "interpolation",
             "mesh": self.mesh.fingerprint,
-            "material": [self.material.lam, self.material.mu],
+            "material": self.material.key,
             "extrapolation": self.domain.extrapolation,
         }
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
@@ -199,11 +179,6 @@ class InterpolationProblem:
     def guesses(self, parameters: FloatArray) -> None:
         """None: blends of the poses' deformations are not made."""
 
-    def system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
-        """The system with a factor for solutions near a displacement (3n,)."""
-        rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
-        return run_abandonable(lambda: rest.adapted(shapes))
-
     def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
         w = np.asarray(weights, np.float64)
@@ -219,7 +194,7 @@ class InterpolationProblem:
     def pose_energy(self, pose: int) -> core.ElasticEnergy:
         """E_k of a pose registered to the mean shape; it takes displacements from there."""
         rest = self.pose_shapes[pose].reshape(-1, 3)
-        return core.ElasticEnergy(rest, self.poses.tets, self.material.lam, self.material.mu)
+        return core.ElasticEnergy(rest, self.poses.tets, self.material.core)
 
     def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
         """Vertices (n, 3) of sum_k w_k pose_k, the straight path, of the registered poses."""
@@ -231,6 +206,15 @@ class InterpolationProblem:
         poses = self._near_poses - self.base
         mean = self.base + mean_displacement(self._rest_system, poses, threads=threads)
         return registered(mean, self.base, self._mass_of(mean))
+
+    def _checked_material(self, material: Material) -> Material:
+        if not isinstance(material, StVK):
+            raise ValueError(
+                f"InterpolationProblem: the material is {material.title}, but poses are blended "
+                "with St.Venant-Kirchhoff only; leave the material out, or give StVK(lam, mu)"
+            )
+        material.check_tets(len(self.poses.tets), "InterpolationProblem")
+        return material
 
     def _checked_shape(self, shape: ArrayLike) -> FloatArray:
         x = np.array(shape, np.float64).reshape(-1)
@@ -248,9 +232,12 @@ class InterpolationProblem:
         # energies do not depend on the poses' frames, but far apart the differences lose digits
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
         tets, material = self.poses.tets, self.material
-        return run_abandonable(
-            lambda: core.InterpolationSystem(shapes, tets, material.lam, material.mu)
-        )
+        return run_abandonable(lambda: core.InterpolationSystem(shapes, tets, material.core))
+
+    def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
+        """The system with a factor for solutions near a displacement (3n,)."""
+        rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
+        return run_abandonable(lambda: rest.adapted(shapes))
 
     @cached_property
     def _mean_mass(self) -> csr_array:
@@ -287,7 +274,7 @@ def _interpolation_problem(
     tets: NDArray[np.int32],
     names: Sequence[str],
     accept_inverted: bool,
-    material: StVK,
+    material: Material,
     extrapolation: float,
     mean_shape: FloatArray | None,
 ) -> InterpolationProblem:

@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 
-def as_object(value: Any, what: str, *, known: set[str]) -> dict[str, Any]:
+@contextmanager
+def within(place: str | Path) -> Iterator[None]:
+    """Puts the place, a file or an entry, before the message of a ValueError."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{place}: {error}") from None
+
+
+def as_object(value: Any, what: str, *, known: set[str] | None = None) -> dict[str, Any]:
     """`value` if it is an object with no other keys than the known ones; ValueError otherwise."""
     if not isinstance(value, dict):
         raise ValueError(f"{what} must be an object {{...}}, got {_shown(value)}")
     for key in value:
-        if key not in known:
+        if known is not None and key not in known:
             raise ValueError(f"{what}: unknown entry '{key}'; known are {', '.join(sorted(known))}")
     return value
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..input_error import InputError, fault_of
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
 from ..mesh.quality import flat_tets
@@ -194,4 +195,4 @@ def _reference(vertices: FloatArray, tets: ArrayLike, name: str) -> TetMesh:
     try:
         return TetMesh(vertices, tets)
     except ValueError as error:
-        raise ValueError(f"Poses: {name}: {str(error).removeprefix('TetMesh: ')}") from None
+        raise InputError(f"Poses: {name}", fault_of(error)) from None

@@ -14,13 +14,15 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..energy import ElasticEnergy, StVK
+from ..energy import ElasticEnergy
 from ..interruptible import run_abandonable
+from ..material import DEFAULT_MATERIAL, Material
 from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
 from .handles import Handles
 from .motion import rigid_offset
+from .solver_traits import SolverTraits, posing_traits
 
 FloatArray = NDArray[np.float64]
 
@@ -37,7 +39,8 @@ class PosingProblem:
     mesh : TetMesh
     handles : Handles
         The first one stays at rest while sampling, as do those whose bounds are zero.
-    material : StVK, default StVK(lam=1, mu=1)
+    material : Material, default StableNeoHookean(lam=1, mu=1)
+        Moduli are numbers, or arrays with one number per tet.
     stiffness : float, default 1000
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
     domain : HandleBox
@@ -46,9 +49,9 @@ class PosingProblem:
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, a handle with a vertex outside of the mesh (the
-        message names it), or handles that all lie on one line, about which the shape could turn
-        freely.
+        For a stiffness that is not positive, a material with moduli for another number of tets, a
+        handle with a vertex outside of the mesh (the message names it), or handles that all lie on
+        one line, about which the shape could turn freely.
     """
 
     def __init__(
@@ -57,12 +60,13 @@ class PosingProblem:
         handles: Handles,
         *,
         domain: HandleBox,
-        material: StVK | None = None,
+        material: Material | None = None,
         stiffness: float = 1000.0,
     ) -> None:
         self.mesh = mesh
         self.handles = handles
-        self.material = material or StVK()
+        self.material = DEFAULT_MATERIAL() if material is None else material
+        self.material.check_tets(len(mesh.tets), "PosingProblem")
         self.stiffness = float(stiffness)
         self.domain = replace(domain, moving=len(handles) - 1)
         if not (math.isfinite(self.stiffness) and self.stiffness > 0):
@@ -113,28 +117,14 @@ class PosingProblem:
         return other
 
     @property
-    def snapshot_tolerance(self) -> float:
-        """Tolerance of Newton's method; on the Dragon it leaves about 0.3 % of the displacement."""
-        return 1e-5
-
-    @property
-    def snapshot_settling(self) -> float:
-        """As much as a subspace of 40 dimensions usually misses."""
-        return 1e-2
-
-    @property
-    def solutions_far_apart(self) -> bool:
-        """No: of 96 samples of the Dragon none has a lower energy at its nearest neighbour."""
-        return False
-
-    @property
-    def patience(self) -> None:
-        """No end of it: the handles' matrix is part of every Hessian, and one factor serves all."""
-        return None
-
-    def system_near(self, displacement: FloatArray) -> core.PosingSystem:
-        """The system itself."""
-        return self.system
+    def solving(self) -> SolverTraits:
+        """What it asks of the solvers."""
+        # made anew each time: kept here, it and the problem would keep each other in memory
+        return posing_traits(
+            self.material,
+            soft_modes=lambda: self._soft_modes,
+            system_near=lambda displacement: self.system,
+        )
 
     @property
     def parameter_count(self) -> int:
@@ -165,7 +155,7 @@ class PosingProblem:
         content = {
             "kind": "posing",
             "mesh": self.mesh.fingerprint,
-            "material": [self.material.lam, self.material.mu],
+            "material": self.material.key,
             "stiffness": self.stiffness,
             "domain": self.domain.half_widths.tolist(),
             "handles": [[handle.name, handle.vertices.tolist()] for handle in self.handles],
@@ -203,12 +193,12 @@ class PosingProblem:
     @cached_property
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
-        elastic = self.mesh.vertices, self.mesh.tets, self.material.lam, self.material.mu
+        elastic = self.mesh.vertices, self.mesh.tets, self.material.core
         pins = self.pinned, self.pin_weights
         return run_abandonable(lambda: core.PosingSystem(*elastic, *pins))
 
     @cached_property
-    def soft_modes(self) -> core.SoftModes:
+    def _soft_modes(self) -> core.SoftModes:
         """Modes that the scalar factor mistakes for stiff, for the seed of the fast solver."""
         system = self.system
         return run_abandonable(lambda: core.SoftModes(system))

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
-from .. import _core as core
-from ..energy import StVK
+from ..material import Material
 from ..mesh import TetMesh
 from ..sampling import Domain
+from .solver_traits import SolverTraits
 
 FloatArray = NDArray[np.float64]
 
@@ -36,8 +36,8 @@ class Problem(Protocol):
         ...
 
     @property
-    def material(self) -> StVK:
-        """What it is made of."""
+    def material(self) -> Material:
+        """What it is made of; moduli are uniform, or one per tet of the mesh."""
         ...
 
     @property
@@ -48,16 +48,6 @@ class Problem(Protocol):
     @property
     def parameter_count(self) -> int:
         """Number of entries p of a parameter vector."""
-        ...
-
-    @property
-    def snapshot_tolerance(self) -> float:
-        """Tolerance that snapshots of this kind of problem need, unless the user gives one."""
-        ...
-
-    @property
-    def snapshot_settling(self) -> float:
-        """Share of the displacement at which the fast solver's steps may end; 0 for never."""
         ...
 
     @property
@@ -76,18 +66,8 @@ class Problem(Protocol):
         ...
 
     @property
-    def soft_modes(self) -> core.SoftModes | None:
-        """What the system's scalar factor mistakes for stiff, if it is known."""
-        ...
-
-    @property
-    def patience(self) -> int | None:
-        """Iterations of the fast solver after which `system_near` helps; None if it never does."""
-        ...
-
-    @property
-    def solutions_far_apart(self) -> bool:
-        """Whether shapes interpolated between solutions may be worse starts than the nearest."""
+    def solving(self) -> SolverTraits:
+        """What it asks of the solvers."""
         ...
 
     @property
@@ -113,10 +93,6 @@ class Problem(Protocol):
 
     def known_solutions(self) -> tuple[FloatArray, FloatArray]:
         """Parameters (j, p) and shapes (j, 3n) of solutions that are known beforehand."""
-        ...
-
-    def system_near(self, displacement: FloatArray) -> Any:
-        """The compiled problem, made for solutions near a displacement (3n,) from `base`."""
         ...
 
     def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:

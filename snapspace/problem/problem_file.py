@@ -6,20 +6,16 @@ import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..energy import StVK
 from ..mesh import EmbeddedSurface, TetMesh, compact_surface, embed_surface, read_surface, read_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
-from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three
+from .json_entries import as_list, as_number, as_object, as_text, within
+from .material_entries import material_content, material_from
+from .place_entries import Mask, in_places, listed
 from .posing_problem import PosingProblem
-from .region import in_box, in_sphere
 
 _KEYS = {"mesh", "surface", "material", "stiffness", "domain", "handles"}
-_Mask = NDArray[np.bool_]
 
 
 def read_problem(
@@ -31,12 +27,15 @@ def read_problem(
     ----------
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
-        `read_problem_surface`, "material": {"model": "stvk", "lam", "mu"}, "stiffness",
-        "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
-        "vertices", "domain"}, ...]}. A handle is the union of its boxes [[min corner], [max
-        corner]] (null: unbounded), spheres [[x, y, z], radius] and vertices. The first handle is
-        the fixed one; any other may have a domain of its own, whose entries replace those of the
-        common one. Where all of them are zero it is held at rest too.
+        `read_problem_surface`, "material", "stiffness", "domain": {"translation",
+        "angle_degrees"}, "handles": [{"name", "boxes", "spheres", "vertices", "domain"}, ...]}.
+        A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
+        [[x, y, z], radius] and vertices. The first handle is the fixed one; any other may have a
+        domain of its own, whose entries replace those of the common one. Where all of them are zero
+        it is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name or
+        "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
+        tet. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
+        "factor"; later ones win. Without "material" it is the default one.
     mesh : TetMesh, optional
         Used instead of the file's mesh.
     repair : bool, default False
@@ -50,13 +49,10 @@ def read_problem(
     """
     path = Path(path)
     content = _load(path)
-    try:
+    with within(path):
         if mesh is None:
             mesh = _mesh(path, content, repair=repair)
         return _problem(content, mesh)
-    except ValueError as error:
-        message = str(error)
-        raise ValueError(message if str(path) in message else f"{path}: {message}") from None
 
 
 def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | None:
@@ -83,13 +79,10 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
     content = _load(path)
     if "surface" not in content:
         return None
-    try:
+    with within(path):
         file = path.parent / as_text(content["surface"], "surface")
         vertices, faces = compact_surface(*read_surface(file))
         return embed_surface(vertices, faces, mesh, farthest=WHOLE_DIAGONAL)
-    except ValueError as error:
-        message = str(error)
-        raise ValueError(message if str(path) in message else f"{path}: {message}") from None
 
 
 def problem_content(
@@ -98,7 +91,7 @@ def problem_content(
     """The problem as the JSON content that `read_problem` takes, handles by vertices."""
     common = problem.domain.common.bounds[0]
     content: dict[str, Any] = {
-        "material": {"model": "stvk", "lam": problem.material.lam, "mu": problem.material.mu},
+        "material": material_content(problem.material),
         "stiffness": problem.stiffness,
         "domain": domain_content(common),
         "handles": [
@@ -139,20 +132,9 @@ def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
     return PosingProblem(
         mesh,
         _handles(_entry(content, "handles"), mesh),
-        material=_material(content.get("material", {})),
+        material=material_from(content.get("material", {}), mesh),
         stiffness=as_number(_entry(content, "stiffness"), "stiffness"),
         domain=handle_box(_entry(content, "domain"), content["handles"]),
-    )
-
-
-def _material(value: Any) -> StVK:
-    content = as_object(value, "material", known={"model", "lam", "mu"})
-    model = content.get("model", "stvk")
-    if model != "stvk":
-        raise ValueError(f"material: unknown model '{model}'; known is stvk")
-    return StVK(
-        lam=as_number(content.get("lam", 1.0), "material.lam"),
-        mu=as_number(content.get("mu", 1.0), "material.mu"),
     )
 
 
@@ -170,30 +152,8 @@ def _handles(value: Any, mesh: TetMesh) -> Handles:
     return Handles(masks, names=names)
 
 
-def _mask(item: dict[str, Any], name: str, mesh: TetMesh) -> _Mask:
+def _mask(item: dict[str, Any], name: str, mesh: TetMesh) -> Mask:
     """The union of a handle's boxes, spheres and vertices."""
-    where = f"handle '{name}'"
-    mask = np.zeros(len(mesh.vertices), dtype=np.bool_)
-    try:
-        for box in as_list(item.get("boxes", []), "boxes"):
-            mask |= _in_box(box, mesh)
-        for sphere in as_list(item.get("spheres", []), "spheres"):
-            center, radius = as_list(sphere, "a sphere", items=("center", "radius"))
-            center, radius = as_three(center, "a center"), as_number(radius, "a radius")
-            mask |= in_sphere(mesh.vertices, center, radius)
-        for vertex in as_list(item.get("vertices", []), "vertices"):
-            mask[as_index(vertex, "a vertex", below=len(mask))] = True
-    except ValueError as error:
-        raise ValueError(f"{where}: {error}") from None
-    return mask
-
-
-def _in_box(box: Any, mesh: TetMesh) -> _Mask:
-    lower, upper = (
-        [
-            None if bound is None else as_number(bound, "a corner")
-            for bound in as_list(corner, "a corner")
-        ]
-        for corner in as_list(box, "a box", items=("min corner", "max corner"))
-    )
-    return in_box(mesh.vertices, lower, upper)
+    with within(f"handle '{name}'"):
+        listed_ones = listed(item, "vertices", "a vertex", count=len(mesh.vertices))
+        return in_places(item, mesh.vertices) | listed_ones

@@ -1,6 +1,13 @@
 """Reduced energies and models."""
 
-from .cubature import Cubature
+from ..cubature import Cubature, CubatureErrors
+from .energy_choice import (
+    ENERGIES,
+    Energy,
+    chosen_energy,
+    fewest_snapshots,
+    training_tolerance,
+)
 from .handle_quadric import HandleQuadric, handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
@@ -9,15 +16,21 @@ from .reduce import reduce
 from .reduced_model import ReducedModel
 
 __all__ = [
+    "ENERGIES",
     "Cubature",
+    "CubatureErrors",
+    "Energy",
     "HandleQuadric",
     "InterpolationModel",
     "PosingModel",
     "Quartic",
     "ReducedModel",
+    "chosen_energy",
     "coefficient_count",
+    "fewest_snapshots",
     "handle_quadric",
     "pose_quartics",
     "reduce",
     "reduced_quartic",
+    "training_tolerance",
 ]

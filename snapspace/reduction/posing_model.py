@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cubature import Cubature
 from ..problem import PosingProblem
-from .cubature import Cubature
 from .handle_quadric import HandleQuadric
 from .quartic import Quartic
 from .reduced_model import ReducedModel

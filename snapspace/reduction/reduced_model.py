@@ -50,8 +50,14 @@ class ReducedModel(ABC):
 
     @property
     def value_scale(self) -> float:
-        """Unit of energy for the termination tests: that of a strain of 10 %, 0.01 mu * volume."""
-        return 0.01 * self.problem.material.mu * self.problem.mesh.volume
+        """Unit of energy for the termination tests, that of a shear of 10 %: 0.01 mu * volume.
+
+        Of moduli that differ from tet to tet: the sum over all of them.
+        """
+        mu, mesh = self.problem.material.mu, self.problem.mesh
+        if np.ndim(mu) == 0:
+            return float(0.01 * mu * mesh.volume)
+        return float(0.01 * (mu @ mesh.volumes))
 
     @property
     def coordinate_scale(self) -> float:

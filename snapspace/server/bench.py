@@ -1,15 +1,17 @@
-"""Bench: handles, models and files of one body, as a page makes them."""
+"""Bench: handles, parts, models and files of one body, as a page makes them."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from ..energy import StVK
+from ..material import DEFAULT_MATERIAL, Material
 from ..problem import PosingProblem
 from . import messages
 from .body import Body
 from .computation import Computation, Publish
+from .materials import chosen_material, shown_poisson
 from .models import Models
+from .parts import FloatArray, part_factors, with_factors
 from .reporter import Reporter
 from .saving import Savings
 from .selection import (
@@ -42,6 +44,9 @@ class Bench:
         self._solved = SolvedSamples()
         self._savings = Savings()
         self._problem = body.problem
+        self._given = DEFAULT_MATERIAL() if body.problem is None else body.problem.material
+        self._material = self._given  # of the last computation, without parts
+        self._factors: FloatArray | None = None  # of the parts, by tet
         self._selection: Selection | None = None
         surface = body.surface
         self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
@@ -61,6 +66,8 @@ class Bench:
             translation=(length, length, length),
             angle=(ANGLE, ANGLE, ANGLE),
             stiffness=self._stiffness,
+            material=self._given.kind,
+            poisson=shown_poisson(self._given),
             folder=str(self.body.folder),
         )
         if problem is None:
@@ -75,24 +82,26 @@ class Bench:
         )
 
     def choose(self, choice: messages.Choose) -> messages.Chosen:
-        """Takes the handles of a message; ValueError if no problem can have them."""
+        """Takes handles and parts of a message; ValueError if no problem can have them."""
         selection = selection_of(choice)
         if self._regions is not None:
             selection = replace(selection, handles=self._regions.in_tets(selection.handles))
-        problem = self._of(selection, self._stiffness, self._material)
-        self._selection = selection
+        factors = part_factors(choice.parts, self.body.mesh, self._regions)
+        problem = self._of(selection, self._stiffness, with_factors(self._material, factors))
+        self._selection, self._factors = selection, factors
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
 
     def computation(
         self, order: messages.Compute, *, turns: Turns, report: Reporter, publish: Publish
     ) -> Computation:
-        """What `Compute` asks for, of the handles chosen last; ValueError if it cannot be done."""
+        """What `Compute` asks for, of handles and parts chosen last.
+
+        ValueError if it cannot be done.
+        """
         if self._selection is None:
             raise ValueError("no handles are chosen; choose at least two, one of them fixed")
-        material = StVK() if self.body.problem is None else self.body.problem.material
-        if order.poisson is not None:
-            material = _with_poisson(material, order.poisson)
-        problem = self._of(self._selection, order.stiffness, material)
+        material = chosen_material(self._given, kind=order.material, poisson=order.poisson)
+        problem = self._of(self._selection, order.stiffness, with_factors(material, self._factors))
         computation = Computation(
             problem,
             order,
@@ -102,17 +111,18 @@ class Bench:
             surface=self.body.surface,
             publish=publish,
         )
-        self._problem = problem
+        self._problem, self._material = problem, material
         return computation
 
     def save(self, order: messages.Save) -> messages.Saved:
-        """Writes the problem of the handles chosen last, and the newest model.
+        """Writes the problem of handles and parts chosen last, and the newest model.
 
         ValueError if there are no handles, and as for `Savings.save`.
         """
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
-        problem = self._of(self._selection, self._stiffness, self._material)
+        material = with_factors(self._material, self._factors)
+        problem = self._of(self._selection, self._stiffness, material)
         newest = self._models.newest
         return self._savings.save(
             self.body,
@@ -131,18 +141,7 @@ class Bench:
             else (self._problem.stiffness)
         )
 
-    @property
-    def _material(self) -> StVK:
-        return StVK() if self._problem is None else self._problem.material
-
-    def _of(self, selection: Selection, stiffness: float, material: StVK) -> PosingProblem:
+    def _of(self, selection: Selection, stiffness: float, material: Material) -> PosingProblem:
         return selection.problem(
             self.body.mesh, material=material, stiffness=stiffness, known=self._problem
         )
-
-
-def _with_poisson(material: StVK, ratio: float) -> StVK:
-    """The material with the same shear modulus and a Poisson ratio in [0, 0.5), else ValueError."""
-    if not 0.0 <= ratio < 0.5:
-        raise ValueError(f"Poisson's ratio is {ratio:g}, but it must be from 0 to below 0.5")
-    return replace(material, lam=2.0 * material.mu * ratio / (1.0 - 2.0 * ratio))

@@ -20,8 +20,7 @@ class HandleChoice:
     name : unique among the handles
     vertices : indices among all vertices of the packed mesh, also those inside
     moving : whether it moves while sampling; one handle at least does not
-    translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
-        common ones
+    translation, angle : its own bounds of the sampled motions; null: the common ones
     """
 
     name: str
@@ -29,6 +28,33 @@ class HandleChoice:
     moving: bool = True
     translation: Vector | None = None
     angle: Vector | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartChoice:
+    """A part of the body that is stiffer or softer.
+
+    name : unique among the parts
+    vertices : as those of a handle; tets with three of their corners among them are in the part
+    factor : of all moduli there, 0.0001 to 10000; of parts that overlap the later one counts
+    """
+
+    name: str
+    vertices: tuple[int, ...]
+    factor: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class MaterialChoice:
+    """A material that can be computed with.
+
+    kind, title : its name in files and messages, and for the reader
+    has_poisson : whether Poisson's ratio changes anything
+    """
+
+    kind: str
+    title: str
+    has_poisson: bool
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,16 +70,18 @@ class HandleMotion:
 
 @dataclass(frozen=True, kw_only=True)
 class Choose:
-    """Page: these are the handles. Answered by `Chosen`, or `Failed`.
+    """Page: these are the handles and parts. Answered by `Chosen`, or `Failed`.
 
     request : any number of 32 bits, repeated in the answers
     translation, angle : common bounds of the sampled motions, half widths per axis
+    parts : stiffer and softer ones; the rest is as the material says
     """
 
     request: int
     handles: tuple[HandleChoice, ...]
     translation: Vector
     angle: Vector
+    parts: tuple[PartChoice, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,8 +92,8 @@ class Compute:
 
     samples, dimension, seed : of the last model
     stiffness : of the handles, as in a problem file
-    poisson : Poisson's ratio of the material, 0 to below 0.5; null: that of the problem file, or of
-        lam = mu
+    material : kind of the material; null: that of the problem file, or the default one
+    poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or of lam = mu
     """
 
     request: int
@@ -73,6 +101,7 @@ class Compute:
     dimension: int
     seed: int
     stiffness: float
+    material: str | None = None
     poisson: float | None = None
 
 
@@ -131,7 +160,8 @@ class Workspace:
     up : axis that points up at first, x, y or z
     handles, translation, angle : chosen at first
     diagonal : of the mesh; 0 if there is none
-    samples, dimension, seed, stiffness, poisson : computed with, unless the page asks otherwise
+    samples, dimension, seed, stiffness, material, poisson : computed with unless the page asks
+    materials : that can be chosen
     folder : where `Save` writes, for the reader
     upload_limit : bytes
     """
@@ -149,6 +179,8 @@ class Workspace:
     dimension: int
     seed: int
     stiffness: float
+    materials: tuple[MaterialChoice, ...]
+    material: str
     poisson: float | None
     folder: str
     upload_limit: int
@@ -167,8 +199,7 @@ class Progress:
     """Server: how far the work is; up to ten a second.
 
     request : of the `Compute`; 0 while a mesh is read or filled
-    stage : waiting (for another computation on this machine), reading, filling, snapshots,
-        subspace, energy
+    stage : waiting (for another computation), reading, filling, snapshots, subspace, energy
     done, total : samples; 0 of 0 where nothing is counted
     seconds : since the work began
     eta : until the stage ends; null if not known
@@ -258,7 +289,7 @@ class Polished:
 
 FROM_PAGE = (Choose, Compute, Cancel, Save, Polish)
 FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished)
-PARTS = (HandleChoice, HandleMotion)
+PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion)
 
 PageMessage = Choose | Compute | Cancel | Save | Polish
 ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished

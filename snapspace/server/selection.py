@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..energy import StVK
+from ..material import Material
 from ..mesh import TetMesh
 from ..problem import HandleBox, Handles, PosingProblem
 from .messages import Choose, HandleChoice, Vector
@@ -26,14 +26,14 @@ class Selection:
     box: HandleBox
 
     def problem(
-        self, mesh: TetMesh, *, material: StVK, stiffness: float, known: PosingProblem | None
+        self, mesh: TetMesh, *, material: Material, stiffness: float, known: PosingProblem | None
     ) -> PosingProblem:
         """The problem of these handles.
 
         Parameters
         ----------
         mesh : TetMesh
-        material : StVK
+        material : Material
         stiffness : float
         known : PosingProblem or None
             On the same mesh: it is returned if it is the same problem, and if it is of the same

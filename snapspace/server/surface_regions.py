@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,6 +41,36 @@ class SurfaceRegions:
             surface.vertices(mesh.vertices), surface.faces, mesh.vertices[mesh.surface_vertices]
         )
         self._known: dict[bytes, Indices] = {}  # tet vertices by the bytes of surface vertices
+
+    @property
+    def surface_vertices(self) -> int:
+        """How many vertices the surface has."""
+        return len(self._surface.corners)
+
+    def through(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Which tet vertices are in a part of the surface, (n,), with those below it.
+
+        Parameters
+        ----------
+        chosen : ndarray of bool, (s,)
+            Which vertices of the surface are.
+        """
+        inside: NDArray[np.bool_] = chosen[self._closest_of_all]
+        inside[self._surface.nearest[chosen]] = True
+        return inside
+
+    @cached_property
+    def _closest_of_all(self) -> NDArray[np.intp]:
+        """The surface vertex closest to each tet vertex, (n,), also those inside."""
+        closest = np.empty(len(self._mesh.vertices), np.intp)
+        closest[self._mesh.surface_vertices] = self._closest
+        inner = np.setdiff1d(np.arange(len(closest)), self._mesh.surface_vertices)
+        if inner.size:
+            points = self._surface.vertices(self._mesh.vertices)
+            closest[inner] = closest_corners(
+                points, self._surface.faces, self._mesh.vertices[inner]
+            )
+        return closest
 
     def shown(self, choices: Sequence[HandleChoice]) -> tuple[HandleChoice, ...]:
         """Handles of the tets with the vertices of the surface that follow them most."""

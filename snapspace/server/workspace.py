@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..growing import Growth
+from ..material import DEFAULT_MATERIAL
 from ..page import packed
 from ..reduction import ReducedModel
 from ..stopping import check_stop
@@ -18,6 +19,7 @@ from . import messages
 from .bench import Bench
 from .body import Body, mesh_body
 from .job import Job
+from .materials import material_choices, shown_poisson
 from .mesh_pack import packed_mesh
 from .models import Models
 from .polish_jobs import PolishJobs
@@ -234,7 +236,9 @@ class Workspace:
             dimension=DIMENSION,
             seed=0,
             stiffness=1000.0,
-            poisson=None,
+            materials=material_choices(),
+            material=DEFAULT_MATERIAL.kind,
+            poisson=shown_poisson(DEFAULT_MATERIAL()),
             folder=str(self._site.folder),
             upload_limit=self._site.upload_limit,
         )

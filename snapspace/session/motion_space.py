@@ -54,10 +54,6 @@ class MotionSpace:
         found: FloatArray = distances(self.point(offsets)[None], self.samples)[0]
         return found
 
-    def nearest(self, offsets: FloatArray, count: int) -> NDArray[np.intp]:
-        """The `count` samples nearest to offsets (h, 3, 4), the nearest first."""
-        return np.argsort(self.to_samples(offsets), kind="stable")[:count]
-
     def distance(self, offsets: FloatArray, others: FloatArray) -> float:
         """How far two settings of the handles (h, 3, 4) are apart."""
         return float(np.linalg.norm(self.point(offsets) - self.point(others)))

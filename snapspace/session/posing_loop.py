@@ -15,7 +15,5 @@ def posing_loop(model: PosingModel, *, single: bool) -> core.PosingLoop | core.C
         raise ValueError(
             "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
         )
-    rows, weights, material = elastic.rows, elastic.weights, elastic.material
-    return core.CubatureLoop(
-        rows, weights, material.lam, material.mu, handles.K, handles.L, handles.S
-    )
+    energy = elastic.rows, elastic.weights, elastic.material.core
+    return core.CubatureLoop(*energy, handles.K, handles.L, handles.S)

@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..certificate import Certificate, PosingProbe, ResidualSample
+from ..certificate import PosingProbe, ResidualSample
 from ..problem import rigid_offset
 from ..reduction import Cubature, PosingModel
-from .closure import Closure
 from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
@@ -34,19 +31,12 @@ FARTHEST = 1e3
 class PosingSession(Session[PosingModel]):
     """Poses of a reduced model: move handles, read vertices.
 
-    Parameters and errors as for `Session`, and
-
-    closure : bool, default False
-        Also use what the training samples say, see `Closure`: mean errors in slow drags (d = 120)
-        are then lower by a quarter to a third, for about 0.2 ms a frame. Frames are no minima of
-        the reduced energy any more, but `FrameReport.value` is that energy.
-        Needs 2 (12 m + 1) samples for m moving handles, best solved to 1e-5; 1000 take 0.5 s.
+    Parameters and errors as for `Session`.
 
     Notes
     -----
-    A drag goes on from the last frame's shape, with a closure moved by the expected change. A jump,
-    farther than the training samples lie apart, is solved from a shape interpolated between these
-    (or the last frame's, if lower) and from the three nearest, and the lowest energy wins.
+    A drag goes on from the last frame's shape. A jump, farther than the training samples lie apart,
+    is solved from a shape interpolated between these, or from the last frame's if that is lower.
 
     Examples
     --------
@@ -57,11 +47,6 @@ class PosingSession(Session[PosingModel]):
 
     _maps: FloatArray  # (h, 3, 4), of world positions
     _offsets: FloatArray  # (h, 3, 4), relative to the first handle
-
-    def __init__(self, model: PosingModel, *, closure: bool = False, **options: Any) -> None:
-        self._closed = closure
-        self._closures: dict[int, Closure] = {}
-        super().__init__(model, **options)
 
     @property
     def vertices(self) -> FloatArray:
@@ -192,19 +177,6 @@ class PosingSession(Session[PosingModel]):
         """`pose`."""
         return self.pose(parameters)
 
-    def solve(self) -> FrameReport:
-        """Solves for what is set, from the current shape."""
-        report = super().solve()
-        if self._closure is None:
-            return report
-        return replace(report, value=report.value - self._closure.energy(self.q))
-
-    def certificate(self, *, confidence: float = 0.9, thorough: bool = False) -> Certificate:
-        """As `Session.certificate`; ValueError with a closure, which it is not calibrated for."""
-        if self._closed:
-            raise ValueError("certificate: is calibrated for sessions without a closure, use one")
-        return super().certificate(confidence=confidence, thorough=thorough)
-
     def _default_minimizer(self, model: PosingModel) -> str:
         # a Hessian of a cubature costs d / 4 times its gradient
         return "bfgs" if isinstance(model.elastic, Cubature) else "newton"
@@ -248,26 +220,19 @@ class PosingSession(Session[PosingModel]):
         return report
 
     def _solve_from(self, before: FloatArray) -> FrameReport:
-        """Solves; after a jump from offsets (h, 3, 4) from shapes that the samples suggest."""
+        """Solves; after a jump from offsets (h, 3, 4) from what the samples suggest."""
         if len(self.model.training_parameters) < 2:
             return self.solve()
         with np.errstate(over="ignore"):  # motions far outside of any use
             jump = self._motions.distance(self._offsets, before)
         if not self._motions.spacing < jump < FARTHEST * self._motions.spacing:
-            if self._closure is not None:
-                self._closure.carry_along(self._loop)
             return self.solve()
-        return self._lowest_of(self._after_jump())
-
-    def _after_jump(self) -> Iterator[tuple[str, FloatArray]]:
-        if self._closure is not None:
-            return self._closure.starts(self._offsets)
-        return self._starts.after_jump(self._offsets, self._loop)
+        return self._lowest_of([self._starts.after_jump(self._offsets, self._loop)])
 
     def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
         yield from super()._known_starts()
         if len(self.model.training_parameters) > 1:
-            yield from self._after_jump()
+            yield self._starts.after_jump(self._offsets, self._loop)
 
     @cached_property
     def _motions(self) -> MotionSpace:
@@ -277,24 +242,6 @@ class PosingSession(Session[PosingModel]):
     def _starts(self) -> SampleStarts:
         return SampleStarts(self._motions, self.model.training_coordinates)
 
-    @property
-    def _closure(self) -> Closure | None:
-        """Of the present dimension. Making one leaves the loop's handles at rest."""
-        if not self._closed:
-            return None
-        if self.dimension not in self._closures:
-            self._closures[self.dimension] = Closure(self._loop, self.model, self._motions)
-            self._closures[self.dimension].attach(self._loop)
-        return self._closures[self.dimension]
-
     def _set(self, maps: FloatArray, offsets: FloatArray) -> None:
-        closure = self._closure
         self._maps, self._offsets = maps, offsets
         self._loop.set_offsets(offsets)
-        if closure is not None:
-            closure.pull(self._loop, offsets)
-
-    def _dimension_changed(self) -> None:
-        if self._closure is not None:
-            self._closure.attach(self._loop)
-        self._set(self._maps, self._offsets)

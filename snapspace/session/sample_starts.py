@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
 
@@ -13,8 +12,6 @@ from .motion_space import MotionSpace
 
 FloatArray = NDArray[np.float64]
 
-#: Samples that a jump is solved from beside the interpolated start.
-NEIGHBOURS = 3
 #: Added to the interpolation matrix, relative to its size: repeated samples do no harm.
 _NUGGET = 1e-9
 
@@ -22,9 +19,7 @@ _NUGGET = 1e-9
 class SampleStarts:
     """Reduced coordinates interpolated between the samples of a posing model.
 
-    Radial basis functions -r with a constant, over the handles' motions. On the Dragon (d = 120,
-    960 tets, 30 unseen poses) solves that start here end 0.018 / 0.029 (median / mean) from the
-    full solutions, from the nearest sample 0.022 / 0.028, from rest 0.025 / 0.041.
+    Radial basis functions -r with a constant, over the handles' motions.
 
     Parameters
     ----------
@@ -52,19 +47,15 @@ class SampleStarts:
         q: FloatArray = self._weights[-1] - self._motions.to_samples(offsets) @ self._weights[:-1]
         return q
 
-    def after_jump(self, offsets: FloatArray, loop: Any) -> Iterator[tuple[str, FloatArray]]:
-        """Names and coordinates (d,) to solve from: interpolated ones, and the nearest samples'.
+    def after_jump(self, offsets: FloatArray, loop: Any) -> tuple[str, FloatArray]:
+        """Name and coordinates (d,) to solve from: interpolated, or the loop's if that is lower.
 
-        Where the loop's shape is lower than the interpolated one, that is taken instead.
-
-        A solve from a blend of two minima may end in a third one that is higher. Of four solves the
-        lowest is on unseen poses (d = 120) 0.027 from the full solutions of the Dragon in the mean,
-        and 0.040 from the lowest ones known of the Elephant; the first alone 0.035 and 0.060.
+        From rest alone a jump may end in a higher minimum, also with stable neo-Hookean: of 20
+        poses of the Elephant one does. More starts, such as the nearest samples, find nothing lower
+        with it, and with St.Venant-Kirchhoff lower energies that are no nearer to the full
+        solutions; see docs/notes/closure-and-starts.md.
         """
-        d, first = loop.dimension, self(offsets)[: loop.dimension]
+        first = self(offsets)[: loop.dimension]
         present, known = (loop.value_and_gradient(q)[0] for q in (loop.q, first))
         lower = not present <= known and np.isfinite(known)
-        yield ("sample", first) if lower else ("last frame", loop.q)
-        for q in self._coordinates[self._motions.nearest(offsets, NEIGHBOURS), :d]:
-            if np.isfinite(q).all():
-                yield "sample", q
+        return ("sample", first) if lower else ("last frame", loop.q)

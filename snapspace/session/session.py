@@ -113,7 +113,6 @@ class Session(ABC, Generic[Model]):
                 "model's"
             )
         self._loop.dimension = dimension
-        self._dimension_changed()
 
     @property
     def q(self) -> FloatArray:
@@ -186,7 +185,7 @@ class Session(ABC, Generic[Model]):
         The cost grows with the mesh: on the Dragon (121k tets) about 15 ms an iteration. The first
         call makes the scalar factor, 0.1 to 0.3 s there, unless the problem has solved samples.
         """
-        tolerance = self.model.problem.snapshot_tolerance if tolerance is None else tolerance
+        tolerance = self.model.problem.solving.tolerance if tolerance is None else tolerance
         if iterations < 0 or not tolerance > 0:
             raise ValueError(
                 f"polish: iterations {iterations} must not be negative, and tolerance {tolerance} "
@@ -240,8 +239,8 @@ class Session(ABC, Generic[Model]):
         A drag follows one minimum; far from rest there may be others. This takes the lowest of
         those that the starts lead to, and the report's `start` tells which it was: "last frame" if
         no other is lower than the one that the drag was in, by ten times what the tolerance
-        resolves. The best samples are the one of the lowest energy, and for posing the starts that
-        a jump has. Costs some ten to fifty frames.
+        resolves. The best samples are the one of the lowest energy, and for posing what a jump
+        starts from. Costs some ten to fifty frames.
         """
         return self._lowest_of([("last frame", self.q), *self._known_starts()])
 
@@ -264,10 +263,6 @@ class Session(ABC, Generic[Model]):
     @abstractmethod
     def reset(self) -> None:
         """Back to tau."""
-
-    def _dimension_changed(self) -> None:
-        """Called when another number of coordinates is solved for."""
-        return None
 
     def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
         """tau, and the training sample of the lowest energy, as coordinates."""

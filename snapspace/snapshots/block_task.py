@@ -82,7 +82,8 @@ def _solved(task: BlockTask, problem: Problem, control: core.SolveControl) -> li
             task.starts,
             tolerance=options.tolerance,
             max_iterations=options.max_iterations,
-            clamp=options.clamp,
+            projection=core.Projection[options.projection],
+            threshold=options.clamp,
             threads=1,
             control=control,
         )

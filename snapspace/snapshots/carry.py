@@ -10,9 +10,9 @@ from scipy.sparse import csr_array, diags_array
 
 from .. import _core as core
 from ..blas import single_threaded_blas
+from ..displacements import DisplacementRows
 from ..problem import Handle, PosingProblem, euler_of_rotation, rotation_matrix
 from ..registration import RigidMotion, rigid_registration
-from .displacement_rows import DisplacementRows
 from .fast_solve import as_sample_report
 from .snapshots import SampleReport, Snapshots
 
@@ -155,7 +155,7 @@ def _reports(
     batch = problem.system.solve_fast(
         problem.inputs(parameters),
         rows,
-        tolerance=problem.snapshot_tolerance,
+        tolerance=problem.solving.tolerance,
         max_iterations=0,
         threads=threads,
         control=core.SolveControl(),

@@ -60,7 +60,7 @@ def solve_fast(
 
 def first_iterations(problem: Problem, options: ResolvedOptions) -> int:
     """Iterations of a sample on the factor that all share."""
-    return min(problem.patience or options.max_iterations, options.max_iterations)
+    return min(problem.solving.patience or options.max_iterations, options.max_iterations)
 
 
 def needs_another_try(report: SampleReport, options: ResolvedOptions) -> bool:
@@ -82,15 +82,16 @@ def solve_on(
 
     inputs (input_size,); shape (3n,) and report are where it was left. Returns where it ends.
     """
+    traits = problem.solving
     while needs_another_try(report, options):
         if control.cancelled:
             return shape, replace(report, status="cancelled")
         left = options.max_iterations - report.iterations
-        again = problem.system_near(shape).solve_fast(
+        again = traits.system_near(shape).solve_fast(
             inputs[None],
             shape[None],
             tolerance=options.tolerance,
-            max_iterations=min(problem.patience or left, left),
+            max_iterations=min(traits.patience or left, left),
             threads=threads,
             control=control,
             single=options.single,

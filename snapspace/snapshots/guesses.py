@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import DisplacementRows
 from ..problem import Problem
-from .displacement_rows import DisplacementRows
 from .starts import interpolation_weights
 
 FloatArray = NDArray[np.float64]

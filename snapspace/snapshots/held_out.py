@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import SnapshotGram
 from ..problem import Problem, solutions_beyond_tau
-from .snapshot_gram import SnapshotGram
 
 FloatArray = NDArray[np.float64]
 

@@ -105,7 +105,8 @@ class LocalBackend:
                 tolerance=options.tolerance,
                 max_iterations=options.max_iterations,
                 threads=self._threads,
-                clamp=options.clamp,
+                projection=core.Projection[options.projection],
+                threshold=options.clamp,
                 control=self._control,
             )
             return

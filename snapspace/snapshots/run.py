@@ -12,12 +12,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import DisplacementRows
 from ..interruptible import begin_abandonable
 from ..problem import Problem
 from ..stopping import check_stop, ctrl_c_at_checks
 from .backend import Backend
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError
-from .displacement_rows import DisplacementRows
 from .executor_backend import ExecutorBackend
 from .guesses import Guesses
 from .held_out import HeldOutError
@@ -27,7 +27,7 @@ from .snapshots import SampleReport, Snapshots
 from .solve_progress import Progress, SolveProgress
 from .solved import Solved
 from .solver_options import ResolvedOptions
-from .starts import interpolated_start, lower_start, nearest_start
+from .starts import interpolated_start, lowest_start, nearest_start
 
 FloatArray = NDArray[np.float64]
 
@@ -232,13 +232,13 @@ class Run:
         corrected = self.guesses.corrected(
             [given + i for i in block], [*range(given), *(given + i for i in before)], rows
         )
-        if corrected is not None:
+        if corrected is None:
+            corrected = interpolated_start(parameters, rows, wanted)
+        if not self.problem.solving.far_apart:
             return corrected
-        interpolated = interpolated_start(parameters, rows, wanted)
-        if not self.problem.solutions_far_apart:
-            return interpolated
         nearest = nearest_start(parameters, rows, wanted)
-        return lower_start(self.problem.system, inputs, interpolated, nearest)
+        tau = np.broadcast_to(self.problem.tau - self.problem.base, nearest.shape)
+        return lowest_start(self.problem.system, inputs, [corrected, nearest, tau])
 
     def _book(self, solved: Sequence[Solved]) -> None:
         for one in solved:

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..displacements import DisplacementRows, SnapshotGram
 from ..problem import Problem
-from .displacement_rows import DisplacementRows
-from .snapshot_gram import SnapshotGram
 
 FloatArray = NDArray[np.float64]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.interpolate import RBFInterpolator
 from scipy.spatial import cKDTree
 
 from ..blas import single_threaded_blas
-from .displacement_rows import DisplacementRows
+from ..displacements import DisplacementRows
 
 FloatArray = NDArray[np.float64]
 Kernel = Literal["linear", "thin_plate_spline"]
@@ -94,16 +95,15 @@ def _radial_weights(
     return np.asarray(interpolant(wanted), np.float64)
 
 
-def lower_start(
-    system: Any, inputs: FloatArray, first: FloatArray, second: FloatArray
-) -> FloatArray:
-    """Of two guesses (j, 3n) for inputs (j, input_size), sample by sample, the one of lower energy.
+def lowest_start(system: Any, inputs: FloatArray, guesses: Sequence[FloatArray]) -> FloatArray:
+    """The guess (j, 3n) of lowest energy, sample by sample, for inputs (j, input_size).
 
     Between distant poses an interpolated shape shrinks and turns inside out, and a solve from there
-    may end in a minimum that is far from the others.
+    may end in a minimum that is far from the others; energies with a barrier are infinite there.
+    The first of equal guesses wins.
     """
-    chosen = first.copy()
+    chosen = np.array(guesses[0])
     for k, w in enumerate(inputs):
-        if system.value_and_gradient(second[k], w)[0] < system.value_and_gradient(first[k], w)[0]:
-            chosen[k] = second[k]
+        values = [system.value_and_gradient(guess[k], w)[0] for guess in guesses]
+        chosen[k] = guesses[int(np.argmin(values))][k]
     return chosen

@@ -1,4 +1,4 @@
-"""Checks shared by the generators: one clear line for every argument that cannot work."""
+"""Checks of arguments, also of the generators: one clear line for every one that cannot work."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.generators.root_finding import FloatArray, ImplicitFunction, zero_fractions
+from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, zero_fractions
 
 # The edges of a tet by local corners; cut points in stencils are numbered 4 + position here.
 TET_EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))

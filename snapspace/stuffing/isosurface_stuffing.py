@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from snapspace.generators.arguments import require_positive
-from snapspace.generators.bcc_lattice import BccLattice, lattice_around
-from snapspace.generators.cut_points import TET_EDGES, CutPoints, find_cut_points
-from snapspace.generators.largest_component import largest_component
-from snapspace.generators.lattice_warp import warp_nodes
-from snapspace.generators.manifold import is_closed_manifold
-from snapspace.generators.morton_order import morton_order
-from snapspace.generators.root_finding import FloatArray, ImplicitFunction, evaluate
-from snapspace.generators.stuffing_stencils import case_numbers, stencil_table
 from snapspace.mesh.tet_mesh import TetMesh
+from snapspace.stuffing.arguments import require_positive
+from snapspace.stuffing.bcc_lattice import BccLattice, lattice_around
+from snapspace.stuffing.cut_points import TET_EDGES, CutPoints, find_cut_points
+from snapspace.stuffing.largest_component import largest_component
+from snapspace.stuffing.lattice_warp import warp_nodes
+from snapspace.stuffing.manifold import is_closed_manifold
+from snapspace.stuffing.morton_order import morton_order
+from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, evaluate
+from snapspace.stuffing.stuffing_stencils import case_numbers, stencil_table
 
 _MOST_CELLS = 50_000_000
 

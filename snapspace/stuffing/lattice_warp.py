@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.generators.cut_points import CutPoints
-from snapspace.generators.root_finding import (
+from snapspace.stuffing.cut_points import CutPoints
+from snapspace.stuffing.root_finding import (
     FloatArray,
     ImplicitFunction,
     evaluate,

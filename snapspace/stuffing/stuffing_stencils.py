@@ -17,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.generators.cut_points import TET_EDGES
+from snapspace.stuffing.cut_points import TET_EDGES
 
 # A lattice tet is (corner, corner, centre, centre), positively oriented; 01 and 23 are its long
 # edges. Any such tet has this shape:

@@ -10,9 +10,8 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..blas import single_threaded_blas
+from ..displacements import DisplacementRows, shared_mass
 from ..mesh import apply_mass
-from ..snapshots import DisplacementRows
-from ..snapshots.displacement_rows import shared_mass
 
 FloatArray = NDArray[np.float64]
 
@@ -22,16 +21,16 @@ class AffineSubspace:
     """The shapes tau + U q (paper, eq. 4).
 
     tau : (3n,) reference shape, x0 y0 z0 x1 ...
-    basis : (3n, d) U, with M-orthonormal columns, best first
+    basis : (3n, d) U, with M-orthonormal columns; those of a PCA are sorted, best first
     mass : (n, n) scalar mass matrix M of the reference shape
     eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared
-    error on the snapshots
+    error on the snapshots. None for a basis that is not from snapshots
     """
 
     tau: FloatArray
     basis: FloatArray
     mass: csr_array
-    eigenvalues: FloatArray
+    eigenvalues: FloatArray | None = None
 
     @property
     def dimension(self) -> int:
@@ -44,12 +43,17 @@ class AffineSubspace:
         return bool(self.mass.nnz == self.mass.shape[0])
 
     @property
-    def energy_fraction(self) -> float:
-        """Share of the snapshots' squared M-norm that the subspace holds (paper, sec. 5.2)."""
+    def energy_fraction(self) -> float | None:
+        """Share of the snapshots' squared M-norm that the subspace holds (paper, sec. 5.2).
+
+        None for a basis that is not from snapshots.
+        """
+        if self.eigenvalues is None:
+            return None
         return float(self.eigenvalues[: self.dimension].sum() / self.eigenvalues.sum())
 
     def leading(self, dimension: int) -> AffineSubspace:
-        """The first columns: the best subspace of that dimension for the same snapshots."""
+        """The first columns; of a PCA the best subspace of that dimension for its snapshots."""
         check_dimension(dimension, self.dimension)
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)

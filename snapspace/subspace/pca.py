@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_array
 
 from ..blas import single_threaded_blas
+from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
 from ..mesh import mass_norm
 from ..problem import solutions_beyond_tau
-from ..snapshots import DisplacementRows, SnapshotGram, Snapshots
 from .affine_subspace import AffineSubspace, check_dimension
-from .orthonormal import orthonormalise
+
+if TYPE_CHECKING:
+    from ..snapshots import Snapshots
 
 FloatArray = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..energy import StVK
+from ..material import Material
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 from .displacement_gradients import displacement_gradients
@@ -18,9 +18,9 @@ class Cubature:
     """E(tau + U q) as a sum of the energies of a few tets with positive weights.
 
     After An, Kim, James 2008, "Optimizing cubature for efficient integration of subspace
-    deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material, where
-    the exact quartic costs d^4 / 24. Rows are rounded to 5e-7 of their entries; value, gradient and
-    Hessian belong together to full precision.
+    deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material. Rows
+    are rounded to 5e-7 of their entries; value, gradient and Hessian belong together to full
+    precision.
 
     Parameters
     ----------
@@ -30,12 +30,14 @@ class Cubature:
         The volume that each stands for, > 0.
     rows : (r, 9, d) float32
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
-    material : StVK
+    material : Material
+        Of these tets, with the same moduli in all of them or r of each.
 
     Raises
     ------
     ValueError
-        If the sizes do not match, or a weight is not positive and finite.
+        If the sizes do not match, those of the moduli included, or a weight is not positive and
+        finite.
     """
 
     def __init__(
@@ -43,7 +45,7 @@ class Cubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
         rows: NDArray[np.float32],
-        material: StVK,
+        material: Material,
     ) -> None:
         r = len(tets)
         if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
@@ -57,11 +59,12 @@ class Cubature:
                 f"Cubature: the weight of tet {tets[bad[0]]} is {weights[bad[0]]}, but weights "
                 "must be positive"
             )
+        material.check_tets(r, "Cubature")
         self.tets = tets
         self.weights = weights
         self.rows = np.ascontiguousarray(rows, np.float32)
         self.material = material
-        self._core = core.Cubature(self.rows, self.weights, material.lam, material.mu)
+        self._core = core.Cubature(self.rows, self.weights, material.core)
 
     @classmethod
     def of_tets(
@@ -84,7 +87,7 @@ class Cubature:
         if len(tets) and not 0 <= tets.min() <= tets.max() < count:
             raise ValueError(f"Cubature: tets must be between 0 and {count - 1}")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
-        return cls(tets, weights, rows, problem.material)
+        return cls(tets, weights, rows, problem.material.of_tets(tets))
 
     @property
     def dimension(self) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import _core as core
 from ..mesh import TetMesh
 
 FloatArray = NDArray[np.float64]
@@ -26,11 +27,6 @@ def displacement_gradients(
     rows = np.empty((len(tets), 9, d), np.float32)
     for begin in range(0, len(tets), _BLOCK):
         corners = mesh.tets[tets[begin : begin + _BLOCK]]
-        points = mesh.vertices[corners]
-        edges = points[:, 1:] - points[:, :1]  # (b, j, 3)
-        inverse = np.linalg.inv(edges)  # (b, 3, j): column j is the gradient of shape function j
-        nodal = modes[corners]
-        moved = (nodal[:, 1:] - nodal[:, :1]).reshape(len(corners), 3, 3 * d)
-        gradients = (inverse @ moved).reshape(-1, 3, 3, d)  # (b, x, u, d)
-        rows[begin : begin + _BLOCK] = gradients.swapaxes(1, 2).reshape(-1, 9, d)
+        block = core.displacement_rows(mesh.vertices[corners], modes[corners])
+        rows[begin : begin + _BLOCK] = block
     return rows

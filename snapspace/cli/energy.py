@@ -1,0 +1,42 @@
+"""What the reduced energy asks of a build, before its samples are solved."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import Energy, chosen_energy, fewest_snapshots, training_tolerance
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnergyChoice:
+    """The energy that the user wants.
+
+    energy, tets : as for `reduce`
+    dimension : of the subspace; None if an energy fraction decides
+    """
+
+    energy: Energy = "auto"
+    tets: int | None = None
+    dimension: int | None = None
+
+    def check(self, problem: PosingProblem | InterpolationProblem, samples: int) -> None:
+        """ValueError for what `reduce` would say after the samples are solved."""
+        # a subspace has at most as many dimensions as there are samples
+        dimensions = (1, samples) if self.dimension is None else (self.dimension,)
+        for dimension in dimensions:
+            fewest = fewest_snapshots(problem, dimension, self.energy)
+            if samples < fewest:
+                raise ValueError(
+                    f"the energy is a cubature, which is trained on {fewest} samples or more, but "
+                    f"there are {samples}; raise --samples"
+                )
+        kinds = {chosen_energy(problem, d, self.energy) for d in dimensions}
+        if self.tets is not None and kinds == {"exact"}:
+            raise ValueError(
+                "--tets is for a cubature, but the energy is exact; add --energy cubature"
+            )
+
+    def tolerance(self, problem: PosingProblem) -> float | None:
+        """As `training_tolerance`; of an unknown dimension that of the smallest."""
+        return training_tolerance(problem, self.dimension or 1, self.energy)

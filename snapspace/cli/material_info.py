@@ -1,0 +1,38 @@
+"""Figures of materials."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..material import MATERIALS, Material
+
+#: Sets of moduli, by name: one number, or the least and the largest of all tets.
+Figures = dict[str, Any]
+
+
+def material_figures(material: Material) -> Figures:
+    """The model and its moduli, for JSON; {"min", "max"} where they differ from tet to tet."""
+    figures: Figures = {"model": material.kind}
+    for name in material.names():
+        value = getattr(material, name)
+        varies = np.ndim(value) > 0 and np.ptp(value) > 0
+        figures[name] = (
+            {"min": float(np.min(value)), "max": float(np.max(value))}
+            if varies
+            else float(np.min(value))
+        )
+    return figures
+
+
+def material_text(figures: Figures) -> str:
+    """The same for people."""
+    moduli = [f"{name} {_text(value)}" for name, value in figures.items() if name != "model"]
+    return ", ".join([MATERIALS[figures["model"]].title, *moduli])
+
+
+def _text(value: float | dict[str, float]) -> str:
+    if isinstance(value, dict):
+        return f"varies from tet to tet: {value['min']:g} to {value['max']:g}"
+    return f"{value:g}"

@@ -1,0 +1,7 @@
+"""Displacements of many shapes: rows wherever they are stored, inner products, orthonormal ones."""
+
+from .displacement_rows import BLOCK, DisplacementRows, shared_mass
+from .orthonormal import orthonormalise
+from .snapshot_gram import SnapshotGram
+
+__all__ = ["BLOCK", "DisplacementRows", "SnapshotGram", "orthonormalise", "shared_mass"]

@@ -1,0 +1,43 @@
+"""InputError: what came is not what was needed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+
+class InputError(ValueError):
+    """A ValueError that knows where it is from, so that callers can say it better.
+
+    place : the function, file or entry that says it
+    fault : what came, what was needed, and the cure
+    """
+
+    def __init__(self, place: str | Path, fault: str) -> None:
+        super().__init__(f"{place}: {fault}")
+        self.place = str(place)
+        self.fault = fault
+
+    def __reduce__(self) -> tuple[type[InputError], tuple[str, str]]:
+        return type(self), (self.place, self.fault)
+
+
+def fault_of(error: Exception) -> str:
+    """What is wrong, without the place that the error itself names."""
+    return error.fault if isinstance(error, InputError) else str(error)
+
+
+@contextmanager
+def located(place: str | Path) -> Iterator[None]:
+    """Puts a file in the place of the functions that find fault with its content.
+
+    Raises
+    ------
+    InputError
+        For a ValueError or an OSError of the block.
+    """
+    try:
+        yield
+    except (ValueError, OSError) as error:
+        raise InputError(place, fault_of(error)) from None

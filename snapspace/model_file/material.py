@@ -1,0 +1,61 @@
+"""The material in model files: its name and numbers as JSON, moduli of single tets as an array."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..material import MATERIALS, Material
+from .container import Arrays, check_shapes
+
+#: Moduli of all tets, (m, k) in the order of the material's names; only where they differ.
+MODULI = "material_moduli"
+
+
+class UnknownMaterialError(ValueError):
+    """A material that this version does not know."""
+
+
+def material_arrays(material: Material) -> Arrays:
+    """The array of moduli that differ from tet to tet, if they do."""
+    return {} if material.uniform else {MODULI: material.moduli}
+
+
+def material_content(material: Material) -> dict[str, Any]:
+    """Name and moduli as JSON: numbers, or null where they differ from tet to tet."""
+    moduli = {name: getattr(material, name) for name in material.names()}
+    numbers = {name: None if np.ndim(value) else value for name, value in moduli.items()}
+    return {"model": material.kind, **numbers}
+
+
+def dtypes(arrays: Arrays) -> dict[str, type]:
+    """Type of the array, if there is one."""
+    return {MODULI: np.float64} if MODULI in arrays else {}
+
+
+def material(arrays: Arrays, content: dict[str, Any], tets: int) -> Material:
+    """The material of a body of so many tets.
+
+    `content` is the entry that `material_content` makes.
+
+    Raises
+    ------
+    UnknownMaterialError
+        For a model that this version does not know.
+    KeyError, TypeError, ValueError
+        If array and entry do not fit together, or a modulus is out of range.
+    """
+    if content["model"] not in MATERIALS:
+        raise UnknownMaterialError(
+            f"a model of material '{content['model']}', this snapspace knows "
+            f"{', '.join(sorted(MATERIALS))}"
+        )
+    kind = MATERIALS[content["model"]]
+    moduli = {name: content[name] for name in kind.names()}
+    if MODULI in arrays:
+        check_shapes(arrays, {MODULI: (tets, len(moduli))})
+    for column, (name, value) in enumerate(moduli.items()):
+        if value is None:
+            moduli[name] = arrays[MODULI][:, column]
+    return kind(**moduli)

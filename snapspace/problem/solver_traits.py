@@ -1,0 +1,124 @@
+"""SolverTraits: what a kind of problem, and its material, ask of the solvers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core as core
+from ..material import Material
+
+FloatArray = NDArray[np.float64]
+Projection = Literal["stretches", "clamp", "absolute"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SolverTraits:
+    """How full solutions of a problem are found; users decide otherwise by `SolverOptions`.
+
+    tolerance : of snapshots, where neither the user nor settling decides
+    loose_tolerance : of samples for a first impression, see `growing_models`
+    settling : share of the displacement at which the fast solver's steps may end; 0 for never
+    cubature_tolerance : of snapshots that train a cubature, whose forces must be near equilibrium
+    patience : iterations of the fast solver after which `system_near` helps; None if it never does
+    projection : of the tets' Hessians in Newton's method, see `SolverOptions`
+    far_apart : whether shapes interpolated between solutions may be worse starts than the nearest
+    soft_modes : gives what the system's scalar factor mistakes for stiff, or None if unknown;
+        made by the first call, and kept by the problem
+    system_near : gives the compiled problem made for solutions near a displacement (3n,)
+    """
+
+    tolerance: float
+    loose_tolerance: float
+    settling: float
+    cubature_tolerance: float
+    patience: int | None
+    projection: Projection
+    far_apart: bool
+    soft_modes: Callable[[], core.SoftModes | None]
+    system_near: Callable[[FloatArray], Any]
+
+
+#: Iterations on the shared factor after which an interpolated sample gets one of its own. Most
+#: samples of the Centaur take 200. Those that start far from their minimum take 650 on the shared
+#: factor, and 220 more after so many on one of their own.
+PATIENCE = 240
+
+
+def posing_traits(
+    material: Material,
+    *,
+    soft_modes: Callable[[], core.SoftModes],
+    system_near: Callable[[FloatArray], Any],
+) -> SolverTraits:
+    """Those of posing: the one place that decides to what snapshots are solved.
+
+    Where the reduced energy can be an exact quartic, only the shapes count. They may be as far from
+    the minimum as a subspace of 40 dimensions usually is from the shapes: 1 % of the displacement.
+    On the Dragon a tolerance of 1e-5 leaves 0.3 %.
+
+    All other materials are reduced to a cubature, which is trained on the forces that tets exert at
+    the snapshots. Settled snapshots have wrinkles whose forces no solution has: on the Dragon, with
+    stable neo-Hookean, they leave live errors of 0.0056 / 0.0075 (median / mean). A tolerance of
+    1e-6 leaves 0.0018 / 0.0029 (300 samples, d = 120, 1000 tets) in 13 s of processor time, single
+    precision; 1e-7 takes double precision, 24 s, and leaves 0.0015 / 0.0021.
+
+    Expected decreases are those of the scalar factor, which takes shear for as stiff as stretch:
+    they are too small by (2 mu + lam) / mu. Tolerances of nearly incompressible materials are
+    lower by that, against lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6 leaves live
+    errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 it is 0.0135 and 0.0067 (d = 80).
+
+    Of the Dragon, d = 16, 36 loose samples make a model with the same live error as samples of a
+    tenth of the tolerance: 0.067 and 0.064 with stable neo-Hookean.
+
+    Guesses may have inverted tets. Where their energy is infinite, samples start from the lowest of
+    what is known.
+
+    Newton's method projects as the paper does where the material is the paper's.
+
+    The handles' matrix is part of every Hessian, so that one factor serves all samples, with
+    unlimited patience. Interpolated starts were never worse than the nearest sample on the Dragon.
+    """
+    settles = material.exact_degree == 4
+    papers: Projection = "stretches" if material.kind == "stvk" else "clamp"
+    tolerance = 1e-5 if settles else 1e-6 * _shear_share(material)
+    return SolverTraits(
+        tolerance=tolerance,
+        loose_tolerance=1e-2,
+        settling=1e-2 if settles else 0.0,
+        cubature_tolerance=tolerance,
+        patience=None,
+        projection=papers,
+        far_apart=material.barrier,
+        soft_modes=soft_modes,
+        system_near=system_near,
+    )
+
+
+def _shear_share(material: Material) -> float:
+    """The least mu / (2 mu + lam) of all tets, relative to that of lam = mu, but at most 1."""
+    return min(1.0, 3.0 * float(np.min(np.divide(material.mu, material.stiffness))))
+
+
+def interpolation_traits(*, system_near: Callable[[FloatArray], Any]) -> SolverTraits:
+    """Those of interpolation.
+
+    Nothing holds the shape, and poses differ in what is soft: no soft modes are known, and they
+    move on in steps too short to tell that they have settled, so that the tolerance must be tight.
+    Halfway between distant poses a blend of solutions shrinks and turns inside out.
+    """
+    return SolverTraits(
+        tolerance=1e-9,
+        loose_tolerance=1e-6,
+        settling=0.0,
+        cubature_tolerance=1e-9,
+        patience=PATIENCE,
+        projection="stretches",
+        far_apart=True,
+        soft_modes=lambda: None,
+        system_near=system_near,
+    )

@@ -1,0 +1,60 @@
+"""Materials as a page offers and chooses them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..material import MATERIALS, Material, material_class
+from .messages import MaterialChoice
+
+#: Linear tets lock beyond.
+MOST_POISSON = 0.49
+
+
+def material_choices() -> tuple[MaterialChoice, ...]:
+    """All materials that a page can compute with."""
+    return tuple(
+        MaterialChoice(
+            kind=kind,
+            title=material.title,
+            has_poisson=bool(material.from_lame(lam=1.0, mu=1.0).lam > 0),
+        )
+        for kind, material in MATERIALS.items()
+    )
+
+
+def chosen_material(given: Material, *, kind: str | None, poisson: float | None) -> Material:
+    """The material of a message.
+
+    Parameters
+    ----------
+    given : Material
+        Of the problem file, or the default one.
+    kind : str or None
+        Of another material with the same Lame parameters; None: that of `given`.
+    poisson : float or None
+        Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: as `given`.
+
+    Raises
+    ------
+    ValueError
+        For an unknown kind, or a ratio out of range.
+    """
+    if poisson is not None and not 0.0 <= poisson <= MOST_POISSON:
+        raise ValueError(
+            f"Poisson's ratio is {poisson:g}, but it must be from 0 to {MOST_POISSON}: tets lock "
+            "beyond"
+        )
+    made = type(given) if kind is None else material_class(kind)
+    if poisson is not None:
+        lam = 2.0 * np.asarray(given.mu) * poisson / (1.0 - 2.0 * poisson)
+        return made.from_lame(lam=lam, mu=given.mu)
+    return given if made is type(given) else made.from_lame(lam=given.lam, mu=given.mu)
+
+
+def shown_poisson(material: Material) -> float | None:
+    """Poisson's ratio in all tets; None where it differs, or is beyond 0.49."""
+    ratios = np.atleast_1d(material.lam / (2.0 * (np.asarray(material.lam) + material.mu)))
+    if np.ptp(ratios) > 1e-12 or ratios[0] > MOST_POISSON:
+        return None
+    return float(ratios[0])

@@ -1,0 +1,95 @@
+"""Parts: stiffer and softer parts of a body, as a page paints them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..material import Material
+from ..mesh import TetMesh
+from .messages import PartChoice
+from .surface_regions import SurfaceRegions
+
+FloatArray = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+#: Beyond them solvers lose the soft side in the rounding of the stiff one.
+LEAST_FACTOR, MOST_FACTOR = 1e-4, 1e4
+#: Corners in a part that make a tet belong to it.
+CORNERS = 3
+
+
+def part_factors(
+    parts: Sequence[PartChoice], mesh: TetMesh, regions: SurfaceRegions | None
+) -> FloatArray | None:
+    """How many times as stiff each tet is, (m,); of overlapping parts the later one wins.
+
+    Parameters
+    ----------
+    parts : sequence of PartChoice
+    mesh : TetMesh
+    regions : SurfaceRegions or None
+        Of a body with a surface of its own, whose vertices the parts then have.
+
+    Returns
+    -------
+    ndarray or None
+        None without parts.
+
+    Raises
+    ------
+    ValueError
+        For a factor out of range, a name that is empty or used twice, a vertex that is not there,
+        or a part without tets. The message names the part.
+    """
+    if not parts:
+        return None
+    factors = np.ones(len(mesh.tets))
+    names: set[str] = set()
+    for part in parts:
+        _check(part, names)
+        names.add(part.name)
+        factors[_tets_in(part, mesh, regions)] = part.factor
+    return factors
+
+
+def with_factors(material: Material, factors: FloatArray | None) -> Material:
+    """The material with all moduli of each tet times its factor; densities are linear in them."""
+    if factors is None:
+        return material
+    moduli = {name: getattr(material, name) * factors for name in material.names()}
+    return type(material)(**moduli)
+
+
+def _check(part: PartChoice, names: set[str]) -> None:
+    if not part.name.strip():
+        raise ValueError("a part has no name; give it one")
+    if part.name in names:
+        raise ValueError(f"the name '{part.name}' is used by two parts; rename one")
+    if not LEAST_FACTOR <= part.factor <= MOST_FACTOR:
+        raise ValueError(
+            f"part '{part.name}' has the factor {part.factor:g}, but it must be from "
+            f"{LEAST_FACTOR:g} to {MOST_FACTOR:g}"
+        )
+
+
+def _tets_in(part: PartChoice, mesh: TetMesh, regions: SurfaceRegions | None) -> Mask:
+    count = len(mesh.vertices) if regions is None else regions.surface_vertices
+    chosen = np.zeros(count, np.bool_)
+    vertices = np.asarray(part.vertices, np.int64)
+    wrong = vertices[(vertices < 0) | (vertices >= count)]
+    if wrong.size:
+        raise ValueError(
+            f"part '{part.name}' has vertex index {wrong[0]}, but there are {count} vertices"
+        )
+    chosen[vertices] = True
+    inside = chosen if regions is None else regions.through(chosen)
+    tets: Mask = inside[mesh.tets].sum(axis=1) >= CORNERS
+    if not tets.any():
+        raise ValueError(
+            f"part '{part.name}' has no tet: three of a tet's corners must be in it; choose a "
+            "larger part, or delete it"
+        )
+    return tets

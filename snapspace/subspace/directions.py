@@ -1,0 +1,106 @@
+"""affine_subspace: any directions as a subspace."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..blas import single_threaded_blas
+from ..mesh import apply_mass
+from ..problem import Problem
+from .affine_subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+#: Rounds of Gram-Schmidt for each direction: two reach orthogonality to rounding (Giraud, Langou,
+#: Rozloznik, van den Eshof 2005, "Rounding error analysis of the classical Gram-Schmidt
+#: orthogonalization process").
+_ROUNDS = 2
+
+
+@single_threaded_blas
+def affine_subspace(
+    directions: ArrayLike,
+    problem: Problem,
+    *,
+    nested: bool = True,
+    rtol: float = 1e-10,
+) -> AffineSubspace:
+    """The shapes that any displacement directions span about a problem's tau.
+
+    For a basis of your own: vibration modes, biharmonic coordinates, handle responses. The
+    directions are made orthonormal in the mass matrix of tau, in their order.
+
+    Parameters
+    ----------
+    directions : array_like, (3n, k)
+        One displacement per column, of vertices x0 y0 z0 x1 ...; of any length.
+    problem : Problem
+    nested : bool, default True
+        Every leading part of the basis spans the leading part of the directions, so that a model
+        can be used with fewer dimensions; directions must be independent. False drops those that
+        depend on earlier ones.
+    rtol : float, default 1e-10
+        A direction depends on earlier ones if less than this share of its M-norm is left.
+
+    Returns
+    -------
+    AffineSubspace
+        With k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no eigenvalues.
+
+    Raises
+    ------
+    ValueError
+        For directions of another shape, none that is not zero, one that is not finite, one that
+        depends on earlier ones if nested, or an rtol that is not in (0, 1).
+    """
+    if not 0 < rtol < 1:
+        raise ValueError(f"affine_subspace: rtol is {rtol}, but it must be between 0 and 1")
+    columns = _checked(directions, problem.tau.size)
+    mass = problem.mass()
+    basis = np.empty((columns.shape[1], problem.tau.size))
+    weighted = np.empty_like(basis)  # M times the basis
+    d = 0
+    for k, column in enumerate(columns.T):
+        direction, size = column.copy(), _norm(column, apply_mass(mass, column))
+        left = 0.0 if size == 0 else 1.0
+        direction /= size or 1.0
+        for _ in range(_ROUNDS):
+            direction -= (weighted[:d] @ direction) @ basis[:d]
+            norm = _norm(direction, apply_mass(mass, direction))
+            left *= norm
+            direction /= norm or 1.0
+        if left > rtol:
+            basis[d], weighted[d] = direction, apply_mass(mass, direction)
+            d += 1
+        elif nested:
+            raise ValueError(
+                f"affine_subspace: direction {k} is zero or depends on those before it, {left:.1g} "
+                "of it is left; leave it out, or pass nested=False, which drops such directions"
+            )
+    if d == 0:
+        raise ValueError("affine_subspace: all directions are zero; at least one must not be")
+    return AffineSubspace(problem.tau, np.ascontiguousarray(basis[:d]).T, mass)
+
+
+def _norm(direction: FloatArray, weighted: FloatArray) -> float:
+    return math.sqrt(max(float(direction @ weighted), 0.0))
+
+
+def _checked(directions: ArrayLike, size: int) -> FloatArray:
+    """A matrix (3n, k) of finite numbers."""
+    try:
+        columns = np.asarray(directions, np.float64)
+    except (TypeError, ValueError):
+        raise ValueError("affine_subspace: directions must be numbers, (3n, k)") from None
+    if columns.ndim != 2 or columns.shape[0] != size or columns.shape[1] == 0:
+        raise ValueError(
+            f"affine_subspace: directions have shape {columns.shape}, but must be ({size}, k) with "
+            "k >= 1: a column for each, three rows per vertex"
+        )
+    bad = np.flatnonzero(~np.isfinite(columns).all(axis=0))
+    if bad.size:
+        raise ValueError(f"affine_subspace: direction {bad[0]} is not finite")
+    return columns
