@@ -3,7 +3,7 @@
 The compiler is clang in the `ziglang` package of PyPI, in the exact version below, so that the same
 sources give the same bytes everywhere. The module is checked in, and core.json beside it records
 what it was made of: a test compares that with the present sources. Run after a change of
-core/material, core/online or core/simd:
+core/online, or of what it includes:
 
     pip install ziglang==0.17.1
     python tools/build_wasm.py
@@ -14,10 +14,15 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import core_header
 
 ROOT = Path(__file__).parent.parent
 MODULE = ROOT / "web" / "generated" / "core.wasm"
@@ -25,22 +30,7 @@ RECORD = ROOT / "web" / "generated" / "core.json"
 UNIT = ROOT / "web" / "engine" / "module.cpp"
 
 ZIGLANG = "0.17.1"
-EXPORTS = (
-    "malloc",
-    "free",
-    "snapspace_create_posing",
-    "snapspace_create_posing_cubature",
-    "snapspace_create_blending",
-    "snapspace_destroy",
-    "snapspace_set_offsets",
-    "snapspace_set_weights",
-    "snapspace_set_dimension",
-    "snapspace_dimension",
-    "snapspace_solve",
-    "snapspace_value",
-    "snapspace_get_q",
-    "snapspace_set_q",
-)
+EXPORTS = ("malloc", "free", *(function.name for function in core_header.functions()))
 FLAGS = (
     "-target",
     "wasm32-wasi",
@@ -60,9 +50,17 @@ FLAGS = (
 
 
 def sources() -> list[Path]:
-    """All files that the module is made of."""
-    rooms = [ROOT / "core" / room for room in ("material", "online", "simd")]
-    return sorted([*(path for room in rooms for path in room.iterdir() if path.is_file()), UNIT])
+    """All files that the module is made of: the unit, and what it includes."""
+    found = {UNIT}
+    waiting = [UNIT]
+    while waiting:
+        text = waiting.pop().read_text(encoding="utf-8")
+        included = {
+            ROOT / "core" / name for name in re.findall(r'^#include "([^"]+)"', text, re.MULTILINE)
+        }
+        waiting += included - found
+        found |= included
+    return sorted(found)
 
 
 def sources_hash() -> str:

@@ -20,8 +20,9 @@ export class BlendingSession {
   private constructor(model: BlendingModel, core: Core) {
     this.model = model;
     this.#core = core;
-    this.#certifier = Certifier.of(model);
-    const { valueScale, coordinateScale } = model;
+    this.#certifier = Certifier.of(model, core);
+    const { valueScale } = core;
+    const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-9, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
     this.reset();
   }
@@ -68,7 +69,7 @@ export class BlendingSession {
 
   /** How far the shape is from the full solution; null if the model cannot tell. */
   certificate(): Certificate | null {
-    return this.#certifier?.certify(this.q, this.#weights) ?? null;
+    return this.#certifier?.certify() ?? null;
   }
 
   /** Back to the mean shape: equal weights. */

@@ -1,6 +1,6 @@
+import type { Core } from "./core.ts";
 import { LocalRatios } from "./local_ratios.ts";
 import type { Model } from "./model.ts";
-import { ResidualProbe } from "./residual_probe.ts";
 
 /** Confidence of the bounds. */
 export const CONFIDENCE = 0.9;
@@ -16,30 +16,32 @@ export interface Certificate {
 
 /** Certificates of a model's frames. */
 export class Certifier {
-  readonly #probe: ResidualProbe;
+  readonly #core: Core;
   readonly #ratios: LocalRatios;
   readonly #mass: number;
   readonly #dimension: number;
 
-  /** Null for a model that was not calibrated. */
-  static of(model: Model): Certifier | null {
-    return model.estimator ? new Certifier(model, model.estimator) : null;
+  /** Null for a model that was not calibrated. `core` solves it. */
+  static of(model: Model, core: Core): Certifier | null {
+    return model.estimator ? new Certifier(model, core, model.estimator) : null;
   }
 
-  private constructor(model: Model, estimator: NonNullable<Model["estimator"]>) {
-    this.#probe = new ResidualProbe(estimator, model.material);
+  private constructor(model: Model, core: Core, estimator: NonNullable<Model["estimator"]>) {
+    this.#core = core;
     this.#ratios = new LocalRatios(estimator.coordinates, estimator.ratios);
     this.#mass = estimator.mass;
     this.#dimension = model.dimension;
   }
 
-  /** Of the frame q for offsets of handles, or weights of poses; null in fewer dimensions than were calibrated, and
-   * at tau itself. */
-  certify(q: ArrayLike<number>, state: ArrayLike<number>): Certificate | null {
+  /** Of the core's present frame; null in fewer dimensions than were calibrated, at tau
+   * itself, and where the energy is infinite. */
+  certify(): Certificate | null {
+    const { q } = this.#core;
     // the basis is M-orthonormal: the norm of q is that of the displacement
     const size = Math.hypot(...Array.from(q)) / Math.sqrt(this.#mass);
     if (q.length !== this.#dimension || !(size > 0)) return null;
-    const residual = this.#probe.norm(q, state);
+    const residual = this.#core.residual();
+    if (residual === null || !Number.isFinite(residual)) return null;
     const [middle, bound] = this.#ratios.at(q, CONFIDENCE);
     return {
       relative: (residual * middle) / size,

@@ -1,5 +1,6 @@
 import type { HandleChoice, Vector } from "./messages.ts";
-import { union, without } from "./selecting.ts";
+import type { ChosenPart } from "./parts.ts";
+import { NOTHING, union, without } from "./selecting.ts";
 
 /** Half widths of the sampled motions per axis; null where the common ones hold. */
 export interface Ranges {
@@ -16,14 +17,13 @@ export interface ChosenHandle extends Ranges {
   readonly moving: boolean;
 }
 
-/** Vertices that are selected, and the handles so far. Never changed: every step makes a new one. */
+/** Vertices that are selected, handles and parts so far. Never changed: every step makes a new one. */
 export interface Choice {
   /** Ascending. */
   readonly selected: Int32Array;
   readonly handles: readonly ChosenHandle[];
+  readonly parts: readonly ChosenPart[];
 }
-
-export const NOTHING: Int32Array = new Int32Array(0);
 
 /** What a server or a problem file has chosen. */
 export function choiceOf(handles: readonly HandleChoice[]): Choice {
@@ -35,7 +35,7 @@ export function choiceOf(handles: readonly HandleChoice[]): Choice {
     translation,
     angle,
   }));
-  return { selected: NOTHING, handles: chosen };
+  return { selected: NOTHING, handles: chosen, parts: [] };
 }
 
 /** The handles as the server takes them, those that hold the shape first: so they are in models, too. */
@@ -56,7 +56,7 @@ export function withNewHandle(choice: Choice): Choice {
   const moving = others.some((handle) => !handle.moving);
   const name = freeName(handles);
   const own = { key, name, vertices: selected, moving, translation: null, angle: null };
-  return { selected: NOTHING, handles: [...others, own] };
+  return { ...choice, selected: NOTHING, handles: [...others, own] };
 }
 
 /** The selected vertices go over to a handle. */
@@ -71,7 +71,7 @@ export function withMore(choice: Choice, key: number): Choice {
   const left = handles.flatMap((handle) =>
     handle === owner ? [grown] : others.filter((other) => other.key === handle.key),
   );
-  return { selected: NOTHING, handles: left };
+  return { ...choice, selected: NOTHING, handles: left };
 }
 
 /** The selected vertices belong to no handle. */

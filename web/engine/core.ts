@@ -1,21 +1,22 @@
-import { createSession } from "./core_create.ts";
-import type { CoreExports } from "./core_exports.ts";
+import { createSession, valueScaleOf } from "./core_create.ts";
+import { ERROR, METHOD, OPTIONS, REPORT, STATUS, type CoreExports } from "./core_exports.ts";
+import { CoreMemory } from "./core_memory.ts";
 import type { BlendingModel, PosingModel } from "./model.ts";
 
 /** core/online as WebAssembly: the functions of core/online/snapspace_online.h on numbers of JavaScript. */
 
-const STATUS = [
-  "converged",
-  "max_iterations",
-  "line_search_failed",
-  "not_finite",
-  "max_evaluations",
-] as const;
-const [NEWTON, BFGS] = [0, 1];
+const STATUS_NAMES = {
+  [STATUS.CONVERGED]: "converged",
+  [STATUS.MAX_ITERATIONS]: "max_iterations",
+  [STATUS.LINE_SEARCH_FAILED]: "line_search_failed",
+  [STATUS.ENERGY_NOT_FINITE]: "not_finite",
+  [STATUS.MAX_EVALUATIONS]: "max_evaluations",
+} as const;
+type Status = keyof typeof STATUS_NAMES;
 
 /** How one frame was solved; as FrameReport of the Python package. */
 export interface FrameReport {
-  status: (typeof STATUS)[number] | "unbounded";
+  status: (typeof STATUS_NAMES)[Status] | "unbounded";
   iterations: number;
   evaluations: number;
   value: number;
@@ -34,14 +35,19 @@ export interface Termination {
 /** One session of the core; its memory is its own WebAssembly instance, so that nothing leaks. */
 export class Core {
   readonly #call: CoreExports;
+  readonly #memory: CoreMemory;
   readonly #session: number;
   readonly #dimension: number;
   readonly #method: number;
   readonly #numbers: number; // scratch for arguments and results
   readonly #options: number;
   readonly #report: number;
+  readonly #hasProbe: boolean;
+  /** Unit of energy for the termination tests. */
+  readonly valueScale: number;
 
-  /** `module` is web/generated/core.wasm. Throws UnreadableModel for a damaged model. */
+  /** `module` is web/generated/core.wasm. Throws UnreadableModel for a damaged model, or an
+   * unknown material. */
   static async create(module: WebAssembly.Module, model: PosingModel | BlendingModel): Promise<Core> {
     const instance = await WebAssembly.instantiate(module, {});
     return new Core(instance.exports as unknown as CoreExports, model);
@@ -52,12 +58,15 @@ export class Core {
     this.#call = exports;
     this.#dimension = model.dimension;
     this.#session = createSession(exports, model);
+    this.valueScale = valueScaleOf(exports, model.valueScale);
     // a Hessian of a cubature costs d / 4 times its gradient
-    this.#method = model.kind === "posing" && model.elastic.kind === "cubature" ? BFGS : NEWTON;
+    this.#method = model.kind === "posing" && model.elastic.kind === "cubature" ? METHOD.BFGS : METHOD.NEWTON;
     const inputs = model.kind === "posing" ? 12 * model.handles.length : model.poses.length;
-    this.#numbers = exports.malloc(8 * Math.max(inputs, model.dimension));
-    this.#options = exports.malloc(40);
-    this.#report = exports.malloc(32);
+    this.#memory = new CoreMemory(exports);
+    this.#numbers = this.#memory.take(8 * Math.max(inputs, model.dimension));
+    this.#options = this.#memory.take(OPTIONS.size);
+    this.#report = this.#memory.take(REPORT.size);
+    this.#hasProbe = model.estimator !== null;
   }
 
   get dimension(): number {
@@ -80,7 +89,7 @@ export class Core {
 
   get q(): Float64Array {
     this.#check(this.#call.snapspace_get_q(this.#session, this.#numbers));
-    return new Float64Array(this.#call.memory.buffer, this.#numbers, this.dimension).slice();
+    return this.#memory.doubles(this.#numbers, this.dimension);
   }
 
   set q(q: ArrayLike<number>) {
@@ -90,27 +99,24 @@ export class Core {
   /** The reduced objective at coordinates, for what is set. */
   value(q: ArrayLike<number>): number {
     this.#check(this.#call.snapspace_value(this.#session, this.#given(q), this.#report));
-    return new Float64Array(this.#call.memory.buffer, this.#report, 1)[0];
+    return this.#memory.doubles(this.#report, 1)[0];
+  }
+
+  /** The full residual at sampled vertices, for the present shape and what is set; null for a model without estimator. */
+  residual(): number | null {
+    if (!this.#hasProbe) return null;
+    this.#check(this.#call.snapspace_residual(this.#session, this.#report));
+    return this.#memory.doubles(this.#report, 1)[0];
   }
 
   /** Solves from the present coordinates. */
   solve(stop: Termination): FrameReport {
-    const { buffer } = this.#call.memory;
-    // snapspace_options: method, then doubles at 8, 16, 24, then ints at 32, 36
-    new Int32Array(buffer, this.#options, 10).fill(0)[0] = this.#method;
-    new Float64Array(buffer, this.#options + 8, 3).set([
-      stop.tolerance,
-      stop.valueScale,
-      stop.coordinateScale,
-    ]);
-    new Int32Array(buffer, this.#options + 32, 2).set([stop.maxIterations, stop.maxEvaluations]);
+    this.#memory.write(OPTIONS, this.#options, { method: this.#method, ...stop });
     const begin = performance.now();
     this.#check(this.#call.snapspace_solve(this.#session, this.#options, this.#report));
     const milliseconds = performance.now() - begin;
-    // snapspace_report: status, iterations, evaluations at 0, 4, 8, then doubles at 16, 24
-    const [status, iterations, evaluations] = new Int32Array(buffer, this.#report, 3);
-    const [value, gradientNorm] = new Float64Array(buffer, this.#report + 16, 2);
-    return { status: STATUS[status], iterations, evaluations, value, gradientNorm, milliseconds };
+    const { status, ...report } = this.#memory.read(REPORT, this.#report);
+    return { ...report, status: STATUS_NAMES[status as Status], milliseconds };
   }
 
   #given(values: ArrayLike<number>): number {
@@ -120,6 +126,8 @@ export class Core {
 
   #check(code: number): void {
     if (code < 0)
-      throw new RangeError(code === -2 ? "a number is not finite" : `the core refused (error ${code})`);
+      throw new RangeError(
+        code === ERROR.NOT_FINITE ? "a number is not finite" : `the core refused (error ${code})`,
+      );
   }
 }

@@ -1,73 +1,132 @@
-import type { CoreExports } from "./core_exports.ts";
+import { BASIS, CUBATURE, ERROR, MATERIAL, PROBE, type CoreExports } from "./core_exports.ts";
+import { CoreMemory } from "./core_memory.ts";
 import { UnreadableModel } from "./errors.ts";
-import type { BlendingModel, Cubature, PosingModel } from "./model.ts";
+import type { Estimator } from "./estimator.ts";
+import type { BlendingModel, Body, Cubature, Material, PosingModel } from "./model.ts";
 
-const NOT_DEFINITE = -3;
-
-/** A session of the core, as a pointer. Throws UnreadableModel for a damaged model. */
+/** A session of the core, as a pointer. Throws UnreadableModel for a damaged model, or one of an unknown material. */
 export function createSession(exports: CoreExports, model: PosingModel | BlendingModel): number {
-  const basis = exports.malloc(16); // snapspace_basis {int vertices, tau, modes}: coordinates only
-  const error = exports.malloc(8);
-  new Int32Array(exports.memory.buffer, basis, 4).fill(0);
+  const memory = new CoreMemory(exports);
+  if (exports.snapspace_moduli(memory.text(model.material)) < 0) throw unknownMaterial(model.material);
+  const basis = memory.struct(BASIS, { vertices: 0, tau: 0, modes: 0 }); // coordinates only
+  const error = memory.numbers(new Int32Array(1));
   const session =
     model.kind === "posing"
-      ? createPosing(exports, model, basis, error)
+      ? createPosing(exports, memory, model, basis, error)
       : exports.snapspace_create_blending(
           model.dimension,
           model.poses.length,
-          copied(exports, model.quartics), // read in place: stays
+          new CoreMemory(exports).numbers(model.quartics), // read in place: stays
           basis,
           error,
         );
   const code = new Int32Array(exports.memory.buffer, error, 1)[0];
   if (session === 0)
     throw new UnreadableModel(
-      code === NOT_DEFINITE
+      code === ERROR.NOT_DEFINITE
         ? "The model is damaged: its energy has no minimum at rest. Build it again."
         : `The model does not fit the page's core (error ${code}).`,
     );
+  if (model.estimator) setProbe(exports, memory, session, model.estimator);
+  memory.free();
   return session;
 }
 
-function createPosing(exports: CoreExports, model: PosingModel, basis: number, error: number): number {
-  const { elastic } = model;
-  const given = [model.K, model.L, model.S].map((array) => copied(exports, array));
-  const [K, L, S] = given;
-  const rest = [K, L, S, basis, error] as const;
-  let session;
+function createPosing(
+  exports: CoreExports,
+  memory: CoreMemory,
+  { dimension, handles, elastic, ...model }: PosingModel,
+  basis: number,
+  error: number,
+): number {
+  const [K, L, S] = [model.K, model.L, model.S].map((array) => memory.numbers(array));
   if (elastic.kind === "quartic") {
-    given.push(copied(exports, elastic.coefficients));
-    session = exports.snapspace_create_posing(model.dimension, model.handles.length, given[3], ...rest);
-  } else {
-    given.push(...cubatureOf(exports, elastic, model.material));
-    session = exports.snapspace_create_posing_cubature(
-      model.dimension,
-      model.handles.length,
-      given[3],
-      ...rest,
-    );
+    const quartic = memory.numbers(elastic.coefficients);
+    return exports.snapspace_create_posing(dimension, handles.length, quartic, K, L, S, basis, error);
   }
-  given.forEach((array) => exports.free(array));
-  return session;
+  const cubature = memory.struct(CUBATURE, {
+    tets: elastic.weights.length,
+    rows: rowsOf(exports, memory, elastic, dimension),
+    weights: memory.numbers(elastic.weights),
+    ...materialOf(exports, memory, elastic.material),
+  });
+  return exports.snapspace_create_posing_cubature(dimension, handles.length, cubature, K, L, S, basis, error);
 }
 
-/** A snapspace_cubature, its rows and its weights. */
-function cubatureOf(exports: CoreExports, cubature: Cubature, material: PosingModel["material"]): number[] {
-  const rows = copied(exports, cubature.rows);
-  const weights = copied(exports, cubature.weights);
-  // snapspace_cubature: tets and two pointers at 0, 4, 8, then doubles at 16, 24
-  const all = exports.malloc(32);
-  new Int32Array(exports.memory.buffer, all, 3).set([cubature.weights.length, rows, weights]);
-  new Float64Array(exports.memory.buffer, all + 16, 2).set([material.lam, material.mu]);
-  return [all, rows, weights];
+function rowsOf(exports: CoreExports, memory: CoreMemory, { rows }: Cubature, dimension: number): number {
+  if (rows instanceof Float32Array) return memory.numbers(rows);
+  const tets = rows.points.length / 12;
+  const made = memory.take(4 * 9 * tets * dimension);
+  const [points, modes] = [memory.numbers(rows.points), memory.numbers(rows.modes)];
+  exports.snapspace_displacement_rows(tets, dimension, points, modes, made);
+  return made;
 }
 
-function copied(exports: CoreExports, values: Float64Array | Float32Array): number {
-  const pointer = exports.malloc(Math.max(values.byteLength, 8));
-  if (pointer === 0) throw new UnreadableModel("The browser has not enough memory for this model.");
-  const { buffer } = exports.memory;
-  new Uint8Array(buffer, pointer, values.byteLength).set(
-    new Uint8Array(values.buffer, values.byteOffset, values.byteLength),
+function setProbe(exports: CoreExports, memory: CoreMemory, session: number, estimator: Estimator): void {
+  const { pins, tets, rests, places } = estimator;
+  const shapes = new Float64Array(rests.length * rests[0].length);
+  rests.forEach((rest, k) => shapes.set(rest, k * rest.length));
+  const probe = memory.struct(PROBE, {
+    corners: estimator.base.length / 3,
+    tets: tets.length / 4,
+    rests: rests.length,
+    samples: places.length,
+    pins: pins.corners.length,
+    tau: memory.numbers(estimator.base),
+    modes: memory.numbers(Float64Array.from(estimator.modes)),
+    restShapes: memory.numbers(shapes),
+    tetCorners: memory.numbers(tets),
+    ...materialOf(exports, memory, estimator.material),
+    sampled: memory.numbers(places),
+    weights: memory.numbers(estimator.weights),
+    pinned: memory.numbers(pins.corners),
+    pinHandles: memory.numbers(pins.handles),
+    pulls: memory.numbers(pins.pulls),
+    arms: memory.numbers(pins.arms),
+  });
+  const code = exports.snapspace_set_probe(session, probe);
+  if (code !== ERROR.OK)
+    throw new UnreadableModel(`The error estimates of the model do not fit (error ${code}). Build it again.`);
+}
+
+/** The unit of energy, if it must be computed. */
+export function valueScaleOf(exports: CoreExports, given: number | Body): number {
+  if (typeof given === "number") return given;
+  const memory = new CoreMemory(exports);
+  const {
+    materialKind: kind,
+    materialCount: count,
+    materialModuli: moduli,
+  } = materialOf(exports, memory, given.material);
+  const material = memory.struct(MATERIAL, { kind, count, moduli });
+  const scale = memory.take(8);
+  const volumes = memory.numbers(given.volumes);
+  const code = exports.snapspace_value_scale(material, given.volumes.length, volumes, scale);
+  if (code !== ERROR.OK)
+    throw new UnreadableModel(`The model's moduli do not fit (error ${code}). Build it again.`);
+  const [value] = memory.doubles(scale, 1);
+  memory.free();
+  return value;
+}
+
+/** The fields of a snapspace_material. */
+function materialOf(exports: CoreExports, memory: CoreMemory, { kind, rows, moduli }: Material) {
+  const name = memory.text(kind);
+  const count = exports.snapspace_moduli(name);
+  const numbers =
+    moduli instanceof Float64Array
+      ? moduli
+      : Float64Array.from({ length: count }, (_, i) => {
+          const modulus = memory.readText(exports.snapspace_modulus_name(name, i));
+          return Number(moduli[modulus] ?? NaN);
+        });
+  if (numbers.length !== rows * count || numbers.some(Number.isNaN))
+    throw new UnreadableModel(`The model has no moduli that fit '${kind}'. Build it again.`);
+  return { materialKind: name, materialCount: rows, materialModuli: memory.numbers(numbers) };
+}
+
+function unknownMaterial(kind: string): UnreadableModel {
+  return new UnreadableModel(
+    `The model is of material '${kind}', which this page does not know. Open it with the Snapspace that wrote it.`,
   );
-  return pointer;
 }

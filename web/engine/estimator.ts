@@ -1,4 +1,6 @@
-/** What a model knows about the errors of its frames; as ErrorEstimator and ResidualProbe of the Python package. */
+import type { Material } from "./model.ts";
+
+/** What a model knows about the errors of its frames; as ErrorEstimator of the Python package, with what core/online/residual_probe.h takes. */
 export interface Estimator {
   /** Of the body at density 1, its volume. */
   readonly mass: number;
@@ -10,6 +12,8 @@ export interface Estimator {
   readonly rests: readonly Float64Array[];
   /** Four corners each. */
   readonly tets: Int32Array;
+  /** Of these tets. */
+  readonly material: Material;
   /** The corners where residuals are read, and what their squares count. */
   readonly places: Int32Array;
   readonly weights: Float64Array;

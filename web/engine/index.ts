@@ -1,12 +1,12 @@
 export { CONFIDENCE, type Certificate } from "./certificate.ts";
 export { BlendingSession } from "./blending_session.ts";
 export type { FrameReport } from "./core.ts";
-export { EnergyScale } from "./energy_scale.ts";
 export { UnreadableModel } from "./errors.ts";
-export { planeStressRatio, vertexDensities, type Membrane } from "./membrane_energy.ts";
+export { vertexStrains, type Rests } from "./membrane_strain.ts";
 export type { BlendingModel, Model, PosingModel } from "./model.ts";
 export { eulerOfRotation, rotationOfEuler, type RigidMap } from "./motion.ts";
 export { PosingSession, type Motion } from "./posing_session.ts";
 export { readModel } from "./read_model.ts";
 export { ShapePicker, type Hit } from "./shape_picker.ts";
 export { reconstruct, type ShapeSpace } from "./shape_space.ts";
+export { StrainScale } from "./strain_scale.ts";

@@ -8,8 +8,7 @@ export type Matrix = readonly [number, number, number, number, number, number, n
  * name : unique among the handles
  * vertices : indices among all vertices of the packed mesh, also those inside
  * moving : whether it moves while sampling; one handle at least does not
- * translation, angle : its own bounds of the sampled motions, half widths per axis; null: the
- *     common ones
+ * translation, angle : its own bounds of the sampled motions; null: the common ones
  */
 export interface HandleChoice {
   readonly name: string;
@@ -17,6 +16,29 @@ export interface HandleChoice {
   readonly moving?: boolean;
   readonly translation?: Vector | null;
   readonly angle?: Vector | null;
+}
+
+/** A part of the body that is stiffer or softer.
+ *
+ * name : unique among the parts
+ * vertices : as those of a handle; tets with three of their corners among them are in the part
+ * factor : of all moduli there, 0.0001 to 10000; of parts that overlap the later one counts
+ */
+export interface PartChoice {
+  readonly name: string;
+  readonly vertices: readonly number[];
+  readonly factor: number;
+}
+
+/** A material that can be computed with.
+ *
+ * kind, title : its name in files and messages, and for the reader
+ * has_poisson : whether Poisson's ratio changes anything
+ */
+export interface MaterialChoice {
+  readonly kind: string;
+  readonly title: string;
+  readonly has_poisson: boolean;
 }
 
 /** Where a handle is: a rigid motion about its centre at rest.
@@ -28,10 +50,11 @@ export interface HandleMotion {
   readonly translation: Vector;
 }
 
-/** Page: these are the handles. Answered by `Chosen`, or `Failed`.
+/** Page: these are the handles and parts. Answered by `Chosen`, or `Failed`.
  *
  * request : any number of 32 bits, repeated in the answers
  * translation, angle : common bounds of the sampled motions, half widths per axis
+ * parts : stiffer and softer ones; the rest is as the material says
  */
 export interface Choose {
   readonly type: "choose";
@@ -39,6 +62,7 @@ export interface Choose {
   readonly handles: readonly HandleChoice[];
   readonly translation: Vector;
   readonly angle: Vector;
+  readonly parts?: readonly PartChoice[];
 }
 
 /** Page: compute models for the handles chosen last. A computation that runs is replaced.
@@ -47,8 +71,8 @@ export interface Choose {
  *
  * samples, dimension, seed : of the last model
  * stiffness : of the handles, as in a problem file
- * poisson : Poisson's ratio of the material, 0 to below 0.5; null: that of the problem file, or of
- *     lam = mu
+ * material : kind of the material; null: that of the problem file, or the default one
+ * poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or of lam = mu
  */
 export interface Compute {
   readonly type: "compute";
@@ -57,6 +81,7 @@ export interface Compute {
   readonly dimension: number;
   readonly seed: number;
   readonly stiffness: number;
+  readonly material?: string | null;
   readonly poisson?: number | null;
 }
 
@@ -110,7 +135,8 @@ export interface Polish {
  * up : axis that points up at first, x, y or z
  * handles, translation, angle : chosen at first
  * diagonal : of the mesh; 0 if there is none
- * samples, dimension, seed, stiffness, poisson : computed with, unless the page asks otherwise
+ * samples, dimension, seed, stiffness, material, poisson : computed with unless the page asks
+ * materials : that can be chosen
  * folder : where `Save` writes, for the reader
  * upload_limit : bytes
  */
@@ -129,6 +155,8 @@ export interface Workspace {
   readonly dimension: number;
   readonly seed: number;
   readonly stiffness: number;
+  readonly materials: readonly MaterialChoice[];
+  readonly material: string;
   readonly poisson: number | null;
   readonly folder: string;
   readonly upload_limit: number;
@@ -144,8 +172,7 @@ export interface Chosen {
 /** Server: how far the work is; up to ten a second.
  *
  * request : of the `Compute`; 0 while a mesh is read or filled
- * stage : waiting (for another computation on this machine), reading, filling, snapshots,
- *     subspace, energy
+ * stage : waiting (for another computation), reading, filling, snapshots, subspace, energy
  * done, total : samples; 0 of 0 where nothing is counted
  * seconds : since the work began
  * eta : until the stage ends; null if not known

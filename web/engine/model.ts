@@ -15,20 +15,30 @@ interface Common {
   readonly faces: Uint32Array<ArrayBuffer>;
   /** The surface's shapes tau + U q. */
   readonly space: ShapeSpace;
-  /** Units of energy and of q for the termination tests. */
-  readonly valueScale: number;
+  /** Units of energy and of q for the termination tests; that of energy may be left to the core. */
+  readonly valueScale: number | Body;
   readonly coordinateScale: number;
   /** Of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
-  readonly material: Material;
+  /** Name of the material. The page knows no more of it: the core does. */
+  readonly material: string;
   /** Of models that were calibrated. */
   readonly estimator: Estimator | null;
 }
 
-/** Lame parameters of St.Venant-Kirchhoff material. */
+/** What tets are made of, as the core takes it: a density by name and its moduli. */
 export interface Material {
-  readonly lam: number;
-  readonly mu: number;
+  readonly kind: string;
+  /** Rows of moduli, one for all tets or one per tet. */
+  readonly rows: number;
+  /** In the density's order; or by name, where there is one row. */
+  readonly moduli: Float64Array<ArrayBuffer> | Readonly<Record<string, unknown>>;
+}
+
+/** All tets at rest: their volumes, and what they are made of. */
+export interface Body {
+  readonly volumes: Float64Array;
+  readonly material: Material;
 }
 
 export interface PosingModel extends Common {
@@ -53,10 +63,18 @@ export interface Quartic {
 /** The energy as a sum over few tets. */
 export interface Cubature {
   readonly kind: "cubature";
-  /** Displacement gradients of the modes, tets x 9 x dimension. */
-  readonly rows: Float32Array<ArrayBuffer>;
+  /** Displacement gradients of the modes, tets x 9 x dimension, or what the core makes them of. */
+  readonly rows: Float32Array<ArrayBuffer> | CornerModes;
   /** The volume that each tet stands for. */
   readonly weights: Float64Array<ArrayBuffer>;
+  /** Of these tets. */
+  readonly material: Material;
+}
+
+/** Positions of the tets' corners at rest, tets x 4 x 3, and the modes there, tets x 4 x 3 x dimension. */
+export interface CornerModes {
+  readonly points: Float64Array<ArrayBuffer>;
+  readonly modes: Float64Array<ArrayBuffer>;
 }
 
 export interface Handle {

@@ -5,7 +5,9 @@
 #include <new>
 
 #include "online/cubature.cpp"
+#include "online/probe_entry.cpp"
 #include "online/quartic.cpp"
+#include "online/residual_probe.cpp"
 #include "online/snapspace_online.cpp"
 
 namespace std {

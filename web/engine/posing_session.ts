@@ -32,9 +32,8 @@ export class PosingSession {
   readonly #stop: Termination;
   readonly #certifier: Certifier | null;
   #maps: readonly RigidMap[] = [];
-  /** Motions relative to the first handle, and their differences from rest, 12 numbers each. */
+  /** Motions relative to the first handle. */
   #relative: readonly Motion[] = [];
-  #offsets: readonly number[] = [];
   #outside: { handle: number; how: string }[] | null = null;
 
   static async create(module: WebAssembly.Module, model: PosingModel): Promise<PosingSession> {
@@ -44,8 +43,9 @@ export class PosingSession {
   private constructor(model: PosingModel, core: Core) {
     this.model = model;
     this.#core = core;
-    this.#certifier = Certifier.of(model);
-    const { valueScale, coordinateScale } = model;
+    this.#certifier = Certifier.of(model, core);
+    const { valueScale } = core;
+    const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
     this.#set(model.handles.map(() => IDENTITY));
   }
@@ -108,7 +108,7 @@ export class PosingSession {
 
   /** How far the shape is from the full solution; null if the model cannot tell. */
   certificate(): Certificate | null {
-    return this.#certifier?.certify(this.q, this.#offsets) ?? null;
+    return this.#certifier?.certify() ?? null;
   }
 
   /** Back to rest. */
@@ -162,7 +162,7 @@ export class PosingSession {
       offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
     offsets.fill(0, 0, 12); // exactly
     this.#core.setOffsets(offsets);
-    [this.#maps, this.#relative, this.#offsets] = [maps, relative, offsets];
+    [this.#maps, this.#relative] = [maps, relative];
     this.#outside = null;
   }
 }

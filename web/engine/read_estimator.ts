@@ -1,6 +1,7 @@
 import type { Container } from "./container.ts";
 import { armsOf, type Estimator, type Pins } from "./estimator.ts";
-import type { Handle } from "./model.ts";
+import type { Handle, Material } from "./model.ts";
+import { materialOfTets } from "./read_material.ts";
 
 interface Body {
   readonly tets: Int32Array;
@@ -8,6 +9,8 @@ interface Body {
   readonly basis: Float64Array;
   readonly tau: Float64Array;
   readonly rests: readonly Float64Array[];
+  /** Of all tets. */
+  readonly material: Material;
 }
 
 interface Held {
@@ -21,7 +24,7 @@ interface Held {
 /** The estimator of a model file: takes the tets around the sampled vertices out of the mesh; null without one. */
 export function estimatorOf(
   container: Container,
-  { tets, basis, tau, rests }: Body,
+  { tets, basis, tau, rests, material }: Body,
   pins: (corners: number[], isSampled: boolean[]) => Pins,
 ): Estimator | null {
   if (!container.has("estimator_vertices")) return null;
@@ -29,9 +32,10 @@ export function estimatorOf(
   const [frames, dimension] = container.shape("estimator_coordinates", 2);
   const vertices = container.indices("estimator_vertices", tau.length / 3, [count]);
   const sampled = new Set(vertices);
-  const around = tets.filter((_, i) =>
-    [0, 1, 2, 3].some((corner) => sampled.has(tets[i - (i % 4) + corner])),
+  const chosen = Int32Array.from({ length: tets.length / 4 }, (_, tet) => tet).filter((tet) =>
+    tets.subarray(4 * tet, 4 * tet + 4).some((vertex) => sampled.has(vertex)),
   );
+  const around = Int32Array.from({ length: 4 * chosen.length }, (_, i) => tets[4 * chosen[i >> 2] + (i & 3)]);
   const corners = [...new Set(around)].sort((a, b) => a - b);
   const place = new Map(corners.map((vertex, i) => [vertex, i]));
   const taken = (rows: Float64Array, row = 0) =>
@@ -47,6 +51,7 @@ export function estimatorOf(
     base: taken(tau),
     rests: rests.map((rest) => taken(rest)),
     tets: around.map((vertex) => place.get(vertex)!),
+    material: materialOfTets(material, chosen),
     places: vertices.map((vertex) => place.get(vertex)!),
     weights: container.doubles("estimator_weights", count),
     pins: pins(

@@ -2,15 +2,16 @@ import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { NO_PINS } from "./estimator.ts";
 import { estimatorOf, pinsOf } from "./read_estimator.ts";
-import { displacementGradients } from "./displacement_gradients.ts";
 import {
   coefficientCount,
+  type CornerModes,
   type Cubature,
   type Handle,
   type Material,
   type Model,
   type Quartic,
 } from "./model.ts";
+import { fileMaterial, materialOfTets } from "./read_material.ts";
 import { registered } from "./registration.ts";
 import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
@@ -54,20 +55,25 @@ function readPosing(container: Container, name: string): Model {
     ? ownSurface(container, vertices)
     : boundary(tets, vertices);
   const diagonal = diagonalOf(rest);
+  const material = fileMaterial(container, about.material, tetCount);
   return {
     kind: "posing",
     name,
     dimension,
     faces,
     space: quantised(embedded(rest), embedded(basis)),
-    ...scales(about.material, volumes, diagonal),
-    estimator: estimatorOf(container, { tets, basis, tau: rest, rests: [rest] }, (corners, isSampled) =>
-      pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
+    ...scales(material, volumes, diagonal),
+    material: material.kind,
+    estimator: estimatorOf(
+      container,
+      { tets, basis, tau: rest, rests: [rest], material },
+      (corners, isSampled) =>
+        pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
     ),
     handles,
     handleOfVertex: Int32Array.from(nearest, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
-    elastic: readElastic(container, rest, tets, basis),
+    elastic: readElastic(container, rest, tets, basis, material),
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),
     S: container.doubles("handle_S", count, 4, 4),
@@ -101,14 +107,20 @@ function readInterpolation(container: Container, name: string): Model {
   const basis = container.doubles("basis", dimension, 3 * vertices);
   const registeredPoses = poses.map((_, pose) => mean.map((x, i) => x + offsets[3 * vertices * pose + i]));
   const base = embedded(mean);
+  const material = fileMaterial(container, about.material, tetCount);
   return {
     kind: "interpolation",
     name,
     dimension,
     faces,
     space: quantised(base, embedded(basis)),
-    ...scales(about.material, tetVolumes(first, tets), diagonalOf(first)),
-    estimator: estimatorOf(container, { tets, basis, tau: mean, rests: registeredPoses }, () => NO_PINS),
+    ...scales(material, tetVolumes(first, tets), diagonalOf(first)),
+    material: material.kind,
+    estimator: estimatorOf(
+      container,
+      { tets, basis, tau: mean, rests: registeredPoses, material },
+      () => NO_PINS,
+    ),
     poses,
     poseSpace: quantised(base, embedded(offsets)),
     lowestWeight: -about.extrapolation / poses.length,
@@ -119,13 +131,12 @@ function readInterpolation(container: Container, name: string): Model {
 }
 
 /** Units for the termination tests: the energy of a strain of 10 %, a displacement by a tenth of the diagonal. */
-function scales({ lam, mu }: Material, volumes: Float64Array, diagonal: number) {
+function scales(material: Material, volumes: Float64Array, diagonal: number) {
   const volume = volumes.reduce((sum, tet) => sum + tet, 0);
   return {
-    valueScale: 0.01 * mu * volume,
+    valueScale: { volumes, material },
     coordinateScale: 0.1 * diagonal * Math.sqrt(volume),
     diagonal,
-    material: { lam, mu },
   };
 }
 
@@ -134,6 +145,7 @@ function readElastic(
   rest: Float64Array,
   tets: Int32Array,
   basis: Float64Array,
+  material: Material,
 ): Quartic | Cubature {
   const dimension = basis.length / rest.length;
   if (!container.has("cubature_tets"))
@@ -145,9 +157,29 @@ function readElastic(
   const chosen = container.indices("cubature_tets", tets.length / 4, [count]);
   return {
     kind: "cubature",
-    rows: displacementGradients(rest, tets, basis, chosen),
+    rows: cornerModes(rest, tets, basis, chosen),
     weights: container.doubles("cubature_weights", count),
+    material: materialOfTets(material, chosen),
   };
+}
+
+function cornerModes(
+  rest: Float64Array,
+  tets: Int32Array,
+  basis: Float64Array,
+  chosen: Int32Array,
+): CornerModes {
+  const dimension = basis.length / rest.length;
+  const points = new Float64Array(12 * chosen.length);
+  const modes = new Float64Array(points.length * dimension);
+  for (let i = 0; i < points.length; i++) {
+    const corner = Math.floor(i / 3);
+    const from = 3 * tets[4 * chosen[corner >> 2] + (corner & 3)] + (i % 3);
+    points[i] = rest[from];
+    for (let mode = 0; mode < dimension; mode++)
+      modes[i * dimension + mode] = basis[mode * rest.length + from];
+  }
+  return { points, modes };
 }
 
 function centroid(members: Int32Array, rest: Float64Array, masses: Float64Array): [number, number, number] {

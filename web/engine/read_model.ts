@@ -4,7 +4,8 @@ import type { Model } from "./model.ts";
 import { readFile } from "./read_file.ts";
 import { readPacked } from "./read_packed.ts";
 
-const VERSION = "1";
+const FILE_VERSIONS = ["1", "2"];
+const PAGE_VERSIONS = ["2"];
 
 /** Reads a .snapspace file, or the model of an exported page.
  *
@@ -14,9 +15,10 @@ export function readModel(bytes: ArrayBuffer, name: string): Model {
   const { format, version } = container.header;
   if (format !== "snapspace-model" && format !== "snapspace-page")
     throw new UnreadableModel("This is not a Snapspace model. `snapspace build` makes one.");
-  if (version !== VERSION)
+  const known = format === "snapspace-page" ? PAGE_VERSIONS : FILE_VERSIONS;
+  if (!known.includes(version))
     throw new UnreadableModel(
-      `This model has version ${version}, and this page reads version ${VERSION}. Open it with the Snapspace that wrote it.`,
+      `This model has version ${version}, and this page reads version ${known.join(" and ")}. Open it with the Snapspace that wrote it.`,
     );
   try {
     return format === "snapspace-page" ? readPacked(container) : readFile(container, name);

@@ -1,6 +1,7 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
+import { readMaterial } from "./read_material.ts";
 import { coefficientCount, type Cubature, type Handle, type Model, type Quartic } from "./model.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
@@ -19,18 +20,18 @@ export function readPacked(container: Container): Model {
     valueScale: Number(about.value_scale),
     coordinateScale: Number(about.coordinate_scale),
     diagonal: Number(about.diagonal),
-    material: { lam: Number(about.material.lam), mu: Number(about.material.mu) },
+    material: String(about.material.model),
   };
   if (container.header["kind"] === "posing") {
     const count = about.handles.length as number;
     return {
       ...common,
       kind: "posing",
-      estimator: readEstimator(container, dimension, about.handles),
+      estimator: readEstimator(container, common, about.handles),
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
       boxes: about.boxes,
-      elastic: readElastic(container, dimension),
+      elastic: readElastic(container, common),
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),
       S: container.doubles("handle_S", count, 4, 4),
@@ -43,7 +44,7 @@ export function readPacked(container: Container): Model {
   return {
     ...common,
     kind: "interpolation",
-    estimator: readEstimator(container, dimension, []),
+    estimator: readEstimator(container, common, []),
     poses,
     poseSpace: readSpace(container, "poses"),
     lowestWeight: Number(about.lowest_weight),
@@ -53,7 +54,13 @@ export function readPacked(container: Container): Model {
   };
 }
 
-function readElastic(container: Container, dimension: number): Quartic | Cubature {
+interface Known {
+  readonly dimension: number;
+  /** Its name. */
+  readonly material: string;
+}
+
+function readElastic(container: Container, { dimension, material }: Known): Quartic | Cubature {
   if (!container.has("cubature_rows"))
     return {
       kind: "quartic",
@@ -64,12 +71,13 @@ function readElastic(container: Container, dimension: number): Quartic | Cubatur
     kind: "cubature",
     rows: container.floats("cubature_rows", tets, 9, dimension),
     weights: container.doubles("cubature_weights", tets),
+    material: readMaterial(container, "cubature_moduli", material),
   };
 }
 
 function readEstimator(
   container: Container,
-  dimension: number,
+  { dimension, material }: Known,
   handles: readonly Handle[],
 ): Estimator | null {
   if (!container.has("estimator_ratios")) return null;
@@ -84,6 +92,7 @@ function readEstimator(
     base: container.doubles("estimator_base", corners, 3),
     rests: Array.from({ length: count }, (_, k) => rests.subarray(3 * corners * k, 3 * corners * (k + 1))),
     tets: container.indices("estimator_tets", corners, [tets, 4]),
+    material: readMaterial(container, "estimator_moduli", material),
     places: container.indices("estimator_places", corners, [places]),
     weights: container.doubles("estimator_weights", places),
     pins: handles.length > 0 ? readPins(container, handles, rests) : NO_PINS,

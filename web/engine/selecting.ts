@@ -5,6 +5,8 @@ import type { TriangleTree } from "./triangle_tree.ts";
 
 export type Place = readonly [x: number, y: number];
 
+export const NOTHING: Int32Array = new Int32Array(0);
+
 /** Vertices in a ball, those on its surface too. */
 export function inBall(shape: Float32Array, [x, y, z]: Vector, radius: number): Int32Array {
   const square = radius * radius;

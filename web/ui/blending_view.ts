@@ -1,6 +1,6 @@
 import { Vector3 } from "three";
 
-import { BlendingSession, planeStressRatio, reconstruct, type BlendingModel } from "../engine/index.ts";
+import { BlendingSession, reconstruct, type BlendingModel } from "../engine/index.ts";
 import { withWeight } from "./barycentric.ts";
 import { BlendPath } from "./blend_path.ts";
 import { BlendPolygon } from "./blend_polygon.ts";
@@ -22,9 +22,9 @@ export async function blendingView(
   options: ViewOptions,
 ): Promise<View> {
   const session = await BlendingSession.create(module, model);
-  const membrane = { rests: posesOf(model), ratio: planeStressRatio(model.material) };
+  const rests = posesOf(model);
   const make = (space: BlendingModel["space"]) =>
-    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, membrane);
+    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, rests);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];
   for (const surface of [elastic, straight]) {
     surface.paint(() => CLAY);
@@ -157,7 +157,7 @@ export async function blendingView(
       session,
       shown: () => elastic.shown(),
       straight: () => straight.shown(),
-      energies: () => elastic.energies(),
+      strains: () => elastic.strains(),
       onGpu: elastic.onGpu,
     },
     dispose: () => {
@@ -176,7 +176,7 @@ export async function blendingView(
   };
 }
 
-/** The poses' surfaces: a blend's energy is the sum of those relative to each, with its weights. */
+/** The poses' surfaces: a blend's strain is the mean of those relative to each, with its weights. */
 function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
   return poses.map((_, pose) => {
     const shape = new Float32Array(poseSpace.base.length);

@@ -1,6 +1,6 @@
 import { Color, Raycaster, Vector2, Vector3 } from "three";
 
-import { NOTHING, type Choice } from "../engine/choice.ts";
+import type { Choice } from "../engine/choice.ts";
 import type { Vector } from "../engine/motion.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
 import {
@@ -8,6 +8,7 @@ import {
   inLasso,
   inRectangle,
   nearestTo,
+  NOTHING,
   placesOf,
   seenFrom,
   union,
@@ -22,7 +23,7 @@ import type { Surface } from "./surface.ts";
 
 export type Tool = "brush" | "box" | "lasso" | "look";
 
-/** The state of choosing: what is selected, the handles, the tool, and what was before. */
+/** The state of choosing: what is selected, handles and parts, the tool, and what was before. */
 export class Choosing {
   readonly stage: Stage;
   readonly mesh: RestMesh;
@@ -119,7 +120,7 @@ export class Choosing {
   paint(): void {
     if (this.#isPainted) return;
     this.#isPainted = true;
-    const colors = ownerColors(this.#choice.handles, this.#owners, this.selected);
+    const colors = ownerColors(this.#choice, this.#owners, this.selected);
     this.surface.paint((vertex): Color => colors[this.#owners[vertex]]);
   }
 

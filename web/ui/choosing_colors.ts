@@ -1,27 +1,31 @@
 import { Color } from "three";
 
-import { inOrder, type ChosenHandle } from "../engine/choice.ts";
-import { CLAY, handleColor } from "./handle_colors.ts";
+import { inOrder, type Choice, type ChosenHandle } from "../engine/choice.ts";
+import type { ChosenPart } from "../engine/parts.ts";
+import { CLAY, handleColor, partColor } from "./handle_colors.ts";
 
 const SELECTED = new Color("#14b8ff");
-const MOST = 254; // handles, next to nothing and the selection in a byte
+const MOST = 254; // handles and parts, next to nothing and the selection in a byte
 
 /** The colour of a handle here is that which it will have in a model. */
 export function colorOf(handles: readonly ChosenHandle[], key: number): string {
   return handleColor(inOrder(handles).findIndex((handle) => handle.key === key));
 }
 
-/** Writes for every vertex whose it is, as a number of the colours that are returned. */
-export function ownerColors(
-  handles: readonly ChosenHandle[],
-  owners: Uint8Array,
-  selected: Int32Array,
-): Color[] {
-  const shown = inOrder(handles).slice(0, MOST);
+export function partColorOf(parts: readonly ChosenPart[], key: number): string {
+  return partColor(parts.findIndex((part) => part.key === key));
+}
+
+/** Writes for every vertex whose it is, as a number of the colours that are returned. Handles cover parts. */
+export function ownerColors({ handles, parts }: Choice, owners: Uint8Array, selected: Int32Array): Color[] {
+  const shown = [
+    ...parts.map(({ vertices }, i) => [vertices, partColor(i)] as const),
+    ...inOrder(handles).map(({ vertices }, i) => [vertices, handleColor(i)] as const),
+  ].slice(0, MOST);
   owners.fill(0);
-  shown.forEach(({ vertices }, i) => vertices.forEach((vertex) => (owners[vertex] = i + 1)));
+  shown.forEach(([vertices], i) => vertices.forEach((vertex) => (owners[vertex] = i + 1)));
   selected.forEach((vertex) => (owners[vertex] = MOST + 1));
-  const colors = [CLAY, ...shown.map((_, i) => new Color(handleColor(i)))];
+  const colors = [CLAY, ...shown.map(([, color]) => new Color(color))];
   colors[MOST + 1] = SELECTED;
   return colors;
 }

@@ -13,7 +13,7 @@ import { union } from "../engine/selecting.ts";
 import type { Choosing } from "./choosing.ts";
 import { colorOf } from "./choosing_colors.ts";
 import type { CommonRanges } from "./choosing_sampling.ts";
-import { h, section } from "./dom.ts";
+import { h, section, vertexCount } from "./dom.ts";
 import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
 
 /** The list of handles, and the button that makes one of the selection; `update` shows the present state. */
@@ -53,7 +53,7 @@ export class HandleList {
     const count = selected.length;
     this.#lacking.textContent = lacking(choice);
     this.#make.disabled = count === 0;
-    const text = count === 0 ? "New handle" : `New handle · ${vertices(count)}`;
+    const text = count === 0 ? "New handle" : `New handle · ${vertexCount(count)}`;
     for (const button of [this.#make, this.floating])
       if (button.textContent !== text) button.textContent = text;
     this.floating.hidden = count === 0;
@@ -115,7 +115,7 @@ export class HandleList {
       },
       "✕",
     );
-    const below = h("div", { className: "below" }, h("span", {}, vertices(handle.vertices.length)));
+    const below = h("div", { className: "below" }, h("span", {}, vertexCount(handle.vertices.length)));
     if (hasSelection)
       below.append(
         h(
@@ -198,8 +198,4 @@ export class HandleList {
     below.append(unfold);
     item.append(fields);
   }
-}
-
-function vertices(count: number): string {
-  return `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
 }

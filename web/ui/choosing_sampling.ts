@@ -10,14 +10,16 @@ export interface Sampling {
   dimension: number;
   seed: number;
   stiffness: number;
+  material: string;
+  /** Null: as the server has it. */
   poisson: number | null;
 }
 
 export type CommonRanges = () => Pick<Sampling, "translation" | "angle">;
 
 export function samplingOf(given: Workspace): Sampling {
-  const { translation, angle, samples, dimension, seed, stiffness, poisson } = given;
-  return { translation, angle, samples, dimension, seed, stiffness, poisson };
+  const { translation, angle, samples, dimension, seed, stiffness, material } = given;
+  return { translation, angle, samples, dimension, seed, stiffness, material, poisson: null };
 }
 
 /** How far handles move, how many samples; folded under one line that tells it. Changes `sampling`. */

@@ -1,7 +1,6 @@
 import { MOUSE, TOUCH } from "three";
 
-import { NOTHING } from "../engine/choice.ts";
-import { union, type Place } from "../engine/selecting.ts";
+import { NOTHING, union, type Place } from "../engine/selecting.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
 import type { Choosing } from "./choosing.ts";
 import type { ToolOverlay } from "./choosing_overlay.ts";

@@ -3,7 +3,9 @@ import type { RestMesh } from "../engine/rest_mesh.ts";
 import { Choosing } from "./choosing.ts";
 import { HandleList } from "./choosing_handles.ts";
 import { listenToChoosingKeys } from "./choosing_keys.ts";
+import { materialPanel, type Materials } from "./choosing_material.ts";
 import { ToolOverlay } from "./choosing_overlay.ts";
+import { PartList } from "./choosing_parts.ts";
 import { samplingPanel, type Sampling } from "./choosing_sampling.ts";
 import { selectPanel } from "./choosing_select_panel.ts";
 import { ChoosingTools } from "./choosing_tools.ts";
@@ -16,12 +18,13 @@ export interface ChoosingView extends View {
   readonly choosing: Choosing;
 }
 
-/** Choosing handles: tools on the stage, their list in the panel. `compute` stands below. */
+/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. */
 export function choosingView(
   stage: Stage,
   mesh: RestMesh,
   start: Choice,
   sampling: Sampling,
+  materials: Materials,
   compute: HTMLElement,
   onChoice: (choice: Choice) => void,
   options: ViewOptions,
@@ -44,12 +47,14 @@ export function choosingView(
   const tools = new ChoosingTools(choosing, overlay, stop.signal);
   const select = selectPanel(choosing, () => tools.refresh());
   const handles = new HandleList(choosing, () => sampling);
+  const parts = new PartList(choosing);
   listenToChoosingKeys({ choosing, tools, make: () => handles.make() }, stop.signal);
   stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
   choosing.onChange = () => {
     select.update();
     handles.update();
+    parts.update();
     onChoice(choosing.choice);
   };
   choosing.changed();
@@ -67,6 +72,7 @@ export function choosingView(
     panel: [
       select.element,
       handles.element,
+      materialPanel(sampling, materials, parts.element),
       samplingPanel(sampling, mesh.diagonal),
       lookPanel(stage, surface, mesh, options.up),
       compute,
@@ -77,6 +83,9 @@ export function choosingView(
       screen: (vertex: number) => choosing.screen(vertex),
       get handles() {
         return choosing.choice.handles.map(({ name, vertices }) => ({ name, vertices: [...vertices] }));
+      },
+      get parts() {
+        return choosing.choice.parts.map(({ vertices, ...rest }) => ({ ...rest, vertices: [...vertices] }));
       },
       get selected() {
         return [...choosing.selected];

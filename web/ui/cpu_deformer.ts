@@ -1,6 +1,6 @@
 import { DataTexture, FloatType, RGBAFormat } from "three";
 
-import { reconstruct, vertexDensities, type Membrane, type ShapeSpace } from "../engine/index.ts";
+import { reconstruct, vertexStrains, type Rests, type ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 
 /** Positions and normals on the processor, where the graphics cannot draw into float textures. */
@@ -8,27 +8,27 @@ export class CpuDeformer implements Deformer {
   readonly positions: DataTexture;
   readonly normals: DataTexture;
   readonly width: number;
-  readonly energies: DataTexture;
+  readonly strains: DataTexture;
   readonly #space: ShapeSpace;
-  readonly #membrane: Membrane | null;
+  readonly #rests: Rests | null;
   readonly #faces: Uint32Array;
   readonly #shape: Float32Array;
   readonly #normals: Float32Array;
   #goal: Float32Array;
   #weights: readonly number[] | null = null;
 
-  constructor(space: ShapeSpace, faces: Uint32Array, membrane: Membrane | null = null) {
+  constructor(space: ShapeSpace, faces: Uint32Array, rests: Rests | null = null) {
     const [width, height] = textureSize(space.vertices);
     const texture = () =>
       new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
     this.#space = space;
-    this.#membrane = membrane;
+    this.#rests = rests;
     this.#faces = faces;
     this.#goal = space.base;
     this.width = width;
     this.positions = texture();
     this.normals = texture();
-    this.energies = texture();
+    this.strains = texture();
     this.#shape = new Float32Array(3 * space.vertices);
     this.#normals = new Float32Array(3 * space.vertices);
     this.update([]);
@@ -47,11 +47,11 @@ export class CpuDeformer implements Deformer {
     asTexels(this.#normals, this.normals.image.data as Float32Array);
     this.positions.needsUpdate = true;
     this.normals.needsUpdate = true;
-    if (this.#weights && this.#membrane) {
-      const densities = vertexDensities(this.#membrane, this.#weights, this.#shape, this.#faces);
-      const texels = this.energies.image.data as Float32Array;
-      densities.forEach((density, vertex) => (texels[4 * vertex] = density));
-      this.energies.needsUpdate = true;
+    if (this.#weights && this.#rests) {
+      const found = vertexStrains(this.#rests, this.#weights, this.#shape, this.#faces);
+      const texels = this.strains.image.data as Float32Array;
+      found.forEach((strain, vertex) => (texels[4 * vertex] = strain));
+      this.strains.needsUpdate = true;
     }
   }
 
@@ -63,12 +63,12 @@ export class CpuDeformer implements Deformer {
     return fromTexels(this.positions.image.data as Float32Array, this.#space);
   }
 
-  readEnergies(): Float32Array {
-    return fromTexels(this.energies.image.data as Float32Array, this.#space).filter((_, i) => i % 3 === 0);
+  readStrains(): Float32Array {
+    return fromTexels(this.strains.image.data as Float32Array, this.#space).filter((_, i) => i % 3 === 0);
   }
 
   dispose(): void {
-    this.energies.dispose();
+    this.strains.dispose();
     this.positions.dispose();
     this.normals.dispose();
   }

@@ -9,18 +9,18 @@ export interface Deformer {
   readonly normals: Texture;
   /** Texels in a row. */
   readonly width: number;
-  /** Strain energy densities over mu, in the red of each texel; null until `weigh` asks for them. */
-  readonly energies: Texture | null;
+  /** Strains, in the red of each texel; null until `weigh` asks for them. */
+  readonly strains: Texture | null;
   /** Another shape, 3 numbers per vertex, to go to. */
   goal: Float32Array;
   /** The shape with these coefficients, or a share of the way from there to the goal. */
   update(coefficients: ArrayLike<number>, share?: number): void;
-  /** Weights of the membrane's rests, from when on energies are computed; null ends that. */
+  /** Weights of the shapes at rest, from when on strains are computed; null ends that. */
   weigh(weights: readonly number[] | null): void;
   /** The positions as the vertex shader gets them, 3 per vertex. */
   read(): Float32Array;
-  /** The energies as the vertex shader gets them. */
-  readEnergies(): Float32Array;
+  /** The strains as the vertex shader gets them. */
+  readStrains(): Float32Array;
   dispose(): void;
 }
 

@@ -109,6 +109,10 @@ export function slider(
   return { element, input, set };
 }
 
+export function vertexCount(count: number): string {
+  return `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
+}
+
 /** A button that asks for a file. `accept` as of an input. */
 export function filePicker(label: string, accept: string, act: (file: File) => void): HTMLElement {
   const input = h("input", { type: "file", accept, hidden: true });

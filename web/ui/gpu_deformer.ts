@@ -10,9 +10,9 @@ import {
   type WebGLRenderTarget,
 } from "three";
 
-import type { Membrane, ShapeSpace } from "../engine/index.ts";
+import type { Rests, ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
-import { GpuEnergies } from "./gpu_energies.ts";
+import { GpuStrains } from "./gpu_strains.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 import { rings } from "./rings.ts";
 
@@ -66,12 +66,12 @@ void main() {
   result = vec4(sum, 1.0);
 }`;
 
-/** Positions and normals on the graphics processor, and energies where they are asked for. */
+/** Positions and normals on the graphics processor, and strains where they are asked for. */
 export class GpuDeformer implements Deformer {
   readonly width: number;
   readonly #renderer: WebGLRenderer;
   readonly #space: ShapeSpace;
-  readonly #membrane: Membrane | null;
+  readonly #rests: Rests | null;
   readonly #positions: Pass;
   readonly #normals: Pass;
   readonly #passes: readonly Pass[];
@@ -80,7 +80,7 @@ export class GpuDeformer implements Deformer {
   readonly #ranges: DataTexture;
   readonly #pairs: DataTexture;
   readonly #textures: readonly Texture[];
-  #energies: GpuEnergies | null = null;
+  #strains: GpuStrains | null = null;
 
   /** Whether this browser can draw into float textures, and takes so many modes and vertices. */
   static supports(renderer: WebGLRenderer, space: ShapeSpace): boolean {
@@ -91,17 +91,12 @@ export class GpuDeformer implements Deformer {
     );
   }
 
-  constructor(
-    renderer: WebGLRenderer,
-    space: ShapeSpace,
-    faces: Uint32Array,
-    membrane: Membrane | null = null,
-  ) {
+  constructor(renderer: WebGLRenderer, space: ShapeSpace, faces: Uint32Array, rests: Rests | null = null) {
     const [width, height] = textureSize(space.vertices);
     this.width = width;
     this.#renderer = renderer;
     this.#space = space;
-    this.#membrane = membrane;
+    this.#rests = rests;
     this.#coefficients = new Float32Array(MOST_MODES);
     const base = floats(space.base, width, height);
     const modes = layers(space, width, height);
@@ -127,8 +122,8 @@ export class GpuDeformer implements Deformer {
     return this.#normals.target.texture;
   }
 
-  get energies(): Texture | null {
-    return this.#energies?.texture ?? null;
+  get strains(): Texture | null {
+    return this.#strains?.texture ?? null;
   }
 
   set goal(positions: Float32Array) {
@@ -143,23 +138,23 @@ export class GpuDeformer implements Deformer {
     this.#positions.setInteger("count", length);
     this.#positions.setFloat("share", share);
     runPasses(this.#renderer, this.#passes);
-    this.#energies?.update();
+    this.#strains?.update();
   }
 
   weigh(weights: readonly number[] | null): void {
-    if (weights && !this.#energies && this.#membrane) {
+    if (weights && !this.#strains && this.#rests) {
       const { width, height } = this.#positions.target;
-      this.#energies = new GpuEnergies(this.#renderer, this.#membrane, width, height, this.#places);
+      this.#strains = new GpuStrains(this.#renderer, this.#rests, width, height, this.#places);
     }
-    this.#energies?.weigh(weights);
+    this.#strains?.weigh(weights);
   }
 
   read(): Float32Array {
     return this.#readFrom(this.#positions.target);
   }
 
-  readEnergies(): Float32Array {
-    const target = this.#energies?.target;
+  readStrains(): Float32Array {
+    const target = this.#strains?.target;
     return target ? this.#readFrom(target).filter((_, i) => i % 3 === 0) : new Float32Array();
   }
 
@@ -169,7 +164,7 @@ export class GpuDeformer implements Deformer {
       pass.target.dispose();
       pass.dispose();
     }
-    this.#energies?.dispose();
+    this.#strains?.dispose();
   }
 
   /** Where vertices are, and their neighbours. */

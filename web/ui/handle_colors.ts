@@ -7,4 +7,11 @@ export function handleColor(handle: number): string {
   return handle === 0 ? "#66758c" : MOVING[(handle - 1) % MOVING.length];
 }
 
+/** Parts take these in turn: muted, unlike handles. */
+const PARTS = ["#7c8a3c", "#9a6a4a", "#4f7a63", "#8d6f8f", "#b08a6a"];
+
+export function partColor(part: number): string {
+  return PARTS[part % PARTS.length];
+}
+
 export const CLAY = new Color("#d8cbb6");

@@ -4,7 +4,7 @@ import { FARTHEST, type Colors, type Surface } from "./surface.ts";
 
 const PAUSE = 250; // milliseconds between two looks at the scale
 
-/** What the colours mean: a ramp with numbers below. The scale of energies follows the shapes, in steps. */
+/** What the colours mean: a ramp with numbers below. The scale of strains follows the shapes, in steps. */
 export class Legend {
   readonly element: HTMLElement;
   readonly #stage: Stage;
@@ -33,12 +33,12 @@ export class Legend {
     this.element.hidden = colors === "own";
     if (colors === "displacement")
       this.#tell("Displacement, of the diagonal", [0, FARTHEST / 2, FARTHEST].map(percent));
-    if (colors === "energy") this.#rescale();
+    if (colors === "strain") this.#rescale();
   }
 
   /** Before a frame: follows the shapes, a few times a second. */
   look(): void {
-    if (this.#colors !== "energy") return;
+    if (this.#colors !== "strain") return;
     const wait = this.#looked + PAUSE - performance.now();
     clearTimeout(this.#timer);
     if (wait <= 0) this.#rescale();
@@ -53,10 +53,9 @@ export class Legend {
   #rescale(): void {
     this.#looked = performance.now();
     const shown = this.#surfaces.filter(({ object }) => object.visible);
-    const end = Math.max(...shown.map((surface) => surface.energyScale()));
-    for (const surface of this.#surfaces) surface.energyEnd = end;
-    // colours go with the root: half of the ramp is a quarter of the energy
-    this.#tell("Strain energy density, in units of \u03bc", [0, end / 4, end].map(short));
+    const end = Math.max(...shown.map((surface) => surface.strainScale()));
+    for (const surface of this.#surfaces) surface.strainEnd = end;
+    this.#tell("Strain of the surface", [0, end / 2, end].map(percent));
   }
 
   #tell(title: string, ticks: string[]): void {
@@ -68,4 +67,3 @@ export class Legend {
 }
 
 const percent = (share: number) => `${Number((100 * share).toPrecision(3))} %`;
-const short = (value: number) => String(Number(value.toPrecision(3)));

@@ -27,7 +27,7 @@ export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up:
     [
       ["own", own],
       ["displacement", "Displaced"],
-      ["energy", "Strain"],
+      ["strain", "Strain"],
     ],
     "own",
     (value) => {

@@ -1,4 +1,4 @@
-import { planeStressRatio, PosingSession, type PosingModel } from "../engine/index.ts";
+import { PosingSession, type PosingModel } from "../engine/index.ts";
 import { choice, enable, h, mark, section, tell, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
@@ -30,11 +30,8 @@ export async function posingView(
   model: PosingModel,
   options: ViewOptions,
 ): Promise<PosingView> {
-  const surfaceOf = ({ space, faces, diagonal, material }: PosingModel) =>
-    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, {
-      rests: [space.base],
-      ratio: planeStressRatio(material),
-    });
+  const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
+    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, [space.base]);
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
@@ -181,7 +178,7 @@ export async function posingView(
         return posing.session;
       },
       shown: () => carried(posing.surface.shown(), posing.session),
-      energies: () => posing.surface.energies(),
+      strains: () => posing.surface.strains(),
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
     },

@@ -15,11 +15,11 @@ import {
 } from "three";
 
 import {
-  EnergyScale,
   reconstruct,
   ShapePicker,
+  StrainScale,
   type Hit,
-  type Membrane,
+  type Rests,
   type ShapeSpace,
 } from "../engine/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
@@ -28,8 +28,8 @@ import { GpuDeformer } from "./gpu_deformer.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
 
 /** What its colours tell. */
-export type Colors = "own" | "displacement" | "energy";
-const COLORS: readonly Colors[] = ["own", "displacement", "energy"];
+export type Colors = "own" | "displacement" | "strain";
+const COLORS: readonly Colors[] = ["own", "displacement", "strain"];
 
 /** Displacements, over the diagonal, at which their colours end. */
 export const FARTHEST = 0.25;
@@ -47,13 +47,13 @@ export class Surface {
   readonly #solid: Mesh;
   readonly #wires: Mesh;
   readonly #uniforms: SurfaceUniforms;
-  readonly #membrane: Membrane | null;
+  readonly #rests: Rests | null;
   #picker: ShapePicker | null = null;
   #coefficients: ArrayLike<number> = [];
   #goal: Float32Array | null = null;
   #share = 0;
   #weights: readonly number[] = [1];
-  #scale: EnergyScale | null = null;
+  #scale: StrainScale | null = null;
 
   /** `forceCpu` takes the way of browsers that cannot draw into float textures. */
   constructor(
@@ -62,15 +62,15 @@ export class Surface {
     faces: Uint32Array<ArrayBuffer>,
     diagonal: number,
     forceCpu = false,
-    membrane: Membrane | null = null,
+    rests: Rests | null = null,
   ) {
     this.space = space;
     this.faces = faces;
     this.onGpu = !forceCpu && GpuDeformer.supports(renderer, space);
     this.#deformer = this.onGpu
-      ? new GpuDeformer(renderer, space, faces, membrane)
-      : new CpuDeformer(space, faces, membrane);
-    this.#membrane = membrane;
+      ? new GpuDeformer(renderer, space, faces, rests)
+      : new CpuDeformer(space, faces, rests);
+    this.#rests = rests;
     const base = new BufferAttribute(space.base, 3);
     this.#geometry.setAttribute("position", base);
     this.#geometry.setAttribute("normal", base); // never read; without one three.js shades flat
@@ -83,10 +83,10 @@ export class Surface {
       shownPositions: { value: this.#deformer.positions },
       shownNormals: { value: this.#deformer.normals },
       shownWidth: { value: this.#deformer.width },
-      shownEnergies: { value: this.#deformer.normals },
+      shownStrains: { value: this.#deformer.normals },
       shownColors: { value: 0 },
       displacementEnd: { value: FARTHEST * diagonal },
-      energyEnd: { value: 1 },
+      strainEnd: { value: 1 },
     };
     const clay = new MeshStandardMaterial({
       vertexColors: true,
@@ -180,38 +180,33 @@ export class Surface {
 
   set colors(colors: Colors) {
     this.#uniforms.shownColors.value = COLORS.indexOf(colors);
-    this.#deformer.weigh(colors === "energy" ? this.#weights : null);
+    this.#deformer.weigh(colors === "strain" ? this.#weights : null);
     this.#deformer.update(this.#coefficients, this.#share);
-    this.#uniforms.shownEnergies.value = this.#deformer.energies ?? this.#deformer.normals;
+    this.#uniforms.shownStrains.value = this.#deformer.strains ?? this.#deformer.normals;
   }
 
-  /** Weights of the shapes at rest that energies are relative to; one of one by default. */
+  /** Weights of the shapes at rest that strains are relative to; one of one by default. */
   set weights(weights: readonly number[]) {
     this.#weights = weights;
-    if (this.colors === "energy") this.#deformer.weigh(weights);
+    if (this.colors === "strain") this.#deformer.weigh(weights);
   }
 
-  /** Whether energies can be shown. */
-  get hasEnergies(): boolean {
-    return this.#membrane !== null;
-  }
-
-  /** Where a scale of energies, over mu, should end for the present shape. */
-  energyScale(): number {
-    if (!this.#membrane) return 1;
-    this.#scale ??= new EnergyScale(this.space, this.#membrane, this.faces);
+  /** Where a scale of strains should end for the present shape. */
+  strainScale(): number {
+    if (!this.#rests) return 1;
+    this.#scale ??= new StrainScale(this.space, this.#rests, this.faces);
     this.#scale.look(this.#coefficients, this.#weights);
     return this.#scale.end;
   }
 
-  /** Where the colours of energies end, over mu. */
-  set energyEnd(end: number) {
-    this.#uniforms.energyEnd.value = end;
+  /** Where the colours of strains end. */
+  set strainEnd(end: number) {
+    this.#uniforms.strainEnd.value = end;
   }
 
-  /** Strain energy densities over mu, as the vertex shader gets them. */
-  energies(): Float32Array {
-    return this.#deformer.readEnergies();
+  /** Strains as the vertex shader gets them. */
+  strains(): Float32Array {
+    return this.#deformer.readStrains();
   }
 
   /** Looks as another one does. */
@@ -219,7 +214,7 @@ export class Surface {
     this.#wires.visible = other.#wires.visible;
     this.#solid.receiveShadow = other.#solid.receiveShadow;
     this.colors = other.colors;
-    this.energyEnd = other.#uniforms.energyEnd.value;
+    this.strainEnd = other.#uniforms.strainEnd.value;
   }
 
   /** A colour for every vertex. */
@@ -237,6 +232,12 @@ export class Surface {
     const colors = this.#geometry.getAttribute("color") as BufferAttribute;
     for (const vertex of vertices) colors.setXYZ(vertex, r, g, b);
     colors.needsUpdate = true;
+  }
+
+  /** The colour that a vertex was painted in. */
+  colorOf(vertex: number): [number, number, number] {
+    const { array } = this.#geometry.getAttribute("color");
+    return [array[3 * vertex], array[3 * vertex + 1], array[3 * vertex + 2]];
   }
 
   dispose(): void {

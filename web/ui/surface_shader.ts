@@ -3,23 +3,23 @@ import type { IUniform, Material, Texture } from "three";
 export type SurfaceUniforms = Record<string, IUniform> & {
   shownPositions: IUniform<Texture>;
   shownNormals: IUniform<Texture>;
-  shownEnergies: IUniform<Texture>;
+  shownStrains: IUniform<Texture>;
   shownWidth: IUniform<number>;
-  /** 0: the vertices' own; 1: displacement; 2: strain energy. */
+  /** 0: the vertices' own; 1: displacement; 2: strain. */
   shownColors: IUniform<number>;
-  /** What the ramps end at: a length, and a density over mu. */
+  /** What the ramps end at: a length, and a strain. */
   displacementEnd: IUniform<number>;
-  energyEnd: IUniform<number>;
+  strainEnd: IUniform<number>;
 };
 
 const DECLARATIONS = `
 uniform highp sampler2D shownPositions;
 uniform highp sampler2D shownNormals;
 uniform highp int shownWidth;
-uniform highp sampler2D shownEnergies;
+uniform highp sampler2D shownStrains;
 uniform int shownColors;
 uniform float displacementEnd;
-uniform float energyEnd;
+uniform float strainEnd;
 // from pale sand by coral to plum: lightness falls all the way, so it reads without colours as well
 vec3 shownRamp(float x) {
   float t = clamp(x, 0.0, 1.0);
@@ -35,9 +35,8 @@ const POSITION = `
 ${CELL}
 vec3 transformed = texelFetch(shownPositions, shownCell, 0).xyz;
 #if defined( USE_COLOR )
-  // the root: energy goes with the square of strain, and its scale would be nearly empty
   if (shownColors == 1) vColor.rgb = shownRamp(length(transformed - position) / displacementEnd);
-  if (shownColors == 2) vColor.rgb = shownRamp(sqrt(max(texelFetch(shownEnergies, shownCell, 0).x, 0.0) / energyEnd));
+  if (shownColors == 2) vColor.rgb = shownRamp(texelFetch(shownStrains, shownCell, 0).x / strainEnd);
 #endif`;
 
 /** Makes a material of three.js take positions and normals from textures in place of attributes. */

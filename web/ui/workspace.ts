@@ -1,4 +1,5 @@
 import { choiceOf, lacking, messageOf, type Choice } from "../engine/choice.ts";
+import { partMessages } from "../engine/parts.ts";
 import { readModel, type PosingModel } from "../engine/index.ts";
 import type { Failed, Model, Progress, Workspace as Given } from "../engine/messages.ts";
 import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
@@ -100,14 +101,14 @@ export class Workspace {
     this.#leave();
     const { element } = this.#panel;
     const onChoice = (choice: Choice) => {
-      if (choice.handles !== this.#choice.handles) this.#panel.clear();
+      if (choice.handles !== this.#choice.handles || choice.parts !== this.#choice.parts) this.#panel.clear();
       this.#choice = choice;
       this.#update();
     };
     const up = isNew ? this.#room.options(mesh.up).up : stage.up;
     const options = { up, forceCpu: true, keepView: !isNew };
     this.#room.show(
-      choosingView(stage, mesh, this.#choice, this.#sampling!, element, onChoice, options),
+      choosingView(stage, mesh, this.#choice, this.#sampling!, this.#given!, element, onChoice, options),
       mesh.name,
     );
     this.#update();
@@ -136,11 +137,11 @@ export class Workspace {
   async #compute(): Promise<void> {
     if (!this.#panel.isValid()) return;
     await this.#tellChoice();
-    const { samples, dimension, seed, stiffness, poisson } = this.#sampling!;
+    const { translation: _, angle: __, ...wanted } = this.#sampling!;
     this.#panel.clear();
     this.#model = null;
     this.#motions = new Map(); // of handles that were other ones
-    this.#job = this.#server.send({ type: "compute", samples, dimension, seed, stiffness, poisson });
+    this.#job = this.#server.send({ type: "compute", ...wanted });
     this.#isRunning = true;
     this.#panel.progress({ type: "progress", request: this.#job, stage: "snapshots", ...NOT_YET });
     this.#update();
@@ -149,7 +150,8 @@ export class Workspace {
   async #tellChoice(): Promise<void> {
     const { translation, angle } = this.#sampling!;
     const handles = messageOf(this.#choice.handles);
-    await this.#server.ask({ type: "choose", handles, translation, angle }, "chosen");
+    const parts = partMessages(this.#choice.parts);
+    await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
   }
 
   async #cancel(): Promise<void> {

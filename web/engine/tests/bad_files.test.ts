@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { Core } from "../core.ts";
 import { PosingSession } from "../posing_session.ts";
 import { coefficientCount, type PosingModel } from "../model.ts";
 import { readModel } from "../read_model.ts";
@@ -31,6 +32,10 @@ test("what is no model is told", () => {
   refused(container("not json"), /not JSON/);
   refused(container({ __metadata__: { format: "other" } }), /not a Snapspace model/);
   refused(container({ __metadata__: { format: "snapspace-model", version: "99" } }), /version 99/);
+  refused(
+    container({ __metadata__: { format: "snapspace-page", version: "1" } }),
+    /version 1, and .* reads version 2. Open it/,
+  );
   refused(container({ a: { dtype: "F64", shape: [3], data_offsets: [0, 24] } }, 8), /'a' is cut off/);
   refused(container({ a: { dtype: "BF16", shape: [1], data_offsets: [0, 2] } }, 2), /unknown type/);
 });
@@ -57,4 +62,39 @@ test("an energy without a minimum at rest is told", async () => {
   } as const;
   const damaged = { ...model, elastic, K: model.K.map(() => 0) };
   await assert.rejects(PosingSession.create(core, damaged), /no minimum at rest/);
+});
+
+for (const file of [
+  "posing.snapspace",
+  "posing.packed",
+  "cubature.snapspace",
+  "cubature.packed",
+  "blending.packed",
+])
+  test(`a material that the core does not know is told by name: ${file}`, async () => {
+    const model = readModel(bytes(file), "") as PosingModel;
+    const unknown = { ...model, material: "mud" };
+    await assert.rejects(Core.create(core, unknown), (error) => {
+      assert.ok(error instanceof UnreadableModel);
+      return /of material 'mud', which this page does not know. Open it with the Snapspace/.test(
+        error.message,
+      );
+    });
+  });
+
+test("moduli that do not fit the material are told", async () => {
+  const model = readModel(bytes("cubature.packed"), "") as PosingModel;
+  const { elastic } = model;
+  assert.equal(elastic.kind, "cubature");
+  if (elastic.kind !== "cubature") return;
+  const create = (moduli: Float64Array<ArrayBuffer> | Record<string, unknown>, rows = 1) =>
+    Core.create(core, {
+      ...model,
+      elastic: { ...elastic, material: { kind: "stable-neo-hookean", rows, moduli } },
+    });
+  await create({ lam: 1, mu: 1 });
+  for (const moduli of [Float64Array.of(1), Float64Array.of(1, NaN), { lam: 1 }, { lam: null, mu: 1 }, {}])
+    await assert.rejects(create(moduli), /no moduli that fit 'stable-neo-hookean'. Build it again/);
+  await assert.rejects(create(Float64Array.of(1, 1), 2), /no moduli that fit/);
+  await assert.rejects(create(Float64Array.of(1, -1)), /does not fit the page's core/);
 });

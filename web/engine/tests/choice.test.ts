@@ -14,6 +14,7 @@ import {
   withoutHandle,
   type Choice,
 } from "../choice.ts";
+import { changedPart, partMessages, partNameFault, withNewPart, withoutPart } from "../parts.ts";
 
 const select = (choice: Choice, ...selected: number[]): Choice => ({
   ...choice,
@@ -83,4 +84,25 @@ test("the server gets the fixed ones first, and what it gave comes back the same
   });
   assert.deepEqual(messageOf(choiceOf(message).handles), message);
   assert.equal(inOrder(swapped.handles)[0].name, "handle 2");
+});
+
+test("parts are made of the selection, beside handles and over each other", () => {
+  const stiff = withNewPart(select(two, 2, 3, 9), 10);
+  const both = withNewPart(select(stiff, 3, 4), 0.1);
+  assert.deepEqual(sets(both), sets(two), "handles keep their vertices");
+  assert.deepEqual(partMessages(both.parts), [
+    { name: "stiff 1", vertices: [2, 3, 9], factor: 10 },
+    { name: "soft 1", vertices: [3, 4], factor: 0.1 },
+  ]);
+  assert.equal(both.selected.length, 0);
+  const [first, second] = both.parts;
+  assert.match(partNameFault(both, second.key, first.name), /already/);
+  assert.match(partNameFault(both, second.key, " "), /needs a name/);
+  assert.equal(partNameFault(both, second.key, second.name), "");
+  assert.equal(changedPart(both, second.key, { factor: 0.5 }).parts[1].factor, 0.5);
+  assert.deepEqual(withoutPart(both, first.key).parts, [second]);
+  const more = withNewHandle(select(both, 30, 31, 32));
+  assert.equal(more.parts, both.parts);
+  assert.equal(withMore(select(both, 30), two.handles[0].key).parts, both.parts);
+  assert.equal(withNewPart(select(withoutPart(both, first.key), 1), 3).parts[1].name, "stiff 1");
 });

@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
+import { Core } from "../core.ts";
 import type { PosingModel } from "../model.ts";
 import { applied, eulerOfRotation, plus, rotationOfEuler, type Vector } from "../motion.ts";
 import { PosingSession } from "../posing_session.ts";
@@ -20,7 +21,8 @@ interface Frame {
 interface Drag {
   frames: Frame[];
   diagonal: number;
-  leading: { dimension: number; value: number };
+  /** The value in 7 dimensions; null if it is infinite. */
+  leading: number | null;
 }
 
 const { diagonal } = expected<Drag>("posing.json");
@@ -36,14 +38,18 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-const models = ["posing", "own_surface", "cubature"];
+// every material with other moduli in every tet
+const materials = expected<string[]>("materials.json");
+const models = ["posing", "own_surface", "cubature", ...materials];
 for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]))
   test(`a drag is that of Session: ${file}`, async () => {
-    const { frames, leading } = expected<Drag>(`${file.split(".")[0]}.json`);
+    const [name, ending] = file.split(".");
+    const { frames, leading } = expected<Drag>(`${name}.json`);
     const model = readModel(bytes(file), "bar") as PosingModel;
     const session = await PosingSession.create(core, model);
-    // coefficients of the packed model are in single precision
-    const exact = file.endsWith(".snapspace") ? 1e-6 : 1e-5;
+    const { valueScale } = await Core.create(core, model);
+    // coefficients of the packed model are in single precision; two solves of stiff parts end as near as they must
+    const exact = ending === "snapspace" && !materials.includes(name) ? 1e-6 : 1e-5;
     for (const frame of frames) {
       const motions = frame.motions.map(([handle, euler, translation]) => {
         const rotation = rotationOfEuler(euler);
@@ -52,9 +58,7 @@ for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packe
       });
       const report = session.moveAll(new Map(motions));
       assert.equal(report.status, "converged");
-      assert.ok(
-        Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * model.valueScale,
-      );
+      assert.ok(Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * valueScale);
       assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
       assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
       isCertificate(session.certificate(), frame.certificate, 1e3 * exact);
@@ -63,10 +67,10 @@ for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packe
         frame.outside,
       );
     }
-    session.dimension = leading.dimension;
+    session.dimension = 7;
     assert.equal(session.certificate(), null, "calibrated for all dimensions");
-    assert.equal(session.q.length, leading.dimension);
-    assert.ok(Math.abs(session.solve().value - leading.value) < 1e-4 * Math.abs(leading.value));
+    assert.equal(session.q.length, 7);
+    if (leading) assert.ok(Math.abs(session.solve().value - leading) < 1e-4 * Math.abs(leading));
     session.reset();
     assert.ok(distance(surface(session), model.space.base) === 0);
   });
@@ -83,14 +87,15 @@ test("a motion beyond all numbers is taken back", async () => {
   assert.throws(() => (session.dimension = 0), /not between 1 and/);
 });
 
-test("the packed model is the file's, on the surface", () => {
+test("the packed model is the file's, on the surface", async () => {
   const file = readModel(bytes("posing.snapspace"), "bar") as PosingModel;
   const packed = readModel(bytes("posing.packed"), "") as PosingModel;
   assert.deepEqual(packed.faces, file.faces);
   assert.deepEqual(packed.handleOfVertex, file.handleOfVertex);
   assert.ok(distance(packed.space.modes, file.space.modes) <= 1);
   assert.ok(distance(packed.handles[1].center, file.handles[1].center) < 1e-12 * diagonal);
-  assert.ok(Math.abs(packed.valueScale / file.valueScale - 1) < 1e-12);
+  const { valueScale } = await Core.create(core, file);
+  assert.ok(Math.abs(valueScale / (packed.valueScale as number) - 1) < 1e-12);
   assert.deepEqual(packed.boxes, file.boxes);
 });
 

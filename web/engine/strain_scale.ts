@@ -1,23 +1,24 @@
-import { triangleDensities, type Membrane } from "./membrane_energy.ts";
+import { triangleStrains, type Rests } from "./membrane_strain.ts";
 import { reconstruct, type ShapeSpace } from "./shape_space.ts";
 
 const TRIANGLES = 500;
 const SHARE = 0.97; // of the triangles are below the end of the scale
-const LEAST = 1e-4; // density over mu; a strain of 1 %
+const LEAST = 0.01;
+const USED = 3; // a scale shrinks to a third and less: steps are up to 2.5
 const STEPS = [1, 2, 5, 10];
 
-/** Where a scale of densities ends: 1, 2 or 5 times a power of ten above nearly all of a sample of triangles.
+/** Where a scale of strains ends: 1, 2 or 5 times a power of ten above nearly all of a sample of triangles.
  *
- * It grows at once, and shrinks only if less than a fifth of it is used: it rests in a drag. */
-export class EnergyScale {
+ * It grows at once, and shrinks only if less than a third of it is used: it rests in a drag. */
+export class StrainScale {
   readonly #space: ShapeSpace;
-  readonly #membrane: Membrane;
+  readonly #rests: Rests;
   readonly #faces: Uint32Array;
   readonly #shape: Float32Array;
   #end = LEAST;
 
   /** Takes the sampled triangles out of the surface, so that the cost does not grow with it. */
-  constructor(space: ShapeSpace, membrane: Membrane, faces: Uint32Array) {
+  constructor(space: ShapeSpace, rests: Rests, faces: Uint32Array) {
     const count = faces.length / 3;
     const sampled = Math.min(count, TRIANGLES);
     const corners = Array.from({ length: sampled }, (_, i) => Math.floor((i * count) / sampled)).flatMap(
@@ -35,15 +36,12 @@ export class EnergyScale {
       modes,
       scales: space.scales,
     };
-    this.#membrane = {
-      rests: membrane.rests.map((rest) => Float32Array.from(taken(rest))),
-      ratio: membrane.ratio,
-    };
+    this.#rests = rests.map((rest) => Float32Array.from(taken(rest)));
     this.#faces = Uint32Array.from(corners, (_, corner) => corner);
     this.#shape = new Float32Array(3 * corners.length);
   }
 
-  /** The end of the scale, over mu. */
+  /** The end of the scale. */
   get end(): number {
     return this.#end;
   }
@@ -51,10 +49,10 @@ export class EnergyScale {
   /** Looks at a shape; whether the scale has changed. */
   look(coefficients: ArrayLike<number>, weights: ArrayLike<number>): boolean {
     reconstruct(this.#space, coefficients, this.#shape);
-    const densities = triangleDensities(this.#membrane, weights, this.#shape, this.#faces).sort();
-    const most = densities[Math.floor(SHARE * (densities.length - 1))];
+    const strains = triangleStrains(this.#rests, weights, this.#shape, this.#faces).sort();
+    const most = strains[Math.floor(SHARE * (strains.length - 1))];
     const before = this.#end;
-    if (most > this.#end || 5 * most < this.#end) this.#end = roundedUp(Math.max(most, LEAST));
+    if (most > this.#end || USED * most < this.#end) this.#end = roundedUp(Math.max(most, LEAST));
     return this.#end !== before;
   }
 }

@@ -1,33 +1,21 @@
-import type { Material } from "./model.ts";
+/** Shapes at rest of a surface, x0 y0 z0 x1 ...: one, or those of all poses. */
+export type Rests = readonly Float32Array[];
 
-/** Strain energy that a surface shows by itself.
+/** Strain that a surface shows by itself, whatever it is made of.
  *
- * Where no force acts on a surface, the stress through it vanishes (plane stress): the strain across follows
- * from the Green strain E (2 x 2) of its triangles, E33 = -lam / (lam + 2 mu) tr E, and the energy density of
- * St.Venant-Kirchhoff material is mu |E|^2 + mu lam / (lam + 2 mu) (tr E)^2. All densities here are per volume
- * at rest, over mu. On handles forces do act, and there it is only near the truth. */
-export interface Membrane {
-  /** Shapes at rest, x0 y0 z0 x1 ...; the energies relative to them are summed with weights. */
-  readonly rests: readonly Float32Array[];
-  /** lam / (lam + 2 mu). */
-  readonly ratio: number;
-}
+ * The Green strain E (2 x 2) of a triangle from its shape at rest, without unit, as its norm |E| = sqrt(E : E):
+ * 0.1 for a stretch by about 10 %. Relative to several shapes at rest it is the root of the mean square by their
+ * weights and areas, and so it is at a vertex over the triangles around it. */
 
-export function planeStressRatio({ lam, mu }: Material): number {
-  return lam / (lam + 2 * mu);
-}
-
-/** Of a triangle, from the offsets of its corners: adds weight * area * density and weight * area to sums[at]. */
+/** Of a triangle, from the offsets of its corners: adds weight * area * |E|^2 and weight * area to sums[at]. */
 function addTriangle(
   sums: Float64Array,
-  at: number,
   weight: number,
   rest: ArrayLike<number>,
   shape: ArrayLike<number>,
   a: number,
   b: number,
   c: number,
-  ratio: number,
 ): void {
   // plain numbers only: this runs for all triangles of a frame where the graphics cannot do it
   const ux = rest[b] - rest[a];
@@ -57,15 +45,14 @@ function addTriangle(
   const m12 = half * (vv * duv - uv * dvv);
   const m21 = half * (uu * duv - uv * duu);
   const m22 = half * (uu * dvv - uv * duv);
-  const trace = m11 + m22;
   const area = 0.5 * weight * Math.sqrt(determinant);
-  sums[at] += area * (m11 * m11 + m22 * m22 + 2 * m12 * m21 + ratio * trace * trace);
-  sums[at + 1] += area;
+  sums[0] += area * (m11 * m11 + m22 * m22 + 2 * m12 * m21);
+  sums[1] += area;
 }
 
-/** Density over mu at every vertex: the mean of the triangles around by their areas at rest. */
-export function vertexDensities(
-  membrane: Membrane,
+/** Strain at every vertex. */
+export function vertexStrains(
+  rests: Rests,
   weights: ArrayLike<number>,
   shape: ArrayLike<number>,
   faces: Uint32Array,
@@ -76,22 +63,18 @@ export function vertexDensities(
   for (let f = 0; f < faces.length; f += 3) {
     own.fill(0);
     const [a, b, c] = [faces[f], faces[f + 1], faces[f + 2]];
-    membrane.rests.forEach((rest, k) =>
-      addTriangle(own, 0, weights[k], rest, shape, 3 * a, 3 * b, 3 * c, membrane.ratio),
-    );
+    rests.forEach((rest, k) => addTriangle(own, weights[k], rest, shape, 3 * a, 3 * b, 3 * c));
     for (const corner of [a, b, c]) {
       sums[2 * corner] += own[0];
       sums[2 * corner + 1] += own[1];
     }
   }
-  return Float32Array.from({ length: vertices }, (_, v) =>
-    sums[2 * v + 1] > 0 ? sums[2 * v] / sums[2 * v + 1] : 0,
-  );
+  return Float32Array.from({ length: vertices }, (_, v) => rootOfMean(sums[2 * v], sums[2 * v + 1]));
 }
 
-/** Density over mu of every triangle. */
-export function triangleDensities(
-  membrane: Membrane,
+/** Strain of every triangle. */
+export function triangleStrains(
+  rests: Rests,
   weights: ArrayLike<number>,
   shape: ArrayLike<number>,
   faces: Uint32Array,
@@ -100,9 +83,10 @@ export function triangleDensities(
   return Float64Array.from({ length: faces.length / 3 }, (_, triangle) => {
     own.fill(0);
     const [a, b, c] = [0, 1, 2].map((corner) => 3 * faces[3 * triangle + corner]);
-    membrane.rests.forEach((rest, k) =>
-      addTriangle(own, 0, weights[k], rest, shape, a, b, c, membrane.ratio),
-    );
-    return own[1] > 0 ? own[0] / own[1] : 0;
+    rests.forEach((rest, k) => addTriangle(own, weights[k], rest, shape, a, b, c));
+    return rootOfMean(own[0], own[1]);
   });
 }
+
+/** Beyond the poses weights are negative, and so may be the sum. */
+const rootOfMean = (sum: number, area: number) => (area > 0 ? Math.sqrt(Math.max(sum / area, 0)) : 0);

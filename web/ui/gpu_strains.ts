@@ -7,12 +7,12 @@ import {
   type WebGLRenderTarget,
 } from "three";
 
-import type { Membrane } from "../engine/index.ts";
+import type { Rests } from "../engine/index.ts";
 import { asTexels } from "./deformer.ts";
 import { floatTarget, Pass, runPasses } from "./gpu_pass.ts";
 
-/** As web/engine/membrane_energy.ts, a vertex at a time. */
-const ENERGIES = `
+/** As web/engine/membrane_strain.ts, a vertex at a time. */
+const STRAINS = `
 precision highp float;
 precision highp sampler2D;
 precision highp sampler2DArray;
@@ -23,7 +23,6 @@ uniform isampler2D pairs;
 uniform sampler2DArray rests;
 uniform float weights[MOST_RESTS];
 uniform int count;
-uniform float ratio;
 out vec4 result;
 ivec2 cell(int vertex) {
   int width = textureSize(positions, 0).x;
@@ -47,42 +46,40 @@ void main() {
       float duu = dot(p - u, p + u), dvv = dot(q - v, q + v), duv = dot(p - u, q) + dot(u, q - v);
       vec4 m = vec4(vv * duu - uv * duv, vv * duv - uv * dvv, uu * duv - uv * duu, uu * dvv - uv * duv);
       m *= 0.5 / determinant;
-      float trace = m.x + m.w, area = weights[k] * sqrt(determinant);
-      sums += area * vec2(m.x * m.x + m.w * m.w + 2.0 * m.y * m.z + ratio * trace * trace, 1.0);
+      float area = weights[k] * sqrt(determinant);
+      sums += area * vec2(m.x * m.x + m.w * m.w + 2.0 * m.y * m.z, 1.0);
     }
   }
-  result = vec4(sums.y > 0.0 ? sums.x / sums.y : 0.0, 0.0, 0.0, 1.0);
+  result = vec4(sums.y > 0.0 ? sqrt(max(sums.x / sums.y, 0.0)) : 0.0, 0.0, 0.0, 1.0);
 }`;
 
-/** Strain energy densities of a surface, over mu, on the graphics processor; in the red of each texel. */
-export class GpuEnergies {
+/** Strains of a surface on the graphics processor; in the red of each texel. */
+export class GpuStrains {
   readonly #renderer: WebGLRenderer;
   readonly #pass: Pass;
   readonly #only: readonly Pass[];
-  readonly #membrane: Membrane;
   readonly #rests: DataArrayTexture;
   #weights: Float32Array | null = null;
 
   /** `places` has positions, ranges and pairs of a deformer. */
   constructor(
     renderer: WebGLRenderer,
-    membrane: Membrane,
+    rests: Rests,
     width: number,
     height: number,
     places: Record<string, Texture>,
   ) {
     this.#renderer = renderer;
-    this.#membrane = membrane;
-    const count = membrane.rests.length;
+    const count = rests.length;
     const texels = new Float32Array(4 * width * height * count);
-    membrane.rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
+    rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
     this.#rests = new DataArrayTexture(texels, width, height, count);
     this.#rests.format = RGBAFormat;
     this.#rests.type = FloatType;
     this.#rests.needsUpdate = true;
     this.#pass = new Pass(
       renderer,
-      ENERGIES.replace("MOST_RESTS", String(count)),
+      STRAINS.replace("MOST_RESTS", String(count)),
       { ...places, rests: this.#rests },
       floatTarget(width, height),
     );
@@ -106,7 +103,6 @@ export class GpuEnergies {
     if (!this.#weights) return;
     this.#pass.setFloats("weights", this.#weights);
     this.#pass.setInteger("count", this.#weights.length);
-    this.#pass.setFloat("ratio", this.#membrane.ratio);
     runPasses(this.#renderer, this.#only);
   }
 
