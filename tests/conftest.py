@@ -15,7 +15,6 @@ from snapspace import (
     PosingModel,
     ReducedModel,
     Snapshots,
-    hyper_reduce,
     reduce,
     sample,
     snapshot_pca,
@@ -60,7 +59,8 @@ def own_surface_model(posing_model: PosingModel) -> PosingModel:
 def cubature_model(posing_snapshots: Snapshots) -> PosingModel:
     """The bar in the best 19 dimensions, its energy summed over few tets."""
     subspace = snapshot_pca(posing_snapshots, dimension=19)
-    return hyper_reduce(posing_snapshots.problem, subspace, posing_snapshots)
+    problem = posing_snapshots.problem
+    return reduce(problem, subspace, energy="cubature", snapshots=posing_snapshots)
 
 
 def interpolation_model(

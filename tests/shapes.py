@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from snapspace.energy import StVK
 from snapspace.generators import bar, cylinder
+from snapspace.material import StVK
 from snapspace.mesh import (
     EmbeddedSurface,
     TetMesh,

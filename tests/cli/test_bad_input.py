@@ -73,7 +73,10 @@ BUILDS: dict[str, tuple[Case, str]] = {
     "surface as mesh": (surface_as_mesh, "surface.obj: unknown extension '.obj'"),
     "nan in the mesh": (nan_in_the_mesh, "nan.mesh: vertex 3 is not finite"),
     "unknown entry": (lambda f: build(f, colour="red"), "unknown entry 'colour'"),
-    "unknown material": (lambda f: build(f, material=material(model="neo")), "unknown model 'neo'"),
+    "unknown material": (
+        lambda f: build(f, material=material(model="neo")),
+        "unknown material 'neo'",
+    ),
     "negative mu": (lambda f: build(f, material=material(mu=-1)), "mu is -1.0"),
     "negative stiffness": (lambda f: build(f, stiffness=-5), "stiffness is -5"),
     "stiffness as text": (lambda f: build(f, stiffness="stiff"), "stiffness must be a number"),

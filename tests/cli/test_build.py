@@ -81,14 +81,14 @@ def test_a_mesh_argument_replaces_the_mesh_of_the_problem(run: Run, tmp_path: Pa
     assert load(path).provenance["mesh"] == "finer.vtu"
 
 
-@pytest.mark.parametrize("method", ["quartic", "cubature"])
+@pytest.mark.parametrize("energy", ["exact", "cubature"])
 def test_a_surface_that_the_problem_names_is_in_the_model(
-    run: Run, tmp_path: Path, method: str
+    run: Run, tmp_path: Path, energy: str
 ) -> None:
     surface, mesh = surface_around(bar_mesh()), bar_mesh()
     write_surface(tmp_path / "own.obj", surface.vertices(mesh.vertices), surface.faces)
     problem, path = write_problem(tmp_path, surface="own.obj"), tmp_path / "m.snapspace"
-    assert run("build", "--problem", problem, *SMALL, "--method", method, "-o", path).code == 0
+    assert run("build", "--problem", problem, *SMALL, "--energy", energy, "-o", path).code == 0
     found = load(path).surface
     assert np.array_equal(found.faces, surface.faces)
     moved = found.vertices(1.5 * mesh.vertices + 1.0)

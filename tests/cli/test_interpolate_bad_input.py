@@ -179,7 +179,7 @@ CASES: dict[str, tuple[Case, str]] = {
     "deviation": (lambda f: surfaces(f, "--deviation", 0), "deviation is 0.0, but it must be posi"),
     "deviation nan": (lambda f: surfaces(f, "--deviation", "nan"), "deviation is nan"),
     "scale": (lambda f: tets(f, "--scale", "big"), "'--scale': 'big' is not one of 'auto', 'match"),
-    "mu": (lambda f: tets(f, "--mu", -1), "mu is -1.0, but the shear modulus must be positive"),
+    "mu": (lambda f: tets(f, "--mu", -1), "mu is -1.0, but it must be positive"),
     "extrapolation": (lambda f: tets(f, "--extrapolation", -1), "'--extrapolation': -1"),
     "extrapolation nan": (lambda f: tets(f, "--extrapolation", "nan"), "extrapolation is nan"),
     "dimension": (

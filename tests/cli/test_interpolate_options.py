@@ -25,7 +25,7 @@ SMALL = ["--samples", 4, "--dimension", 3]
 OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
     "deviation": (["--deviation", -1], "deviation is -1.0, but it must be positive"),
     "deviation inf": (["--deviation", "inf"], "deviation is inf, but it must be positive"),
-    "mu": (["--mu", -1], "mu is -1.0, but the shear modulus must be positive"),
+    "mu": (["--mu", -1], "mu is -1.0, but it must be positive"),
     "lam": (["--lam", "nan"], "lam is nan"),
     "energy fraction": (["--energy-fraction", 2], "energy fraction is 2.0, but must be in (0, 1]"),
     "extrapolation": (["--extrapolation", "nan"], "extrapolation is nan"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from snapspace import PosingModel, Snapshots, hyper_reduce, sample, snapshot_pca, solve_snapshots
+from snapspace import PosingModel, Snapshots, reduce, sample, snapshot_pca, solve_snapshots
 
 from ..shapes import bar_problem, irregular_bar
 
@@ -20,4 +20,10 @@ def snapshots() -> Snapshots:
 def cubature_model(snapshots: Snapshots) -> PosingModel:
     """Sixteen dimensions with 128 tets."""
     subspace = snapshot_pca(snapshots, dimension=16)
-    return hyper_reduce(snapshots.problem, subspace, snapshots, provenance={"seed": 3})
+    return reduce(
+        snapshots.problem,
+        subspace,
+        energy="cubature",
+        snapshots=snapshots,
+        provenance={"seed": 3},
+    )

@@ -7,8 +7,8 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import AffineSubspace, Cubature, PosingModel, PosingProblem, StVK
+from snapspace.cubature.displacement_gradients import displacement_gradients
 from snapspace.reduction import reduced_quartic
-from snapspace.reduction.displacement_gradients import displacement_gradients
 
 from ..shapes import bar_problem, random_rotation, random_subspace
 from ..taylor import observed_order

@@ -8,16 +8,24 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    AffineSubspace,
     Cubature,
     InterpolationModel,
     PosingModel,
+    PosingProblem,
     Snapshots,
-    hyper_reduce,
     reduce,
     sample,
     snapshot_pca,
+    solve_snapshots,
 )
 from snapspace.mesh import mass_norms
+
+
+def cubature(subspace: AffineSubspace, snapshots: Snapshots, **options: int) -> PosingModel:
+    problem = snapshots.problem
+    assert isinstance(problem, PosingProblem)
+    return reduce(problem, subspace, energy="cubature", snapshots=snapshots, **options)  # type: ignore[arg-type]
 
 
 def test_weights_are_positive_and_tets_few(cubature_model: PosingModel) -> None:
@@ -31,7 +39,7 @@ def test_weights_are_positive_and_tets_few(cubature_model: PosingModel) -> None:
 def test_solutions_are_near_those_of_the_exact_energy(
     cubature_model: PosingModel, snapshots: Snapshots
 ) -> None:
-    exact = reduce(snapshots.problem, cubature_model.subspace, snapshots=snapshots, threads=1)
+    exact = reduce(snapshots.problem, cubature_model.subspace, energy="exact", threads=1)
     here, there = cubature_model.session(), exact.session(minimizer="bfgs")
     errors = []
     for w in sample(snapshots.problem.domain, 15, seed=9):
@@ -57,9 +65,9 @@ def test_errors_on_held_out_samples_are_recorded(cubature_model: PosingModel) ->
 def test_more_tets_make_smaller_errors(snapshots: Snapshots) -> None:
     subspace = snapshot_pca(snapshots, dimension=10)
     errors = [
-        hyper_reduce(snapshots.problem, subspace, snapshots, tets=tets).provenance["cubature"][
-            "held_out"
-        ]["displacement_median"]
+        cubature(subspace, snapshots, tets=tets).provenance["cubature"]["held_out"][
+            "displacement_median"
+        ]
         for tets in (15, 60, 240)
     ]
     assert errors[2] < errors[1] < errors[0]
@@ -68,10 +76,10 @@ def test_more_tets_make_smaller_errors(snapshots: Snapshots) -> None:
 def test_the_same_arguments_give_the_same_model(
     cubature_model: PosingModel, snapshots: Snapshots
 ) -> None:
-    again = hyper_reduce(snapshots.problem, cubature_model.subspace, snapshots)
+    again = cubature(cubature_model.subspace, snapshots)
     np.testing.assert_array_equal(again.elastic.tets, cubature_model.elastic.tets)
     np.testing.assert_array_equal(again.elastic.weights, cubature_model.elastic.weights)
-    other = hyper_reduce(snapshots.problem, cubature_model.subspace, snapshots, seed=1)
+    other = cubature(cubature_model.subspace, snapshots, seed=1)
     assert len(other.elastic.tets) != len(again.elastic.tets) or not np.array_equal(
         other.elastic.weights, again.elastic.weights
     )
@@ -139,11 +147,23 @@ def test_bad_input_is_named(
     problem, subspace = snapshots.problem, snapshot_pca(snapshots, dimension=5)
     for tets in (0, len(problem.mesh.tets) + 1):
         with pytest.raises(ValueError, match=f"tets is {tets}, but must be between 1 and"):
-            hyper_reduce(problem, subspace, snapshots, tets=tets)
+            cubature(subspace, snapshots, tets=tets)
     few = snapshots.select(np.arange(len(snapshots)) < 9)
-    with pytest.raises(ValueError, match="9 snapshots are too few"):
-        hyper_reduce(problem, subspace, few)
-    with pytest.raises(ValueError, match="posing problems, got a InterpolationProblem"):
-        hyper_reduce(blending_model.problem, blending_model.subspace, snapshots)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=r"there are 9; give .* 10 samples or more, or energy='ex"):
+        cubature(subspace, few)
+    with pytest.raises(ValueError, match="snapshots, but there are 0; give"):
+        reduce(problem, subspace, energy="cubature")
+    with pytest.raises(ValueError, match="interpolation has exact energies only"):
+        reduce(blending_model.problem, blending_model.subspace, energy="cubature")
     with pytest.raises(ValueError, match="not attached"):
-        hyper_reduce(problem, posing_model.subspace, snapshots)
+        cubature(posing_model.subspace, snapshots)
+
+
+def test_snapshots_at_rest_say_nothing(snapshots: Snapshots) -> None:
+    """And ten of the others are needed."""
+    parameters = snapshots.parameters[:12].copy()
+    parameters[:3] = 0.0
+    some = solve_snapshots(snapshots.problem, parameters, threads=1)
+    assert sum(not row.any() for row in some.displacements) == 3
+    with pytest.raises(ValueError, match="9 snapshots that are not at rest are too few to train"):
+        cubature(snapshot_pca(some, dimension=4), some)

@@ -11,10 +11,10 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import Checkpoint, DisplacementRows, Snapshots, solve_snapshots
-from snapspace.snapshots.displacement_rows import BLOCK
+from snapspace.displacements import BLOCK
 
-from .bars import parameters, posing_bar
-from .samples import displacements, report
+from ..snapshots.bars import parameters, posing_bar
+from ..snapshots.samples import displacements, report
 
 FloatArray = NDArray[np.float64]
 SIZE = BLOCK + 300  # two blocks

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, identity, kron
 
 from snapspace import _core as core
-from snapspace.snapshots import DisplacementRows
+from snapspace.displacements import DisplacementRows
 
 FloatArray = NDArray[np.float64]
 POINTS = 150  # a block of vertices and a part of one

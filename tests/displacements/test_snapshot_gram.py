@@ -13,12 +13,12 @@ from scipy.sparse import csr_array
 from threadpoolctl import threadpool_limits
 
 from snapspace import SnapshotGram, pca
+from snapspace.displacements import BLOCK
 from snapspace.generators import bar
 from snapspace.mesh import mass_gram, mass_matrix, mass_norms
-from snapspace.snapshots.displacement_rows import BLOCK
 
 from ..shapes import interpolation_problem, irregular_bar
-from .samples import displacements
+from ..snapshots.samples import displacements
 
 FloatArray = NDArray[np.float64]
 MESH = irregular_bar(4, 2, 2)

@@ -5,10 +5,11 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from snapspace import ElasticEnergy, StVK
+from snapspace import ElasticEnergy, Material, StVK
 from snapspace import _core as core
 
 from ..shapes import CORNER_TET, irregular_bar
+from .densities import every_kind, every_material, varied
 
 MESH = irregular_bar()
 CALLS: dict[str, Callable[[ElasticEnergy, np.ndarray], object]] = {
@@ -17,6 +18,7 @@ CALLS: dict[str, Callable[[ElasticEnergy, np.ndarray], object]] = {
     "hessian": lambda energy, x: energy.hessian(x),
     "hessian_product": lambda energy, x: energy.hessian_product(x, MESH.vertices),
     "clamped_hessian": lambda energy, x: energy.clamped_hessian(x, threshold=0.5),
+    "projected_hessian": lambda energy, x: energy.projected_hessian(x),
     "inverted_tets": lambda energy, x: energy.inverted_tets(x),
 }
 
@@ -43,14 +45,51 @@ def test_vertices_and_shape_vectors_mean_the_same(energy: ElasticEnergy) -> None
     assert energy.value(x) == energy.value(x.reshape(-1)) == energy.value(np.asfortranarray(x))
 
 
-def test_a_shape_that_is_not_finite_gives_an_energy_that_is_not(energy: ElasticEnergy) -> None:
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf, 1e200])
+@every_material
+def test_a_shape_that_is_not_finite_gives_an_energy_that_is_not(
+    material: Material, wrong: float
+) -> None:
     x = MESH.vertices.copy()
-    x[3, 1] = np.nan
-    assert np.isnan(energy.value(x))
+    x[3, 1] = wrong
+    assert not np.isfinite(ElasticEnergy(MESH, material).value(x))
+
+
+@every_kind
+def test_moduli_of_another_number_of_tets_are_refused(kind: type[Material]) -> None:
+    tets = len(MESH.tets)
+    for count in (tets - 1, tets + 1, 2):
+        material = varied(kind, count)
+        message = f"ElasticEnergy: .*moduli for {count} tets, but the mesh has {tets}; give one"
+        with pytest.raises(ValueError, match=message):
+            ElasticEnergy(MESH, material)
+        with pytest.raises(ValueError, match="the material has moduli for another number of tets"):
+            core.ElasticEnergy(MESH.vertices, MESH.tets, material.core)
+
+
+@every_kind
+def test_the_core_refuses_another_number_of_moduli(kind: type[Material]) -> None:
+    count = len(kind.names())
+    for moduli in (np.ones((1, count + 1)), np.ones((1, count - 1)), np.ones((0, count))):
+        with pytest.raises(ValueError, match=rf"moduli must be \(1 or tets, {count}\)"):
+            core.Material(kind.kind, moduli)
+
+
+@pytest.mark.parametrize("name", ["foo", "", "StVK", "stvk "])
+def test_the_core_refuses_a_material_that_it_does_not_know_by_its_name(name: str) -> None:
+    with pytest.raises(ValueError, match=f"unknown material '{name}'"):
+        core.Material(name, np.ones((1, 2)))
+
+
+def test_a_projection_that_there_is_not_is_refused(energy: ElasticEnergy) -> None:
+    for projection in ("none", "stretches", "Clamp"):
+        message = f"unknown projection '{projection}'; known are clamp, absolute"
+        with pytest.raises(ValueError, match=message):
+            energy.projected_hessian(MESH.vertices, projection=projection)
 
 
 def test_the_core_reads_no_vertex_that_is_not_there() -> None:
     for corner in (4, -1):
         tets = np.array([[0, 1, 2, corner]], dtype=np.int32)
         with pytest.raises(ValueError, match="a tet has a vertex index out of range"):
-            core.ElasticEnergy(CORNER_TET, tets, 1.0, 1.0)
+            core.ElasticEnergy(CORNER_TET, tets, StVK().core)

@@ -9,7 +9,7 @@ import pytest
 from safetensors import safe_open
 from safetensors.numpy import load_file
 
-from snapspace import Cubature, PosingModel, hyper_reduce, load, snapshot_pca, solve_snapshots
+from snapspace import Cubature, PosingModel, load, reduce, snapshot_pca, solve_snapshots
 from snapspace.model_file.container import write_container
 
 from ..snapshots.bars import parameters, posing_bar
@@ -19,7 +19,8 @@ from ..snapshots.bars import parameters, posing_bar
 def model() -> PosingModel:
     problem = posing_bar()
     snapshots = solve_snapshots(problem, parameters(problem, 20), threads=1)
-    return hyper_reduce(problem, snapshot_pca(snapshots, dimension=6), snapshots, tets=20)
+    subspace = snapshot_pca(snapshots, dimension=6)
+    return reduce(problem, subspace, energy="cubature", snapshots=snapshots, tets=20)
 
 
 def test_nothing_is_lost(model: PosingModel, tmp_path: Path) -> None:

@@ -162,7 +162,7 @@ def test_a_rewritten_file_is_fine_if_nothing_changed(saved: Path) -> None:
     assert load(saved).dimension == 12
 
 
-@pytest.mark.parametrize("name", sorted(ARRAYS))
+@pytest.mark.parametrize("name", sorted(ARRAYS - {"eigenvalues"}))
 def test_a_missing_array_is_named(saved: Path, name: str) -> None:
     rewrite(saved, lambda arrays, header: arrays.pop(name))
     assert refused(saved).endswith(f"the array '{name}' is missing; build the model again")

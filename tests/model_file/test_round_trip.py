@@ -15,6 +15,7 @@ from snapspace import (
     PosingProblem,
     ReducedModel,
     StVK,
+    affine_subspace,
     load,
     pca,
     reduce,
@@ -105,6 +106,15 @@ def test_a_model_without_snapshots_survives(tmp_path: Path) -> None:
     assert again.training_parameters.shape == (0, 6)
 
 
+def test_a_basis_that_is_not_from_snapshots_survives(tmp_path: Path) -> None:
+    problem = posing_bar()
+    directions = np.random.default_rng(0).normal(size=(problem.tau.size, 3))
+    made = reduce(problem, affine_subspace(directions, problem), threads=1)
+    again = load(made.save(tmp_path / "m.snapspace"))
+    assert again.subspace.eigenvalues is None
+    np.testing.assert_array_equal(again.subspace.basis, made.subspace.basis)
+
+
 def test_a_truncated_model_survives(model: ReducedModel, tmp_path: Path) -> None:
     """Leading columns of arrays are not contiguous; what is written must be."""
     assert_same_model(load(model.leading(3).save(tmp_path / "m.snapspace")), model.leading(3))
@@ -140,7 +150,7 @@ def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> No
     with safe_open(saved, framework="np") as file:
         header = file.metadata()
     assert set(header) == {"format", "version", "kind", "problem", "provenance", "checksum"}
-    assert (header["format"], header["version"]) == ("snapspace-model", "1")
+    assert (header["format"], header["version"]) == ("snapspace-model", "2")
     assert header["kind"] == "posing"
     assert json.loads(header["problem"])["handles"] == ["foot", "tip"]
     assert json.loads(header["provenance"]) == model.provenance

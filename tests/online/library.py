@@ -64,6 +64,7 @@ def compiled(folder: Path) -> ctypes.CDLL:
     library.snapspace_create_posing.restype = ctypes.c_void_p
     library.snapspace_create_posing_cubature.restype = ctypes.c_void_p
     library.snapspace_create_blending.restype = ctypes.c_void_p
+    library.snapspace_modulus_name.restype = ctypes.c_char_p
     return library
 
 
@@ -75,13 +76,41 @@ class Basis(ctypes.Structure):
     )
 
 
+class Material(ctypes.Structure):
+    _fields_ = (
+        ("kind", ctypes.c_char_p),
+        ("count", ctypes.c_int),
+        ("moduli", ctypes.c_void_p),
+    )
+
+
 class Cubature(ctypes.Structure):
     _fields_ = (
         ("tets", ctypes.c_int),
         ("rows", ctypes.c_void_p),
         ("weights", ctypes.c_void_p),
-        ("lam", ctypes.c_double),
-        ("mu", ctypes.c_double),
+        ("material", Material),
+    )
+
+
+class Probe(ctypes.Structure):
+    _fields_ = (
+        ("corners", ctypes.c_int),
+        ("tets", ctypes.c_int),
+        ("rests", ctypes.c_int),
+        ("samples", ctypes.c_int),
+        ("pins", ctypes.c_int),
+        ("tau", ctypes.c_void_p),
+        ("modes", ctypes.c_void_p),
+        ("rest_shapes", ctypes.c_void_p),
+        ("tet_corners", ctypes.c_void_p),
+        ("material", Material),
+        ("sampled", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+        ("pinned", ctypes.c_void_p),
+        ("pin_handles", ctypes.c_void_p),
+        ("pulls", ctypes.c_void_p),
+        ("arms", ctypes.c_void_p),
     )
 
 
@@ -107,5 +136,5 @@ class Report(ctypes.Structure):
 
 
 def address(array: NDArray[Any]) -> ctypes.c_void_p:
-    assert array.dtype in (np.float64, np.float32) and array.flags.c_contiguous
+    assert array.dtype in (np.float64, np.float32, np.int32) and array.flags.c_contiguous
     return ctypes.c_void_p(array.ctypes.data)

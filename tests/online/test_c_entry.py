@@ -12,84 +12,16 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-import snapspace as ss
-from snapspace import InterpolationModel, PosingModel, ReducedModel
+from snapspace import InterpolationModel, PosingModel
 
-from .library import CORE, Basis, Cubature, Options, Report, address, compiled, run
+from .entry import Entry
+from .library import CORE, Basis, Cubature, Material, Options, Report, address, run
 
 pytestmark = pytest.mark.skipif(
     not sys.platform.startswith("linux"), reason="compiles a shared library as on Linux"
 )
 FloatArray = NDArray[np.float64]
-BAD_ARGUMENT, NOT_FINITE, NOT_DEFINITE, WRONG_KIND = -1, -2, -3, -4
-
-
-@pytest.fixture(scope="module")
-def library(tmp_path_factory: pytest.TempPathFactory) -> ctypes.CDLL:
-    return compiled(tmp_path_factory.mktemp("online"))
-
-
-def cubature(elastic: ss.Cubature) -> Cubature:
-    material = elastic.material
-    arrays = address(elastic.rows), address(elastic.weights)
-    return Cubature(len(elastic.tets), *arrays, material.lam, material.mu)
-
-
-class Entry:
-    """A session behind the C functions."""
-
-    def __init__(self, library: ctypes.CDLL, model: ReducedModel) -> None:
-        self.library, self.model = library, model
-        self.modes = np.ascontiguousarray(model.subspace.basis.T)
-        self.basis = Basis(
-            self.modes.shape[1] // 3, address(model.subspace.tau), address(self.modes)
-        )
-        error, d = ctypes.c_int(7), model.dimension
-        if isinstance(model, PosingModel):
-            elastic = model.elastic
-            if isinstance(elastic, ss.Cubature):
-                create = library.snapspace_create_posing_cubature
-                first = self._to(cubature(elastic))
-            else:
-                create, first = library.snapspace_create_posing, address(elastic.coefficients)
-            handles = [address(array) for array in vars(model.handles).values()]
-            made = create(
-                d, len(model.problem.handles), first, *handles, self._basis(), self._to(error)
-            )
-        else:
-            assert isinstance(model, InterpolationModel)
-            count = len(model.problem.poses)
-            made = library.snapspace_create_blending(
-                d, count, address(model.coefficients), self._basis(), self._to(error)
-            )
-        assert error.value == 0
-        self.session = ctypes.c_void_p(made)
-
-    def _basis(self) -> Any:
-        return ctypes.byref(self.basis)
-
-    @staticmethod
-    def _to(value: Any) -> Any:
-        return ctypes.byref(value)
-
-    def call(self, name: str, *arguments: Any) -> int:
-        code: int = getattr(self.library, f"snapspace_{name}")(self.session, *arguments)
-        return code
-
-    def solve(self, method: int = 0, **changes: Any) -> Report:
-        options = Options(
-            method, 1e-10, self.model.value_scale, self.model.coordinate_scale, 300, 500
-        )
-        for key, value in changes.items():
-            setattr(options, key, value)
-        report = Report()
-        assert self.call("solve", self._to(options), self._to(report)) == 0
-        return report
-
-    def read(self, name: str, size: int) -> FloatArray:
-        array = np.full(size, np.nan)
-        assert self.call(name, address(array)) == 0
-        return array
+BAD_ARGUMENT, NOT_FINITE, NOT_DEFINITE, WRONG_KIND, UNKNOWN_MATERIAL = -1, -2, -3, -4, -5
 
 
 @pytest.fixture
@@ -251,10 +183,24 @@ def test_a_damaged_cubature_is_refused(library: ctypes.CDLL) -> None:
     rows, weights = np.zeros((1, 9, 1), np.float32), np.ones(1)
     handles = [address(np.zeros(size)) for size in (1, 12, 16)]
     create = library.snapspace_create_posing_cubature
-    for tets, mu, code in ((1, 1.0, NOT_DEFINITE), (0, 1.0, BAD_ARGUMENT), (1, np.nan, -1)):
-        given = ctypes.byref(Cubature(tets, address(rows), address(weights), 1.0, mu))
+    for tets, kind, rows_of_moduli, mu, code in (
+        (1, "stvk", 1, 1.0, NOT_DEFINITE),
+        (0, "stvk", 1, 1.0, BAD_ARGUMENT),
+        (1, "stvk", 2, 1.0, BAD_ARGUMENT),
+        (1, "stvk", 1, -1.0, BAD_ARGUMENT),
+        (1, "stvk", 1, np.nan, NOT_FINITE),
+        (1, "mud", 1, 1.0, UNKNOWN_MATERIAL),
+        (1, "stvk ", 1, 1.0, UNKNOWN_MATERIAL),
+    ):
+        moduli = np.tile([1.0, mu], (rows_of_moduli, 1))
+        made = Material(kind.encode(), rows_of_moduli, address(moduli))
+        given = ctypes.byref(Cubature(tets, address(rows), address(weights), made))
         assert create(1, 1, given, *handles, ctypes.byref(basis), ctypes.byref(error)) is None
         assert error.value == code
+    for missing in (Material(None, 1, address(weights)), Material(b"arap", 1, None)):
+        given = ctypes.byref(Cubature(1, address(rows), address(weights), missing))
+        assert create(1, 1, given, *handles, ctypes.byref(basis), ctypes.byref(error)) is None
+        assert error.value == BAD_ARGUMENT
 
 
 def test_the_header_is_c(tmp_path: Path) -> None:

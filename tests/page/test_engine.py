@@ -20,9 +20,12 @@ from snapspace import (
     TetMesh,
     calibrated,
 )
+from snapspace.certificate import PosingProbe
 from snapspace.generators import bar
+from snapspace.material import MATERIALS
 from snapspace.page import packed
 
+from .material_models import material_model
 from .tools import ROOT, tool
 
 node = tool("node")
@@ -66,7 +69,8 @@ def posing_frames(model: PosingModel) -> dict[str, Any]:
         )
     assert any(len(frame["outside"]) == 1 for frame in frames)
     session.dimension = 7
-    leading = {"dimension": 7, "value": session.solve().value}
+    value = session.solve().value  # symmetric Dirichlet: infinite, tets are inverted
+    leading = value if np.isfinite(value) else None
     return {"frames": frames, "diagonal": model.problem.mesh.diagonal, "leading": leading}
 
 
@@ -87,6 +91,20 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
             }
         )
     return {"frames": frames, "diagonal": model.problem.mesh.diagonal}
+
+
+def values_at(model: PosingModel) -> dict[str, Any]:
+    """Value and residual at a shape that nobody solved for."""
+    assert model.error_estimator is not None
+    q = 0.02 * model.coordinate_scale * np.linspace(1.0, -1.0, model.dimension)
+    offsets = model.problem.offsets(0.4 * model.problem.domain.half_widths)
+    probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
+    return {
+        "q": q.tolist(),
+        "offsets": offsets.ravel().tolist(),
+        "value": model.value(q, offsets),
+        "residual": probe.norm(q, offsets),
+    }
 
 
 def with_own_boxes(model: PosingModel) -> PosingModel:
@@ -110,23 +128,18 @@ def box_frames(model: PosingModel) -> dict[str, Any]:
     return {"frames": frames, "boxes": [[0.0] * 6, *bounds.tolist()]}
 
 
-def surface_energies(model: PosingModel) -> dict[str, Any]:
-    """True densities: of a stretch with free sides, and below the free triangles of a bent bar."""
-    lam, mu = model.problem.material.lam, model.problem.material.mu
+def surface_strains(model: PosingModel) -> dict[str, Any]:
+    """True strains: of a stretch, and along the free surface of a bent bar."""
 
     def content(mesh: TetMesh, shape: np.ndarray, faces: np.ndarray) -> dict[str, Any]:
         arrays = {"rest": mesh.vertices, "shape": shape, "faces": faces}
-        return {name: array.ravel().tolist() for name, array in arrays.items()} | {
-            "material": {"lam": lam, "mu": mu}
-        }
+        return {name: array.ravel().tolist() for name, array in arrays.items()}
 
-    # by 1.3 along x; across, E22 = E33 = -nu E11 makes the stress zero
-    straight = bar(4, 2, 2)
-    along = (1.3**2 - 1) / 2
-    strain = along * np.array([1.0, *[-lam / (2 * (lam + mu))] * 2])
+    # sides by 1.3 along x and by 0.9 across
+    straight, stretches = bar(4, 2, 2), np.array([1.3, 0.9, 0.9])
     sides = straight.surface[np.ptp(straight.vertices[straight.surface][:, :, 0], axis=1) > 1e-9]
-    stretch = content(straight, straight.vertices * np.sqrt(1 + 2 * strain), sides)
-    stretch["density"] = mu * (strain**2).sum() + lam / 2 * strain.sum() ** 2
+    stretch = content(straight, straight.vertices * stretches, sides)
+    stretch["strain"] = float(np.linalg.norm((stretches[:2] ** 2 - 1) / 2))
 
     mesh, session = model.problem.mesh, model.session()
     session.pose(0.5 * model.problem.domain.half_widths)
@@ -139,10 +152,12 @@ def surface_energies(model: PosingModel) -> dict[str, Any]:
     tets = mesh.tets[[owner[tuple(sorted(face))] for face in free.tolist()]]
     rest, moved = (x[tets[:, 1:]] - x[tets[:, :1]] for x in (mesh.vertices, session.vertices))
     transposed = np.linalg.inv(rest) @ moved  # F^T
-    E = (transposed @ transposed.swapaxes(1, 2) - np.eye(3)) / 2
+    strains = (transposed @ transposed.swapaxes(1, 2) - np.eye(3)) / 2
+    edges = mesh.vertices[free[:, 1:]] - mesh.vertices[free[:, :1]]
+    frames = np.linalg.qr(edges.swapaxes(1, 2))[0]  # two directions along each face
+    along = frames.swapaxes(1, 2) @ strains @ frames
     bent = content(mesh, session.vertices, free)
-    densities = mu * (E**2).sum(axis=(1, 2)) + lam / 2 * np.trace(E, axis1=1, axis2=2) ** 2
-    bent["densities"] = densities.tolist()
+    bent["strains"] = np.linalg.norm(along, axis=(1, 2)).tolist()
     return {"stretch": stretch, "bent": bent}
 
 
@@ -163,6 +178,8 @@ def expected(
         "blending": calibrated(blending_model, samples=12, threads=1),
         "own_boxes": own_boxes,
     }
+    materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
+    models |= materials
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -172,7 +189,10 @@ def expected(
         "cubature": posing_frames(models["cubature"]),
         "blending": blending_frames(models["blending"]),
         "own_boxes": box_frames(own_boxes),
-        "energy": surface_energies(posing_model),
+        "strains": surface_strains(posing_model),
+        "materials": list(materials),
+        "values": {kind: values_at(model) for kind, model in materials.items()},
+        **{kind: posing_frames(model) for kind, model in materials.items()},
     }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))

@@ -12,9 +12,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays as numpy_arrays
 
 from snapspace import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
+from snapspace.material import MATERIALS
 from snapspace.model_file.container import Arrays, read_container
 from snapspace.page import packed
 from snapspace.page.shape_space import quantised
+
+from .material_models import material_model
 
 
 def unpacked(model: ReducedModel, folder: Path) -> tuple[Arrays, dict[str, str]]:
@@ -108,8 +111,24 @@ def test_a_cubature_keeps_its_tets(cubature_model: PosingModel, tmp_path: Path) 
     assert np.array_equal(arrays["cubature_rows"], elastic.rows)
     assert np.array_equal(arrays["cubature_weights"], elastic.weights)
     assert "quartic" not in arrays
-    material = elastic.material
-    assert json.loads(header["about"])["material"] == {"lam": material.lam, "mu": material.mu}
+    assert json.loads(header["about"])["material"] == {"model": elastic.material.kind}
+    assert np.array_equal(arrays["cubature_moduli"], elastic.material.moduli)
+
+
+@pytest.mark.parametrize("kind", sorted(MATERIALS))
+def test_moduli_of_single_tets_travel_along(
+    cubature_model: PosingModel, tmp_path: Path, kind: str
+) -> None:
+    model = material_model(cubature_model, kind)
+    elastic = model.elastic
+    assert isinstance(elastic, Cubature)
+    arrays, header = unpacked(model, tmp_path)
+    assert header["version"] == "2"
+    assert json.loads(header["about"])["material"] == {"model": kind}
+    moduli = model.problem.material.moduli
+    assert np.array_equal(arrays["cubature_moduli"], moduli[elastic.tets])
+    assert len(arrays["estimator_moduli"]) == len(arrays["estimator_tets"])
+    assert set(map(tuple, arrays["estimator_moduli"])) <= set(map(tuple, moduli))
 
 
 def test_other_models_are_refused() -> None:

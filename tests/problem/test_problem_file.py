@@ -9,7 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from snapspace import HandleBox, Handles, PosingProblem, StVK, read_problem, write_tets
+from snapspace import (
+    HandleBox,
+    Handles,
+    PosingProblem,
+    StableNeoHookean,
+    StVK,
+    read_problem,
+    write_tets,
+)
 from snapspace.generators import bar
 from snapspace.problem import problem_content
 
@@ -95,7 +103,7 @@ def test_material_and_names_have_defaults(folder: Path) -> None:
     content = copy.deepcopy(CONTENT)
     del content["material"], content["handles"][1]["name"]
     problem = read_problem(write(folder, content))
-    assert problem.material == StVK()
+    assert problem.material == StableNeoHookean()
     assert problem.handles.names == ("foot", "handle_1")
 
 
@@ -153,10 +161,10 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (("stifness",), 1, "unknown entry 'stifness'; known are domain, handles, mat"),
     (("material",), [], "material must be an object {...}, got []"),
     (("material",), None, "material must be an object {...}, got None"),
-    (("material", "model"), "neohooke", "unknown model 'neohooke'; known is stvk"),
-    (("material", "mu"), -1, "mu is -1.0, but the shear modulus must be positive"),
-    (("material", "lam"), None, "material.lam must be a number, got None"),
-    (("material", "nu"), 0.3, "material: unknown entry 'nu'; known are lam, model, mu"),
+    (("material", "model"), "neohooke", "unknown material 'neohooke'; known are arap, cor"),
+    (("material", "mu"), -1, "material: StVK: mu is -1.0, but it must be positive"),
+    (("material", "lam"), None, "material: lam must be a number, got None"),
+    (("material", "nu"), 0.3, "material: unknown entry 'nu'; known are lam, model, mu, poi"),
     (("domain",), DELETE, "the entry 'domain' is missing"),
     (("domain",), 5, "domain must be an object {...}, got 5"),
     (("domain", "translation"), DELETE, "the entry 'translation' is missing"),

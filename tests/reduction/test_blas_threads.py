@@ -17,7 +17,7 @@ def snapshots() -> ss.Snapshots:
     parts = creature_handles(mesh)
     handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
     domain = ss.HandleBox(translation=0.2, angle=0.5)
-    problem = ss.PosingProblem(mesh, handles, domain=domain)
+    problem = ss.PosingProblem(mesh, handles, domain=domain, material=ss.StVK())
     options = ss.SolverOptions(tolerance=1e-2)
     return ss.solve_snapshots(problem, ss.sample(problem.domain, 24), options=options)
 

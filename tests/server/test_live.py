@@ -178,7 +178,9 @@ def test_errors_are_answers(page: Page) -> None:
     page.send("compute", request=7, **{**SHORT, "dimension": 41})
     assert "raise the samples or lower the dimension" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "poisson": 0.5})
-    assert "must be from 0 to below 0.5" in page.take("failed")["message"]
+    assert "must be from 0 to 0.49" in page.take("failed")["message"]
+    page.send("compute", request=7, **{**SHORT, "material": "mud"})
+    assert "unknown material 'mud'; known are arap" in page.take("failed")["message"]
     page.send("polish", request=8, model=3, q=[0.0])
     assert page.take("failed") == {
         "type": "failed",

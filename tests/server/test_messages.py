@@ -27,6 +27,7 @@ CHOOSE = m.Choose(
     ),
     translation=(1.0, 2.0, 3.0),
     angle=(0.5, 0.5, 0.5),
+    parts=(m.PartChoice(name="bone", vertices=(4, 5, 6), factor=12.5),),
 )
 POLISH = m.Polish(
     request=4,
@@ -41,7 +42,8 @@ POLISH = m.Polish(
     [
         CHOOSE,
         POLISH,
-        m.Compute(request=1, samples=10, dimension=4, seed=0, stiffness=3.0, poisson=None),
+        m.Compute(request=1, samples=10, dimension=4, seed=0, stiffness=3.0, material="arap"),
+        m.Compute(request=1, samples=10, dimension=4, seed=0, stiffness=3.0, poisson=0.4),
         m.Cancel(request=2),
         m.Save(request=2, name="a name"),
     ],
@@ -115,6 +117,11 @@ def test_what_is_no_message_is_refused(text: str, message: str) -> None:
         ({"translation": [1, 2]}, "choose.translation must have 3 entries, got 2"),
         ({"angle": [1, 2, "3"]}, r"choose.angle\[2\] must be a number, got '3'"),
         ({"angle": [1, 2, 1e999]}, r"choose.angle\[2\] is inf, but it must be finite"),
+        (
+            {"parts": [{"name": "a", "vertices": [1], "factor": "stiff"}]},
+            r"choose.parts\[0\].factor must be a number, got 'stiff'",
+        ),
+        ({"parts": [{"name": "a", "vertices": [1]}]}, "the entry 'factor' is missing"),
         ({"angle": [1, 2, 10**400]}, r"choose.angle\[2\] is 1000.*must be finite"),
     ],
 )

@@ -93,6 +93,20 @@ def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: S
     assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
 
 
+def test_each_material_starts_from_the_samples_of_the_one_before(site: Site) -> None:
+    mailbox = Mailbox()
+    workspace = Workspace(site, mailbox.put)
+    workspace.open()
+    mailbox.wait_for(Opened, kind="mesh")
+    for request, kind in enumerate(("stvk", "arap", "stable-neo-hookean"), start=1):
+        workspace.receive(replace(ORDER, request=request, material=kind))
+        mailbox.wait_for(Model, request=request, final=True)
+        assert workspace._models.newest is not None
+        assert workspace._models.newest.model.problem.material.kind == kind
+    workspace.close()
+    assert not any(isinstance(message, Failed) for message in mailbox.messages)
+
+
 def refusal(site: Site, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
     """What a page is told when a computation raises an error."""
 

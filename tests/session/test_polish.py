@@ -16,6 +16,7 @@ from snapspace import (
     ReducedModel,
     Session,
     SolverOptions,
+    StVK,
     interruptible,
     reduce,
     sample,
@@ -188,6 +189,7 @@ def far_session() -> Session:
         mesh,
         Handles([parts["feet"], parts["head"]]),
         domain=HandleBox(translation=0.3, angle=0.8),
+        material=StVK(),
     )
     session = reduce(problem, random_subspace(mesh, 4), threads=1).session()
     session.pose([0.1, 0.2, -0.1, 0.5, 0.3, -0.6])

@@ -31,6 +31,7 @@ OPTIONS = ResolvedOptions(
     solver="fast",
     tolerance=1e-10,
     max_iterations=1000,
+    projection="stretches",
     clamp=0.65,
     single=False,
     block=16,
@@ -68,7 +69,8 @@ class Work:
                 *arrays,
                 tolerance=options.tolerance,
                 max_iterations=options.max_iterations,
-                clamp=options.clamp,
+                projection=core.Projection[options.projection],
+                threshold=options.clamp,
                 threads=2,
                 control=control,
             )

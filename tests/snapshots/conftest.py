@@ -14,7 +14,7 @@ WORKERS_PATIENCE = 17
 #: What a worker does first: none idles while another one imports.
 READY = f"""
 import snapspace, time
-snapspace.InterpolationProblem.patience = {WORKERS_PATIENCE}
+snapspace.problem.solver_traits.PATIENCE = {WORKERS_PATIENCE}
 time.sleep(0.3)
 """
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from snapspace import HandleBox, Handles, PosingProblem, generators
+from snapspace import HandleBox, Handles, Material, PosingProblem, StVK, generators
 
 
-def posing_creature(tets: int) -> PosingProblem:
-    """A creature held at its feet, its head moved."""
+def posing_creature(tets: int, material: Material | None = None) -> PosingProblem:
+    """A creature held at its feet, its head moved; of the paper's material unless told."""
     mesh = generators.creature(tets)
     parts = generators.creature_handles(mesh)
     handles = Handles([parts["feet"], parts["head"]])
-    return PosingProblem(mesh, handles, domain=HandleBox(translation=0.3, angle=np.pi / 4))
+    domain = HandleBox(translation=0.3, angle=np.pi / 4)
+    return PosingProblem(mesh, handles, domain=domain, material=material or StVK())

@@ -75,7 +75,8 @@ class ScriptedBackend:
                 starts,
                 tolerance=options.tolerance,
                 max_iterations=options.max_iterations,
-                clamp=options.clamp,
+                projection=core.Projection[options.projection],
+                threshold=options.clamp,
                 threads=1,
                 control=control,
             )

@@ -19,7 +19,7 @@ def rest_system(problem: InterpolationProblem = PROBLEM) -> core.InterpolationSy
     """With the factor for pose 0."""
     shapes = problem._near_poses.reshape(problem.poses.shapes.shape)
     material = problem.material
-    return core.InterpolationSystem(shapes, problem.poses.tets, material.lam, material.mu)
+    return core.InterpolationSystem(shapes, problem.poses.tets, material.core)
 
 
 def solve(

@@ -12,8 +12,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from snapspace import InterpolationProblem
-from snapspace.problem import Problem
+from snapspace.problem import Problem, solver_traits
 from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.held_problems import HeldProblems
 from snapspace.snapshots.solver_options import Solver
@@ -60,7 +59,7 @@ def test_an_interpolation_takes_its_mean_shape_along(
     processes: ProcessPoolExecutor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Slow samples also get a factor of their own there."""
-    monkeypatch.setattr(InterpolationProblem, "patience", WORKERS_PATIENCE)
+    monkeypatch.setattr(solver_traits, "PATIENCE", WORKERS_PATIENCE)
     work = Work.of(interpolation_problem(), 6)
     backend = backend_of(processes, work.problem)
     work.submit(backend, 3)
@@ -197,4 +196,4 @@ def test_a_worker_finds_only_the_modes_that_are_asked_for(soft_modes: bool) -> N
         "key", pickle.dumps(posing_bar()), replace(OPTIONS, soft_modes=soft_modes)
     )
     assert problem is not None
-    assert ("soft_modes" in vars(problem)) == soft_modes
+    assert ("_soft_modes" in vars(problem)) == soft_modes

@@ -12,7 +12,6 @@ import pytest
 
 from snapspace import (
     Checkpoint,
-    InterpolationProblem,
     Interrupted,
     PosingProblem,
     Snapshots,
@@ -22,6 +21,7 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace import _core as core
+from snapspace.problem import solver_traits
 from snapspace.snapshots import SOLVERS, executor_backend, run
 from snapspace.snapshots.solver_options import Solver
 
@@ -62,7 +62,7 @@ def test_an_executor_gives_the_bits_of_this_machine(
 def test_samples_between_poses_also_when_patience_ends(
     executor: Executor, monkeypatch: pytest.MonkeyPatch, solver: Solver
 ) -> None:
-    monkeypatch.setattr(InterpolationProblem, "patience", WORKERS_PATIENCE)
+    monkeypatch.setattr(solver_traits, "PATIENCE", WORKERS_PATIENCE)
     problem, options = interpolation_problem(), SolverOptions(solver=solver, block=3)
     samples = sample(problem.domain, 10, seed=1)
     here = solve_snapshots(problem, samples, options=options, threads=2)

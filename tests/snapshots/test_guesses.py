@@ -11,11 +11,11 @@ import pytest
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
-from snapspace import HandleBox, Handles, PosingProblem, SolverOptions, solve_snapshots
+from snapspace import HandleBox, Handles, PosingProblem, SolverOptions, StVK, solve_snapshots
 from snapspace import _core as core
+from snapspace.displacements import DisplacementRows
 from snapspace.generators import bar, creature
 from snapspace.mesh import mass_norms
-from snapspace.snapshots.displacement_rows import DisplacementRows
 from snapspace.snapshots.guesses import GUESSED, Guesses
 
 from ..shapes import interpolation_problem
@@ -109,7 +109,11 @@ def test_a_guess_does_not_depend_on_its_company() -> None:
     for k in (0, 8, 20):
         np.testing.assert_array_equal(problem.guesses(samples[k : k + 1])[0], together[k])
     again = PosingProblem(
-        problem.mesh, problem.handles, domain=problem.domain, stiffness=problem.stiffness
+        problem.mesh,
+        problem.handles,
+        domain=problem.domain,
+        stiffness=problem.stiffness,
+        material=problem.material,
     )
     np.testing.assert_array_equal(again.guesses(samples), together)
 
@@ -120,7 +124,7 @@ def test_several_handles_and_one_that_is_never_sampled() -> None:
     handles = Handles([x < 0.4, abs(x - 2.0) < 0.2, x > 3.6], names=["foot", "waist", "tip"])
     bounds = np.array([[0.0] * 3, [0.4] * 3])
     domain = HandleBox(translation=bounds, angle=bounds, moving=2)
-    problem = PosingProblem(mesh, handles, domain=domain)
+    problem = PosingProblem(mesh, handles, domain=domain, material=StVK())
     samples = parameters(problem, 6)
     guesses = problem.guesses(samples)
     assert np.median(errors(problem, guesses, solutions(problem, samples))) < 0.1
@@ -133,10 +137,11 @@ def test_a_cycle_gives_nearly_the_same_guesses() -> None:
     mesh = creature(110_000)
     x = mesh.vertices[:, 0]
     handles = Handles([x < np.quantile(x, 0.1), x > np.quantile(x, 0.9)])
-    problem = PosingProblem(mesh, handles, domain=HandleBox(translation=0.1, angle=0.5))
+    domain = HandleBox(translation=0.1, angle=0.5)
+    problem = PosingProblem(mesh, handles, domain=domain, material=StVK())
     samples = parameters(problem, 4)
     inputs = problem.inputs(samples)
-    elastic = mesh.vertices, mesh.tets, problem.material.lam, problem.material.mu
+    elastic = mesh.vertices, mesh.tets, problem.material.core
     assert problem.system.inverse == core.InverseKind.cycle
     factor = core.PosingSystem(
         *elastic, problem.pinned, problem.pin_weights, inverse=core.InverseKind.factor

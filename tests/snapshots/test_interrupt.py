@@ -200,7 +200,7 @@ def test_a_sample_that_is_finished_while_ctrl_c_comes_is_not_lost(
         controls.append(core.SolveControl())
         return controls[-1]
 
-    stand_in = SimpleNamespace(SolveControl=control, SampleQueue=core.SampleQueue)
+    stand_in = SimpleNamespace(**{**vars(core.core), "SolveControl": control})
     monkeypatch.setattr(local_backend, "core", stand_in)
     monkeypatch.setattr(run, "POLL_SECONDS", PATIENCE)
     problem, checkpoint = posing_bar(16, 5, 5, bound=0.7), Checkpoint(tmp_path / "run")
@@ -232,7 +232,7 @@ def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> No
     starts = np.zeros((1, problem.mesh.vertices.size))
     options: dict[str, Any] = {"tolerance": 1e-10, "max_iterations": 1000, "threads": 1}
     if solver == "newton":
-        options["clamp"] = 0.6
+        options |= {"projection": core.Projection.stretches, "threshold": 0.6}
     solve = getattr(problem.system, f"solve_{solver}")
     begin = time.monotonic()
     end = solve(inputs, starts, control=core.SolveControl(), **options)

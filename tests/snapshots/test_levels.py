@@ -22,7 +22,10 @@ from snapspace.generators import bar
 mesh = bar(8, 2, 2)
 x = mesh.vertices[:, 0]
 problem = ss.PosingProblem(
-    mesh, ss.Handles([x < 0.6, x > 3.4]), domain=ss.HandleBox(translation=0.25, angle=0.25)
+    mesh,
+    ss.Handles([x < 0.6, x > 3.4]),
+    domain=ss.HandleBox(translation=0.25, angle=0.25),
+    material=ss.StVK(),
 )
 samples = ss.sample(problem.domain, 6, seed=3)
 result = {"level": _core.level}

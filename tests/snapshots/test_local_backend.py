@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from snapspace import InterpolationProblem, PosingProblem
-from snapspace.problem import Problem
+from snapspace.problem import Problem, solver_traits
 from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.local_backend import LocalBackend
 from snapspace.snapshots.solver_options import ResolvedOptions, Solver
@@ -201,7 +201,7 @@ def test_slow_samples_go_on_alone_and_come_back_once(
     monkeypatch: pytest.MonkeyPatch, threads: int
 ) -> None:
     """While the others are still solved; the bits are those of one call."""
-    monkeypatch.setattr(InterpolationProblem, "patience", 17)
+    monkeypatch.setattr(solver_traits, "PATIENCE", 17)
     work = Work.of(interpolation_problem(), 9)
     with backend_for(work.problem, OPTIONS, expected=9, threads=threads) as backend:
         for some in ([0, 1, 2, 3], [4, 5], [6, 7, 8]):
@@ -215,18 +215,18 @@ def test_slow_samples_go_on_alone_and_come_back_once(
 
 def test_cancel_in_a_second_try_gives_nothing_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """A sample that has lost patience is not finished."""
-    monkeypatch.setattr(InterpolationProblem, "patience", 3)
+    monkeypatch.setattr(solver_traits, "PATIENCE", 3)
     work = Work.of(interpolation_problem(), 4)
     begun, go_on = threading.Event(), threading.Event()
-    near = InterpolationProblem.system_near
-    _ = work.problem.system  # which is made by system_near as well
+    near = InterpolationProblem._system_near
+    _ = work.problem.system  # which is made by the same method
 
     def slow(problem: InterpolationProblem, displacement: Any) -> Any:
         begun.set()
         assert go_on.wait(PATIENCE)
         return near(problem, displacement)
 
-    monkeypatch.setattr(InterpolationProblem, "system_near", slow)
+    monkeypatch.setattr(InterpolationProblem, "_system_near", slow)
     with backend_for(work.problem, OPTIONS, expected=4) as backend:
         submit(backend, work, [0, 1, 2, 3])
         end = time.monotonic() + PATIENCE

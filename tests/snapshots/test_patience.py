@@ -19,6 +19,7 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace import _core as core
+from snapspace.problem import solver_traits
 from snapspace.snapshots.fast_solve import solve_fast
 
 from ..shapes import interpolation_problem
@@ -38,7 +39,7 @@ def problem() -> InterpolationProblem:
 
 @pytest.fixture
 def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(InterpolationProblem, "patience", PATIENCE)
+    monkeypatch.setattr(solver_traits, "PATIENCE", PATIENCE)
 
 
 def weights(problem: InterpolationProblem, count: int = 9) -> FloatArray:
@@ -56,7 +57,7 @@ def solved(
 
 def solved_patiently(problem: InterpolationProblem, samples: FloatArray) -> Solution:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(InterpolationProblem, "patience", 0)
+        patch.setattr(solver_traits, "PATIENCE", 0)
         return solved(problem, samples)
 
 
@@ -87,8 +88,8 @@ class Spy:
 @pytest.fixture
 def spy(problem: InterpolationProblem, monkeypatch: pytest.MonkeyPatch) -> Spy:
     watch = Spy(problem)
-    _ = problem.system  # which is made by system_near as well
-    monkeypatch.setattr(InterpolationProblem, "system_near", lambda _, shape: watch(shape))
+    _ = problem.system  # which is made by the same method
+    monkeypatch.setattr(InterpolationProblem, "_system_near", lambda _, shape: watch(shape))
     return watch
 
 
@@ -172,7 +173,7 @@ def cancelled_after_the_first_try(samples: FloatArray) -> tuple[Solution, Spy]:
         control.cancel()
         return batch
 
-    problem.__dict__.update(system=SimpleNamespace(solve_fast=solve), system_near=spy)
+    problem.__dict__.update(system=SimpleNamespace(solve_fast=solve), _system_near=spy)
     starts = np.repeat((problem.tau - problem.base)[None], len(samples), axis=0)
     starts[0] = problem.pose_shapes[1] - problem.base
     options = replace(OPTIONS, tolerance=1e-9)
@@ -201,7 +202,7 @@ def test_ctrl_c_during_a_second_try_makes_no_third(
             control.cancel()
         return spy(displacement)
 
-    monkeypatch.setattr(InterpolationProblem, "system_near", near)
+    monkeypatch.setattr(InterpolationProblem, "_system_near", near)
     starts = np.repeat((problem.tau - problem.base)[None], 5, axis=0)
     options = replace(OPTIONS, tolerance=1e-9)
     _, reports = solve_fast(problem, weights(problem, 5), starts, control, options, threads=1)

@@ -14,6 +14,7 @@ from snapspace import (
     PosingProblem,
     Snapshots,
     SolverOptions,
+    StVK,
     TetMesh,
     solve_snapshots,
 )
@@ -102,7 +103,7 @@ def bar_with_a_flat_tet(height: float) -> PosingProblem:
     x, flat = vertices[:, 0], TetMesh(vertices, mesh.tets)
     assert flat.volumes.min() < 3.0 * height * np.median(flat.volumes)
     domain = HandleBox(translation=0.7, angle=0.7)
-    return PosingProblem(flat, Handles([x < 0.6, x > 3.4]), domain=domain)
+    return PosingProblem(flat, Handles([x < 0.6, x > 3.4]), domain=domain, material=StVK())
 
 
 @pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-5])
@@ -150,6 +151,7 @@ def test_units_do_not_matter_or_are_told_of(scale: float) -> None:
         TetMesh(scale * here.mesh.vertices, here.mesh.tets),
         here.handles,
         domain=here.domain,
+        material=here.material,
         stiffness=here.stiffness / scale**2,
     )
     samples = parameters(here, 8)

@@ -89,7 +89,7 @@ def test_both_tests_may_be_given(small: PosingProblem) -> None:
 def test_newton_knows_only_the_tolerance(small: PosingProblem) -> None:
     resolved = SolverOptions(solver="newton").resolved(small)
     assert resolved.settling == 0.0
-    assert resolved.tolerance == small.snapshot_tolerance > SETTLED_TOLERANCE
+    assert resolved.tolerance == small.solving.tolerance > SETTLED_TOLERANCE
 
 
 @pytest.mark.parametrize("bad", [-0.1, np.nan, np.inf])

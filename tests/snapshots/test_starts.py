@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from scipy.spatial.distance import pdist
 
 from snapspace import SolverOptions, sample, solve_snapshots
-from snapspace.snapshots import SOLVERS, DisplacementRows
+from snapspace.displacements import DisplacementRows
+from snapspace.snapshots import SOLVERS
 from snapspace.snapshots.solver_options import Solver
 from snapspace.snapshots.starts import interpolated_start, nearest_start
 

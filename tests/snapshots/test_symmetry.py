@@ -107,6 +107,7 @@ def test_a_larger_copy_is_solved_by_the_larger_shape(solver: Solver) -> None:
         TetMesh(3.0 * small.mesh.vertices, small.mesh.tets),
         small.handles,
         domain=small.domain,
+        material=small.material,
         stiffness=500.0 / 9.0,
     )
     w = parameters(small, 1)

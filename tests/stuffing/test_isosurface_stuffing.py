@@ -9,9 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from snapspace.generators import stuff
+from snapspace.stuffing import stuff
 
-from .conforming import assert_solid
+from ..generators.conforming import assert_solid
 
 Floats = NDArray[np.float64]
 BOX = ((-1.5, -1.5, -1.5), (1.5, 1.5, 1.5))

@@ -3,13 +3,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace.generators.bcc_lattice import lattice_around
-from snapspace.generators.cut_points import TET_EDGES, CutPoints
-from snapspace.generators.isosurface_stuffing import clip_tets
-from snapspace.generators.lattice_warp import ALPHA_LONG, ALPHA_SHORT, warp_nodes
-from snapspace.generators.stuffing_stencils import stencil_table
 from snapspace.mesh.quality import dihedral_angles, tet_volumes
 from snapspace.mesh.surface import boundary_faces
+from snapspace.stuffing.bcc_lattice import lattice_around
+from snapspace.stuffing.cut_points import TET_EDGES, CutPoints
+from snapspace.stuffing.isosurface_stuffing import clip_tets
+from snapspace.stuffing.lattice_warp import ALPHA_LONG, ALPHA_SHORT, warp_nodes
+from snapspace.stuffing.stuffing_stencils import stencil_table
 
 SHAPE = np.array([[-1.0, 0.0, -0.5], [1.0, 0.0, -0.5], [0.0, 1.0, 0.5], [0.0, -1.0, 0.5]])
 

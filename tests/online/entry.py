@@ -1,0 +1,82 @@
+"""A session behind the C functions."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import snapspace as ss
+from snapspace import InterpolationModel, PosingModel, ReducedModel
+
+from .library import Basis, Cubature, Material, Options, Report, address
+
+FloatArray = NDArray[np.float64]
+
+
+def material(given: ss.Material) -> Material:
+    return Material(given.kind.encode(), len(given.moduli), address(given.moduli))
+
+
+def cubature(elastic: ss.Cubature) -> Cubature:
+    arrays = address(elastic.rows), address(elastic.weights)
+    return Cubature(len(elastic.tets), *arrays, material(elastic.material))
+
+
+class Entry:
+    """A session behind the C functions."""
+
+    def __init__(self, library: ctypes.CDLL, model: ReducedModel) -> None:
+        self.library, self.model = library, model
+        self.modes = np.ascontiguousarray(model.subspace.basis.T)
+        self.basis = Basis(
+            self.modes.shape[1] // 3, address(model.subspace.tau), address(self.modes)
+        )
+        error, d = ctypes.c_int(7), model.dimension
+        if isinstance(model, PosingModel):
+            elastic = model.elastic
+            if isinstance(elastic, ss.Cubature):
+                create = library.snapspace_create_posing_cubature
+                first = self._to(cubature(elastic))
+            else:
+                create, first = library.snapspace_create_posing, address(elastic.coefficients)
+            handles = [address(array) for array in vars(model.handles).values()]
+            made = create(
+                d, len(model.problem.handles), first, *handles, self._basis(), self._to(error)
+            )
+        else:
+            assert isinstance(model, InterpolationModel)
+            count = len(model.problem.poses)
+            made = library.snapspace_create_blending(
+                d, count, address(model.coefficients), self._basis(), self._to(error)
+            )
+        assert error.value == 0
+        self.session = ctypes.c_void_p(made)
+
+    def _basis(self) -> Any:
+        return ctypes.byref(self.basis)
+
+    @staticmethod
+    def _to(value: Any) -> Any:
+        return ctypes.byref(value)
+
+    def call(self, name: str, *arguments: Any) -> int:
+        code: int = getattr(self.library, f"snapspace_{name}")(self.session, *arguments)
+        return code
+
+    def solve(self, method: int = 0, **changes: Any) -> Report:
+        options = Options(
+            method, 1e-10, self.model.value_scale, self.model.coordinate_scale, 300, 500
+        )
+        for key, value in changes.items():
+            setattr(options, key, value)
+        report = Report()
+        assert self.call("solve", self._to(options), self._to(report)) == 0
+        return report
+
+    def read(self, name: str, size: int) -> FloatArray:
+        array = np.full(size, np.nan)
+        assert self.call(name, address(array)) == 0
+        return array

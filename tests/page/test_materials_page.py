@@ -1,0 +1,173 @@
+"""Materials and parts, from the panel to the saved problem, in a browser with the real server."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import load, read_problem
+from snapspace.generators import bar
+from snapspace.material import MATERIALS
+from snapspace.mesh import write_tets
+
+from .choosing_page import (
+    ends_as_handles,
+    handles,
+    places,
+    press,
+    set_number,
+    stroke,
+    tool,
+    wait_for_text,
+)
+from .pages import OpenPage, Page
+from .serving import served
+
+BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("materials")
+    write_tets(folder / "bar.mesh", BAR)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path, chromium: object) -> Iterator[str]:
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        yield address
+
+
+@pytest.fixture
+def page(address: str, opened: OpenPage) -> Page:
+    page: Page = opened(address)
+    page.wait("snapspace.kind === 'choosing'")
+    ends_as_handles(page)
+    return page
+
+
+def parts(page: Page) -> dict[str, dict[str, Any]]:
+    return {part["name"]: part for part in page.run("snapspace.parts")}
+
+
+def make_part(page: Page, kind: str, low: float, high: float) -> set[int]:
+    """The vertices between two shares of the bar's length become a part."""
+    x, y = places(page).T
+    left, length = x.min(), np.ptp(x)
+    tool(page, "Box")
+    a, b = left + low * length, left + high * length
+    stroke(page, (a, y.min() - 5), (b, y.max() + 5))
+    chosen = set(page.run("snapspace.selected"))
+    press(page, f"{kind} part")
+    page.page.keyboard.press("Escape")  # its name could be typed
+    return chosen
+
+
+def test_the_materials_of_the_server_are_offered(page: Page) -> None:
+    select = page.page.get_by_label("Material")
+    found = select.locator("option").evaluate_all("(all) => all.map(({ value }) => value)")
+    assert found == list(MATERIALS)
+    assert select.input_value() == "stable-neo-hookean"
+    ratio = page.page.get_by_label("Poisson's ratio")
+    assert ratio.input_value() == "0.25"
+    select.select_option("arap")
+    assert not ratio.is_visible(), "it has no volume term"
+    select.select_option("corotational")
+    assert ratio.is_visible()
+    ratio.fill("0.5")
+    press(page, "Compute")
+    assert not ratio.evaluate("(input) => input.validity.valid")
+    assert page.run("snapspace.kind") == "choosing"
+
+
+def test_parts_are_made_renamed_changed_and_taken_back(page: Page) -> None:
+    chosen, before = make_part(page, "Stiff", 0.3, 0.6), handles(page)
+    assert chosen and list(parts(page)) == ["stiff 1"]
+    assert set(parts(page)["stiff 1"]["vertices"]) == chosen
+    name = page.page.get_by_label("Name of the part")
+    name.fill("bone")
+    name.press("Enter")
+    page.page.get_by_label("Stiffness of bone").fill("25")
+    page.page.get_by_label("Stiffness of bone").press("Enter")
+    assert parts(page)["bone"]["factor"] == 25
+    make_part(page, "Soft", 0.5, 0.7)
+    assert parts(page)["soft 1"]["factor"] == 0.1
+    other = page.page.get_by_label("Name of the part").last
+    other.fill("bone")
+    other.press("Enter")
+    assert "There is a part bone already." in page.text("#panel")
+    press(page, "Undo")
+    press(page, "Undo")  # the soft part, and its selection
+    assert list(parts(page)) == ["bone"]
+    press(page, "Delete bone")
+    assert parts(page) == {}
+    page.page.keyboard.press("Control+z")
+    assert list(parts(page)) == ["bone"] and handles(page) == before
+
+
+def test_a_part_has_a_colour_of_its_own_below_handles(page: Page) -> None:
+    make_part(page, "Stiff", 0.1, 0.6)
+    page.settle()
+    own = page.page.locator(".parts .swatch").evaluate(
+        "(swatch) => getComputedStyle(swatch).backgroundColor"
+    )
+    assert own == "rgb(124, 138, 60)"
+    script = (
+        "(vertices) => vertices.map((v) => [0, 1, 2].map((i) => "
+        "snapspace.choosing.surface.colorOf(v)[i]))"
+    )
+    inside = set(parts(page)["stiff 1"]["vertices"])
+    foot = handles(page)["foot"]
+    free = sorted(inside - foot)[0]
+    rest = sorted(set(range(len(BAR.vertices))) - inside - foot - handles(page)["head"])[0]
+    both = sorted(inside & foot)[0]
+    shown = page.run(script, [free, rest, both, sorted(foot - inside)[0]])
+    assert shown[0] != shown[1] and shown[2] == shown[3] != shown[0]
+
+
+@pytest.mark.parametrize("kind", ["corotational", "arap"])
+def test_they_are_computed_with_and_saved(page: Page, folder: Path, kind: str) -> None:
+    page.page.get_by_label("Material").select_option(kind)
+    if kind == "corotational":
+        page.page.get_by_label("Poisson's ratio").fill("0.4")
+    make_part(page, "Stiff", 0.3, 0.6)
+    make_part(page, "Soft", 0.5, 0.7)
+    set_number(page, "Samples", 40)
+    set_number(page, "Dimensions", 12)
+    press(page, "Compute")
+    page.wait("snapspace.kind === 'posing'")
+    wait_for_text(page, "#panel", "Done in")
+    assert page.run("snapspace.session.model.material") == kind
+    page.drag(page.run("snapspace.handle(1)"), 40, -30)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    press(page, "Save")
+    wait_for_text(page, "#panel", f"in {folder}")
+    name = page.text("#panel .saved").split()[1].rstrip(",")
+    material = read_problem(folder / name).material
+    assert material.kind == kind
+    assert sorted(set(np.round(material.mu, 9))) == [0.1, 1.0, 10.0]
+    if kind == "corotational":
+        ratio = material.lam / (2 * (material.lam + material.mu))
+        np.testing.assert_allclose(ratio, 0.4)
+    model = load((folder / name).with_suffix(".snapspace"))
+    assert model.problem.material == material
+
+
+def test_a_part_without_tets_is_refused_by_name(page: Page) -> None:
+    page.run("snapspace.choosing.take(Int32Array.of(40), false)")
+    page.run("snapspace.choosing.commit()")
+    press(page, "Soft part")
+    press(page, "Compute")
+    page.wait("document.querySelector('.fault').innerText !== ''")
+    assert "part 'soft 1' has no tet" in page.text(".fault")
+    field = page.page.get_by_label("Stiffness of soft 1")
+    for bad in ("0", "-1", ""):
+        field.fill(bad)
+        press(page, "Compute")
+        assert not field.evaluate("(input) => input.validity.valid")
+    assert parts(page)["soft 1"]["factor"] == 0.1
