@@ -48,9 +48,8 @@ def built(args: argparse.Namespace) -> tuple[Model, ss.Snapshots]:
     snapshots = ss.solve_snapshots(problem, samples, progress=common.progress)
     subspace = ss.snapshot_pca(snapshots, dimension=args.dimension)
     model = ss.reduce(problem, subspace, snapshots=snapshots)
-    tight = ss.SolverOptions(
-        tolerance=min(1e-9, 0.01 * problem.snapshot_tolerance), max_iterations=5000
-    )
+    tolerance = min(1e-9, 0.01 * problem.solving.tolerance)
+    tight = ss.SolverOptions(tolerance=tolerance, max_iterations=5000)
     unseen = unseen_parameters(problem.domain, args.unseen, seed=1)
     reference = ss.solve_snapshots(problem, unseen, options=tight, progress=common.progress)
     return model, reference.select(reference.converged)

@@ -16,6 +16,7 @@ from rich.table import Table
 
 import snapspace as ss
 from snapspace import generators
+from snapspace.material import material_class
 from snapspace.mesh import mass_norms
 from snapspace.validation import unseen_parameters
 
@@ -37,12 +38,23 @@ def read_problem(name: str) -> ss.PosingProblem:
 
 
 def creature_problem(tets: int) -> ss.PosingProblem:
-    """The generated creature, feet fixed, head moving."""
+    """The generated creature, feet fixed, head moving; St.Venant-Kirchhoff, as the shared ones."""
     mesh = generators.creature(tets)
     parts = generators.creature_handles(mesh)
     handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
     domain = ss.HandleBox(translation=0.3, angle=np.pi / 4)
-    return ss.PosingProblem(mesh, handles, domain=domain)
+    return ss.PosingProblem(mesh, handles, domain=domain, material=ss.StVK())
+
+
+def with_material(problem: ss.PosingProblem, kind: str) -> ss.PosingProblem:
+    """The problem with another material, all moduli 1."""
+    return ss.PosingProblem(
+        problem.mesh,
+        problem.handles,
+        domain=problem.domain,
+        material=material_class(kind)(),
+        stiffness=problem.stiffness,
+    )
 
 
 def progress(state: ss.SolveProgress) -> None:

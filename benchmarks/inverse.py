@@ -24,13 +24,11 @@ Rows = list[tuple[str, Any, str]]
 def with_inverse(name: str, kind: core.InverseKind) -> ss.PosingProblem:
     """The problem with a system whose inverse is of this kind."""
     problem = common.read_problem(name)
-    material = problem.material
     # the problem keeps its system under this name once it is made
     problem.__dict__["system"] = core.PosingSystem(
         problem.mesh.vertices,
         problem.mesh.tets,
-        material.lam,
-        material.mu,
+        problem.material.core,
         problem.pinned,
         problem.pin_weights,
         inverse=kind,

@@ -15,8 +15,8 @@ import numpy as np
 
 import snapspace as ss
 from snapspace import _core as core
+from snapspace.displacements import DisplacementRows
 from snapspace.mesh import mass_norms
-from snapspace.snapshots.displacement_rows import DisplacementRows
 from snapspace.snapshots.guesses import Guesses
 from snapspace.snapshots.starts import interpolated_start
 
@@ -54,8 +54,8 @@ def measured(
     error = mass_norms(mass, (start - exact).T) / size
     result = {"error": float(np.median(error))}
     for name, how in (
-        ("loose", {"tolerance": 1e3 * problem.snapshot_tolerance}),
-        ("settled", {"tolerance": problem.snapshot_tolerance, "settling": 0.01}),
+        ("loose", {"tolerance": 1e3 * problem.solving.tolerance}),
+        ("settled", {"tolerance": problem.solving.tolerance, "settling": 0.01}),
     ):
         batch = problem.system.solve_fast(
             problem.inputs(samples),
@@ -64,7 +64,7 @@ def measured(
             threads=0,
             control=core.SolveControl(),
             single=True,
-            modes=problem.soft_modes,
+            modes=problem.solving.soft_modes(),
             **how,
         )
         result[name] = float(np.mean([report.evaluations for report in batch.reports]))

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pictures_creature import creature_picture
 from pictures_helix import helix_picture
+from pictures_materials import materials_picture
 from pictures_poses import poses_picture
 
 from snapspace.pictures import save_png
@@ -22,6 +23,7 @@ FOLDER = Path(__file__).parent / "pictures"
 PICTURES: dict[str, Callable[[], NDArray[np.uint8]]] = {
     "creature": creature_picture,
     "helix": helix_picture,
+    "materials": materials_picture,
     "poses": poses_picture,
 }
 
