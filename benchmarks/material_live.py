@@ -14,8 +14,8 @@ import problems
 import snapspace as ss
 
 FRAMES = 300
-#: Samples of a problem with one moving handle, and with several.
-SAMPLES = 800, 1600
+#: Samples and d of problems with one moving handle, and with several.
+SAMPLES, DIMENSIONS = (800, 1600), (120, 180)
 
 
 def live(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
@@ -26,13 +26,14 @@ def live(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """
     for kind in args.material:
         body = common.with_material(problems.read(name), kind)
-        count = args.samples or SAMPLES[body.parameter_count > 6]
+        several = body.parameter_count > 6
+        count = args.samples or SAMPLES[several]
         samples = ss.sample(body.domain, count, method="sobol", seed=args.seed)
         begin = time.perf_counter()
         snapshots = common.solved(body, samples, tolerance=args.tolerance, max_iterations=3000)
         solved = time.perf_counter()
         used = snapshots.select(snapshots.converged)
-        subspace = ss.snapshot_pca(used, dimension=min(args.dimension, len(used)))
+        subspace = ss.snapshot_pca(used, dimension=args.dimension or DIMENSIONS[several])
         tets = min(args.tets, len(body.mesh.tets))
         model = ss.reduce(body, subspace, snapshots=used, energy="cubature", tets=tets)
         reduced = time.perf_counter()

@@ -195,7 +195,7 @@ def _options(
             "--tolerance",
             type=float,
             help="Converged: the decrease still expected is below this share of the energy "
-            "[default: 1e-9 for interpolation, 1e-6 for a cubature, less for Poisson ratios above "
+            "[default: 1e-9 for interpolation, 1e-7 for a cubature, less for Poisson ratios above "
             "0.25, but 1e-5 with St.Venant-Kirchhoff, and else --settling decides].",
         ),
         click.option(

@@ -71,7 +71,7 @@ def test_without_a_material_it_is_stable_neo_hookean_and_the_energy_a_cubature(
     assert model.problem.material == StableNeoHookean()
     assert isinstance(model.elastic, Cubature)
     solver = model.provenance["solver"]
-    assert (solver["tolerance"], solver["settling"]) == (1e-6, 0.0)
+    assert (solver["tolerance"], solver["settling"]) == (1e-7, 0.0)
     assert f"cubature of {len(model.elastic.tets)} tets" in result.err
     shown = run("info", path)
     assert "stable neo-Hookean, lam 1, mu 1" in " ".join((shown.out + shown.err).split())

@@ -80,7 +80,7 @@ def test_samples_settle_where_only_shapes_count_and_are_tight_where_forces_do(ki
         assert options.settling == 1e-2
     else:
         assert options.settling == 0
-        assert options.tolerance == 1e-6
+        assert options.tolerance == 1e-7
 
 
 def test_nearly_incompressible_materials_are_solved_more_tightly() -> None:
@@ -94,7 +94,7 @@ def test_nearly_incompressible_materials_are_solved_more_tightly() -> None:
             StableNeoHookean(lam=7.0, mu=np.append(np.full(TETS - 1, 10.0), 1.0)),
         )
     ]
-    assert tolerances == pytest.approx([1e-6, 1e-6, 1e-6 / 3.0, 1e-6 / 3.0])
+    assert tolerances == pytest.approx([1e-7, 1e-7, 1e-7 / 3.0, 1e-7 / 3.0])
 
 
 def test_newtons_method_projects_as_the_paper_does_for_its_material() -> None:
