@@ -3,6 +3,7 @@
 
 #include "material/arap.h"
 #include "material/corotational.h"
+#include "material/mooney_rivlin.h"
 #include "material/stable_neo_hookean.h"
 #include "material/stvk.h"
 #include "material/symmetric_dirichlet.h"
@@ -38,7 +39,8 @@ struct DensityList {
   }
 };
 
-using Densities = DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet>;
+using Densities =
+    DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin>;
 
 /// The most moduli that a density may have.
 inline constexpr int kMostModuli = 4;

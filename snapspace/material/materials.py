@@ -5,6 +5,7 @@ from __future__ import annotations
 from .arap import ARAP
 from .corotational import Corotational
 from .material import Material
+from .mooney_rivlin import MooneyRivlin
 from .stable_neo_hookean import StableNeoHookean
 from .stvk import StVK
 from .symmetric_dirichlet import SymmetricDirichlet
@@ -12,7 +13,7 @@ from .symmetric_dirichlet import SymmetricDirichlet
 #: By `Material.kind`; each is a density of core/material/materials.h.
 MATERIALS: dict[str, type[Material]] = {
     material.kind: material
-    for material in (StableNeoHookean, Corotational, ARAP, StVK, SymmetricDirichlet)
+    for material in (StableNeoHookean, Corotational, ARAP, StVK, SymmetricDirichlet, MooneyRivlin)
 }
 
 #: What a body is made of where the user names no material.
