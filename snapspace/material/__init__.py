@@ -4,6 +4,7 @@ from .arap import ARAP
 from .corotational import Corotational
 from .material import Material
 from .materials import DEFAULT_MATERIAL, MATERIALS, material_class
+from .mooney_rivlin import MooneyRivlin
 from .stable_neo_hookean import StableNeoHookean
 from .stvk import StVK
 from .symmetric_dirichlet import SymmetricDirichlet
@@ -14,6 +15,7 @@ __all__ = [
     "MATERIALS",
     "Corotational",
     "Material",
+    "MooneyRivlin",
     "StVK",
     "StableNeoHookean",
     "SymmetricDirichlet",
