@@ -84,7 +84,6 @@ ALLOWED: dict[str, set[str]] = {
     },
     "session": {
         "_core",
-        "blas",
         "certificate",
         "interruptible",
         "mesh",
