@@ -19,7 +19,7 @@ from snapspace.validation import unseen_parameters
 TOLERANCE, MOST_ITERATIONS = 1e-10, 5000
 #: Samples among which a pose has its nearest neighbour.
 NEIGHBOURS = 48
-#: Of the noise, its standard deviation in every coordinate, in mean edge lengths.
+#: The standard deviation of the noise in every coordinate, in mean edge lengths.
 NOISE = 0.3
 
 

@@ -17,7 +17,7 @@ def energies(snapshots: ss.Snapshots) -> np.ndarray:
 
 @pytest.fixture(scope="module", params=[ss.StVK, ss.StableNeoHookean], ids=lambda m: m.kind)
 def problem(request: pytest.FixtureRequest) -> ss.PosingProblem:
-    """Of a material whose energy is exact, and of one that has a cubature."""
+    """For a material whose energy is exact, and for one that has a cubature."""
     return posing_bar(8, 2, 2, material=request.param())
 
 

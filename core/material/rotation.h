@@ -8,11 +8,10 @@ namespace snapspace {
 /// singular value has the sign of det F: inverted elements have one rotation too, the one that
 /// turns least.
 ///
-/// Without a decomposition: f = tr(R^T F) = s_1 + s_2 + s_3 is the largest root of f^4 - 2 |F|^2
-/// f^2
-/// - 8 J f + 2 |C|^2 - |F|^4, C = F^T F, whose roots are all real. Laguerre's method comes down to
-/// it, cubically, in a fixed number of steps, so that lanes do the same. R is then a polynomial of
-/// F over 2 (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton].
+/// No decomposition is needed: f = tr(R^T F) = s_1 + s_2 + s_3 is the largest root of
+/// f^4 - 2 |F|^2 f^2 - 8 J f + 2 |C|^2 - |F|^4, C = F^T F, whose roots are all real. Laguerre's
+/// method comes down to it, cubically, in a fixed number of steps, so that lanes do the same. R is
+/// then a polynomial of F over 2 (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton].
 ///
 /// Where s_2 + s_3 vanishes R is not unique and the root a double one, found to a few digits only.
 /// There, at mirror images and collapsed needles, R is zero, all is finite, and |F - R|^2 follows
@@ -68,8 +67,9 @@ struct RotationDistance {
   static constexpr T kAbove = kFloat ? T(1.0005) : T(1);
   static constexpr T kLeastSlope = kFloat ? T(1e-2) : T(1e-8);
 
-  /// Of f^4 - 2 norm f^2 - 8 J f + 2 |C|^2 - norm^2. From f^2 = norm + 2 e, e^2 = |cof F|^2 + 2 J
-  /// f: an upper bound of f on the right-hand side gives a better one on the left.
+  /// The polynomial is f^4 - 2 norm f^2 - 8 J f + 2 |C|^2 - norm^2. From f^2 = norm + 2 e,
+  /// e^2 = |cof F|^2 + 2 J f: an upper bound of f on the right-hand side gives a better one on the
+  /// left.
   static Real largest_root(const Real& norm, const Real& square_of_C, const Real& J) {
     const Real norm2 = rounded(norm * norm), zero(T(0));
     const Real last = square_of_C + square_of_C - norm2, eight_J = rounded(Real(T(8)) * J);

@@ -121,7 +121,7 @@ class ResidualProbe(ABC):
 
 
 class PosingProbe(ResidualProbe):
-    """Of a posing problem; the state are the handles' offsets (h, 3, 4)."""
+    """The probe of a posing problem; its state is the handles' offsets (h, 3, 4)."""
 
     def __init__(
         self, problem: PosingProblem, subspace: AffineSubspace, sample: ResidualSample
@@ -133,7 +133,7 @@ class PosingProbe(ResidualProbe):
 
 
 class BlendingProbe(ResidualProbe):
-    """Of an interpolation problem; the state are the weights of the poses."""
+    """The probe of an interpolation problem; its state is the weights of the poses."""
 
     def __init__(
         self, problem: InterpolationProblem, subspace: AffineSubspace, sample: ResidualSample

@@ -31,7 +31,7 @@ class Cubature:
     rows : (r, 9, d) float32
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
     material : Material
-        Of these tets, with the same moduli in all of them or r of each.
+        The density of these tets, with the same moduli in all of them or r of each.
 
     Raises
     ------

@@ -56,14 +56,14 @@ def train_cubature(
     subspace : AffineSubspace
         Attached to the rest shape.
     coordinates : (k, d)
-        Of the states, projected snapshots. One in ten is held out for the errors; those at rest
-        say nothing and do not count.
+        Projected snapshots. One in ten is held out for the errors; those at rest say nothing and
+        do not count.
     handle_hessian : (d, d)
-        Of the handles' reduced energy, which is exact.
+        The Hessian of the handles' reduced energy, which is exact.
     tets : int, optional
         The most that may be chosen. Default: `default_tets`.
     seed : int, default 0
-        Of the random rows.
+        Seeds the random rows.
 
     Returns
     -------

@@ -73,7 +73,7 @@ def posing_traits(
     lower by that, against lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6 leaves live
     errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 they are 0.0135 and 0.0067 (d = 80).
 
-    Of the Dragon, d = 16, 36 loose samples make a model with the same live error as samples of a
+    36 loose samples of the Dragon, d = 16, make a model with the same live error as samples of a
     tenth of the tolerance: 0.067 and 0.064 with stable neo-Hookean.
 
     Guesses may have inverted tets. Where their energy is infinite, samples start from the lowest of

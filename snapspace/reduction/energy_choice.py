@@ -24,7 +24,7 @@ def chosen_energy(
     ----------
     problem : PosingProblem or InterpolationProblem
     dimension : int
-        Of the subspace.
+        The dimension of the subspace.
     energy : "auto", "exact" or "cubature"
         As the user wants it.
 

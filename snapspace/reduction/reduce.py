@@ -84,14 +84,14 @@ def reduce(
         evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with
         the default r, which the exact energy is worth. Interpolation: exact only.
     snapshots : Snapshots, optional
-        Of the problem; recorded in the model by parameters and coordinates. A cubature needs ten at
-        least that are not at rest. Its quality is that of their forces: those of settled snapshots
-        are far from equilibrium, see `SolverOptions`.
+        Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
+        needs ten at least that are not at rest. Its quality is that of their forces: those of
+        settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
         The most that a cubature may choose. Default: 8 d, but at most 1000, or all tets if there
         are fewer.
     seed : int, default 0
-        Of the random combinations of forces that a cubature is trained on.
+        Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
         That pages and files show. Default: that of the tets.
     threads : int, optional

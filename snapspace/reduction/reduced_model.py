@@ -52,7 +52,7 @@ class ReducedModel(ABC):
     def value_scale(self) -> float:
         """Unit of energy for the termination tests, that of a shear of 10 %: 0.01 mu * volume.
 
-        Of moduli that differ from tet to tet: the sum over all of them.
+        For moduli that differ from tet to tet, the sum over all of them.
         """
         mu, mesh = self.problem.material.mu, self.problem.mesh
         if np.ndim(mu) == 0:

@@ -29,9 +29,9 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
     Parameters
     ----------
     given : Material
-        Of the problem file, or the default one.
+        The material of the problem file, or the default one.
     kind : str or None
-        Of another material with the same Lame parameters; None: that of `given`.
+        The kind of another material with the same Lame parameters; None: that of `given`.
     poisson : float or None
         Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: as `given`.
 

@@ -31,7 +31,7 @@ def part_factors(
     parts : sequence of PartChoice
     mesh : TetMesh
     regions : SurfaceRegions or None
-        Of a body with a surface of its own, whose vertices the parts then have.
+        The surface of a body that has one of its own, whose vertices the parts then have.
 
     Returns
     -------

@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 def rest_hessian(problem: PosingProblem) -> FloatArray:
-    """Of the objective: that of the elastic energy, and twice the weights of the handles."""
+    """The objective's: that of the elastic energy, and twice the weights of the handles."""
     held = np.zeros(problem.base.size)
     for axis in range(3):
         held[3 * problem.pinned + axis] = 2.0 * problem.pin_weights

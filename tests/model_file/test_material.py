@@ -69,7 +69,7 @@ def test_a_model_is_loaded_as_what_it_was_saved(kind: str, tmp_path: Path) -> No
 
 @pytest.mark.parametrize("kind", [StVK, StableNeoHookean])
 def test_moduli_of_single_tets_are_an_array(kind: type[StVK], tmp_path: Path) -> None:
-    """Of all tets of the mesh, of which a cubature has its own."""
+    """The moduli of all tets of the mesh are kept; a cubature has those of its own tets."""
     made = posing_model(kind(lam=2.0, mu=STIFF_AND_SOFT))
     path = made.save(tmp_path / "m.snapspace")
     again = load(path)

@@ -26,8 +26,8 @@ from ..snapshots.creatures import posing_creature
 def solid_block(*, flat: float = 1.0) -> PosingProblem:
     """A full body of so many vertices that its factor is dense; thinner for flat < 1.
 
-    Of the paper's material: its samples settle by default, which is what evaluations are bounded
-    for."""
+    The material is the paper's: its samples settle by default, and evaluations are bounded for
+    that."""
     mesh = creature(110_000)
     vertices = mesh.vertices * (1.0, 1.0, flat)
     x = vertices[:, 0]

@@ -169,7 +169,7 @@ def test_content_makes_the_same_material_again(material: Material) -> None:
 
 
 def test_few_different_moduli_are_written_as_regions() -> None:
-    """Of most tets nothing is written."""
+    """Nothing is written of most tets."""
     mu = np.where(FAR, 2.0, 1.0)
     mu[FAR.argmax()] = 1.0  # so that fewer are stiff
     content = material_content(StVK(lam=3.0, mu=mu))

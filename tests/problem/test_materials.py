@@ -108,7 +108,7 @@ def test_newtons_method_projects_as_the_paper_does_for_its_material() -> None:
 
 
 def test_single_precision_is_for_energies_in_its_range() -> None:
-    """Of all tets: those of a soft or stiff part may leave the range of single numbers."""
+    """All tets are checked: those of a soft or stiff part may leave the range of single numbers."""
     usual = np.ones(TETS)
     soft, stiff = usual.copy(), usual.copy()
     soft[3], stiff[3] = 1e-30, 1e30

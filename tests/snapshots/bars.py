@@ -30,7 +30,7 @@ def posing_bar(
 ) -> PosingProblem:
     """A bar of length 4, held at its foot, its tip moved by up to `bound` units and radians.
 
-    Of the paper's material unless the options say otherwise: its reduced energy is exact.
+    The material is the paper's unless the options say otherwise: its reduced energy is exact.
     """
     mesh = bar(nx, ny, nz)
     x = mesh.vertices[:, 0]
