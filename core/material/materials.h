@@ -14,9 +14,8 @@ namespace snapspace {
 ///
 /// A density has a name, names of its moduli, and three functions:
 ///   small_strains(moduli)              its Lame parameters at rest
-///   value_and_stress(moduli, G, P)     psi and the first Piola-Kirchhoff stress at the
-///   displacement
-///                                      gradient G = F - I, for a number or a pack
+///   value_and_stress(moduli, G, P)     psi and the first Piola-Kirchhoff stress at G = F - I,
+///                                      for a number or a pack
 ///   curvature(moduli, s)               PrincipalCurvature at signed singular values
 /// It is isotropic, stress-free at rest and linear in its moduli: moduli times a volume give the
 /// energy of that volume.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
-from ..material import Material
+from ..material import Material, StVK
 
 FloatArray = NDArray[np.float64]
 Projection = Literal["stretches", "clamp", "absolute"]
@@ -20,10 +20,10 @@ Projection = Literal["stretches", "clamp", "absolute"]
 class SolverTraits:
     """How full solutions of a problem are found; users decide otherwise by `SolverOptions`.
 
-    tolerance : of snapshots, where neither the user nor settling decides
+    tolerance : of snapshots, where neither the user nor settling decides; those that train a
+        cubature, whose forces must be near equilibrium, never settle
     loose_tolerance : of samples for a first impression, see `growing_models`
     settling : share of the displacement at which the fast solver's steps may end; 0 for never
-    cubature_tolerance : of snapshots that train a cubature, whose forces must be near equilibrium
     patience : iterations of the fast solver after which `system_near` helps; None if it never does
     projection : of the tets' Hessians in Newton's method, see `SolverOptions`
     far_apart : whether shapes interpolated between solutions may be worse starts than the nearest
@@ -35,7 +35,6 @@ class SolverTraits:
     tolerance: float
     loose_tolerance: float
     settling: float
-    cubature_tolerance: float
     patience: int | None
     projection: Projection
     far_apart: bool
@@ -85,13 +84,11 @@ def posing_traits(
     unlimited patience. Interpolated starts were never worse than the nearest sample on the Dragon.
     """
     settles = material.exact_degree == 4
-    papers: Projection = "stretches" if material.kind == "stvk" else "clamp"
-    tolerance = 1e-5 if settles else 1e-7 * _shear_share(material)
+    papers: Projection = "stretches" if isinstance(material, StVK) else "clamp"
     return SolverTraits(
-        tolerance=tolerance,
+        tolerance=1e-5 if settles else 1e-7 * _shear_share(material),
         loose_tolerance=1e-2,
         settling=1e-2 if settles else 0.0,
-        cubature_tolerance=tolerance,
         patience=None,
         projection=papers,
         far_apart=material.barrier,
@@ -116,7 +113,6 @@ def interpolation_traits(*, system_near: Callable[[FloatArray], Any]) -> SolverT
         tolerance=1e-9,
         loose_tolerance=1e-6,
         settling=0.0,
-        cubature_tolerance=1e-9,
         patience=PATIENCE,
         projection="stretches",
         far_apart=True,

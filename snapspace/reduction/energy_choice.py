@@ -72,7 +72,7 @@ def training_tolerance(
     """
     if chosen_energy(problem, dimension, energy) == "exact":
         return None
-    return problem.solving.cubature_tolerance
+    return problem.solving.tolerance
 
 
 def _quartic_pays(dimension: int) -> bool:

@@ -7,7 +7,7 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from .pages import SECONDS, Page, Point
+from .pages import SECONDS, OpenPage, Page, Point
 
 
 def places(page: Page) -> NDArray[np.float64]:
@@ -69,6 +69,14 @@ def ends_as_handles(page: Page) -> None:
     corners = [(edge, top - 5), (right + 5, top - 5), (right + 5, bottom + 5), (edge, bottom + 5)]
     stroke(page, *corners)
     make_handle(page, "head")
+
+
+def bar_with_ends(opened: OpenPage, address: str) -> Page:
+    """The page of a server that has a bar along x, with the handles foot and head."""
+    page: Page = opened(address)
+    page.wait("snapspace.kind === 'choosing'")
+    ends_as_handles(page)
+    return page
 
 
 def set_number(page: Page, label: str, value: int) -> None:

@@ -15,7 +15,7 @@ from snapspace.material import MATERIALS
 from snapspace.mesh import write_tets
 
 from .choosing_page import (
-    ends_as_handles,
+    bar_with_ends,
     handles,
     places,
     press,
@@ -45,10 +45,7 @@ def address(folder: Path, chromium: object) -> Iterator[str]:
 
 @pytest.fixture
 def page(address: str, opened: OpenPage) -> Page:
-    page: Page = opened(address)
-    page.wait("snapspace.kind === 'choosing'")
-    ends_as_handles(page)
-    return page
+    return bar_with_ends(opened, address)
 
 
 def parts(page: Page) -> dict[str, dict[str, Any]]:

@@ -13,7 +13,14 @@ from snapspace import PosingModel, load, read_problem
 from snapspace.generators import bar, creature
 from snapspace.mesh import write_tets
 
-from .choosing_page import ends_as_handles, handles, press, set_number, wait_for_text
+from .choosing_page import (
+    bar_with_ends,
+    ends_as_handles,
+    handles,
+    press,
+    set_number,
+    wait_for_text,
+)
 from .pages import SECONDS, OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
@@ -45,10 +52,7 @@ def empty(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterato
 
 @pytest.fixture
 def page(address: str, opened: OpenPage) -> Page:
-    page: Page = opened(address)
-    page.wait("snapspace.kind === 'choosing'")
-    ends_as_handles(page)
-    return page
+    return bar_with_ends(opened, address)
 
 
 def compute(page: Page, samples: int = 40, dimension: int = 16) -> None:
@@ -186,9 +190,7 @@ def test_a_bad_mesh_is_told(empty: str, tmp_path: Path, opened: OpenPage, folder
 
 def test_the_end_of_the_server_is_told_and_posing_goes_on(folder: Path, opened: OpenPage) -> None:
     with served(folder / "bar.mesh", cwd=folder) as address:
-        page = opened(address)
-        page.wait("snapspace.kind === 'choosing'")
-        ends_as_handles(page)
+        page = bar_with_ends(opened, address)
         compute(page)
         page.wait("snapspace.kind === 'posing'")
         wait_for_text(page, "#panel", "Done in")
