@@ -13,6 +13,15 @@ inline void cofactors(const Real M[3][3], Real C[3][3]) {
     }
 }
 
+/// from - (A x B)_rc, where A x B is the change of A's cofactors along B.
+template <class Real>
+inline Real subtract_crossed(const Real& from, const Real A[3][3], const Real B[3][3], int r,
+                             int c) {
+  const int r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+  return from - A[r1][c1] * B[r2][c2] + A[r1][c2] * B[r2][c1] - A[r2][c2] * B[r1][c1] +
+         A[r2][c1] * B[r1][c2];
+}
+
 /// sum_rc A_rc B_rc
 template <class Real>
 inline Real inner(const Real A[3][3], const Real B[3][3]) {

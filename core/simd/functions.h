@@ -47,6 +47,36 @@ inline Pack<T, Width> max(Pack<T, Width> a, Pack<T, Width> b) {
   return select(is_less(a, b), b, a);
 }
 
+/// Whether a lane has its sign bit set: to skip what no lane needs. What the lanes hold afterwards
+/// must not depend on it.
+inline bool any_negative(double a) { return std::signbit(a); }
+template <class T, int Width>
+inline bool any_negative(Pack<T, Width> a) {
+  if constexpr (WiderThanRegister<T, Width>) {
+    return any_negative(a.low) || any_negative(a.high);
+  } else {
+#if defined(__GNUC__) && defined(__AVX512DQ__)
+    if constexpr (sizeof(T) * Width == 64) {
+      if constexpr (sizeof(T) == 4)
+        return _mm512_movepi32_mask((__m512i)a.v) != 0;
+      else
+        return _mm512_movepi64_mask((__m512i)a.v) != 0;
+    }
+#endif
+#if defined(__GNUC__) && defined(__AVX__)
+    if constexpr (sizeof(T) * Width == 32) {
+      if constexpr (sizeof(T) == 4)
+        return _mm256_movemask_ps((__m256)a.v) != 0;
+      else
+        return _mm256_movemask_pd((__m256d)a.v) != 0;
+    }
+#endif
+    bool any = false;
+    for (int i = 0; i < Width; ++i) any |= std::signbit(a[i]);
+    return any;
+  }
+}
+
 /// Lanes that the processor has rough inverses for, for a pack of this width; 0 if it has none.
 template <class T, int Width>
 inline constexpr int kRoughLanes =

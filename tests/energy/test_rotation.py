@@ -17,7 +17,7 @@ from .densities import densities, displacements, formula, single_tets, turned
 FloatArray = NDArray[np.float64]
 COUNT = 4000
 #: Least s_2 + s_3, and the relative error of psi and the error of R that it may have.
-GAPS = [(0.5, 1e-13), (0.3, 1e-13), (0.1, 1e-11), (0.03, 1e-6)]
+GAPS = [(0.5, 2e-12), (0.3, 2e-12), (0.1, 2e-12), (0.03, 1e-10), (0.01, 1e-9)]
 
 
 def stretches(gap: float, *, seed: int = 1) -> FloatArray:
