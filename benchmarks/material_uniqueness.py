@@ -19,15 +19,17 @@ from snapspace.validation import unseen_parameters
 TOLERANCE, MOST_ITERATIONS = 1e-10, 5000
 #: Samples among which a pose has its nearest neighbour.
 NEIGHBOURS = 48
-#: The standard deviation of the noise in every coordinate, in mean edge lengths.
+#: How far noise moves every vertex, in mean edge lengths. Strong noise has this standard deviation
+#: in every coordinate, which moves a vertex 0.48 edge lengths in the mean and up to about 1.3.
 NOISE = 0.3
+STRONG = "strong noise"
 
 
 def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """Distances of tight solutions that start from different shapes, and their inverted tets.
 
-    Distances are relative to the displacement, in the norm of the masses. Those of a pose are the
-    largest between two of its solutions, and between the one from rest and each of the others.
+    Distances are relative to the displacement, in the norm of the masses. "distance" is the largest
+    between two solutions of a pose, strong noise left out; the others are those from rest.
     """
     for kind in args.material:
         body = common.with_material(problems.read(name), kind)
@@ -48,9 +50,8 @@ def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
             inverted += [report.inverted_tets for report in batch.reports]
             converged += sum(report.status.name == "converged" for report in batch.reports)
         mass, size = body.mass(), mass_norms(body.mass(), found["rest"].T)
-        far = np.max(
-            [mass_norms(mass, (a - b).T) / size for a, b in combinations(found.values(), 2)], axis=0
-        )
+        pairs = combinations((shapes for start, shapes in found.items() if start != STRONG), 2)
+        far = np.max([mass_norms(mass, (a - b).T) / size for a, b in pairs], axis=0)
         row: dict[str, Any] = {
             "problem": name,
             "material": kind,
@@ -78,10 +79,12 @@ def _starts(body: ss.PosingProblem, parameters: np.ndarray, seed: int) -> dict[s
     tets, vertices = body.mesh.tets, body.mesh.vertices
     pairs = [vertices[tets[:, i]] - vertices[tets[:, j]] for i, j in combinations(range(4), 2)]
     edge = float(np.mean(np.linalg.norm(pairs, axis=2)))
-    noise = np.random.default_rng(seed).standard_normal(rest.shape)
+    noise = np.random.default_rng(seed).standard_normal((*rest.shape[:1], len(vertices), 3))
+    directions = noise / np.linalg.norm(noise, axis=2, keepdims=True)
     return {
         "rest": rest,
         "guess": body.guesses(parameters),
         "neighbour": np.array(neighbours),
-        "noise": NOISE * edge * noise,
+        "noise": NOISE * edge * directions.reshape(rest.shape),
+        STRONG: NOISE * edge * noise.reshape(rest.shape),
     }

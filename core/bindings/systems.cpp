@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -75,6 +76,27 @@ void bind_systems(nb::module_& m) {
       },
       nb::arg("shapes"),
       "The same problem with an inverse for solutions near displacements (k, 3n).");
+  interpolation.def(
+      "tet_stresses",
+      [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
+        require(u.size() == static_cast<std::size_t>(self.size()) &&
+                    weights.size() == static_cast<std::size_t>(self.input_size()),
+                "needs a (3n,) vector and (input_size,) weights");
+        const auto tets = static_cast<std::size_t>(self.energy->tets());
+        DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
+        std::vector<double> shape(u.size()), P(9 * tets), psi(tets);
+        self.numbering.to_internal(u.data(), shape.data());
+        self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data());
+        for (std::size_t t = 0; t < tets; ++t) {
+          const auto external = static_cast<std::size_t>(self.tet_order[t]);
+          std::copy_n(P.data() + 9 * t, 9, stresses.data() + 9 * external);
+          energies.data()[external] = psi[t];
+        }
+        return std::make_pair(stresses, energies);
+      },
+      nb::arg("u"), nb::arg("weights"),
+      "First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), and its "
+      "energy (m,).");
 }
 
 }  // namespace snapspace

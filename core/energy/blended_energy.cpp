@@ -2,27 +2,19 @@
 
 #include <algorithm>
 
+#include "material/pose_blend.h"
+
 namespace snapspace {
 
 namespace {
 
-/// F A - I = map + G + G map of the displacement gradient G against pose 0, map = A - I.
-template <class Real>
-void against_pose(const double map[3][3], const Real G[3][3], Real there[3][3]) {
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      there[r][c] =
-          Real(map[r][c]) + G[r][c] +
-          (G[r][0] * Real(map[0][c]) + G[r][1] * Real(map[1][c]) + G[r][2] * Real(map[2][c]));
+/// Numbers per pose and tet.
+int numbers_of(int kind) {
+  return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::numbers(); });
 }
 
-/// total += P A^T
-template <class Real>
-void add_stress(const double map[3][3], const Real P[3][3], Real total[3][3]) {
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c)
-      total[r][c] += P[r][c] + (P[r][0] * Real(map[c][0]) + P[r][1] * Real(map[c][1]) +
-                                P[r][2] * Real(map[c][2]));
+bool collapses(int kind) {
+  return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::kCollapses; });
 }
 
 }  // namespace
@@ -37,47 +29,93 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
     std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
     for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
   }
-  elements_.reserve(static_cast<std::size_t>(tet_count) * count);
+  const int numbers = numbers_of(kind());
+  numbers_.resize(static_cast<std::size_t>(tet_count) * count * numbers);
+  double* next = numbers_.data();
   for (int t = 0; t < tet_count; ++t)
-    for (int k = 0; k < count; ++k) elements_.push_back(element(t, k));
+    for (int k = 0; k < count; ++k, next += numbers) fill_numbers(t, k, next);
 }
 
 /// F A_k = F + F G with the displacement gradient G of pose 0 against pose k, so that A_k = I + G.
-BlendedEnergy::PoseElement BlendedEnergy::element(int t, int k) const {
+void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
   const RestTet& tet = energies_[k].rest.tets[t];
   const TetMaterial material = energies_[k].material.view();
-  PoseElement result = {};
-  displacement_gradient(tet, offsets_[k].data(), result.map);
+  double map[3][3], moduli[kMostModuli];
+  displacement_gradient(tet, offsets_[k].data(), map);
   for (int i = 0; i < material_moduli(material.kind); ++i)
-    result.moduli[i] = tet.volume * material.of(t)[i];
-  return result;
+    moduli[i] = tet.volume * material.of(t)[i];
+  Densities::with(material.kind,
+                  [&]<class Density>() { PoseBlend<Density>::fill(moduli, map, result); });
+}
+
+std::size_t BlendedEnergy::blend_size() const {
+  if (!collapses(kind())) return poses();
+  return static_cast<std::size_t>(tets()) * numbers_of(kind());
 }
 
 template <class Real>
-Sum<Real> BlendedEnergy::value_and_gradient(const Real* weights, const Real* u, Real* gradient,
+void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) const {
+  if (!collapses(kind())) {
+    for (int k = 0; k < poses(); ++k) set_lane(blend[k], lane, weights[k]);
+    return;
+  }
+  const int numbers = numbers_of(kind());
+  const double* pose = numbers_.data();
+  for (int t = 0; t < tets(); ++t, pose += numbers * poses())
+    for (int i = 0; i < numbers; ++i, ++blend) {
+      double sum = 0.0;
+      for (int k = 0; k < poses(); ++k) sum += weights[k] * pose[k * numbers + i];
+      set_lane(*blend, lane, sum);
+    }
+}
+
+template <class Density, class Real>
+Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
+                                              Real P[3][3]) const {
+  using Blend = PoseBlend<Density>;
+  if constexpr (Blend::kCollapses) {
+    const Real* numbers = blend + static_cast<std::size_t>(tet) * Blend::numbers();
+    return widened(Density::Blend::value_and_stress(numbers, G, P));
+  } else {
+    const std::size_t first = static_cast<std::size_t>(tet) * poses() * Blend::numbers();
+    return sum_over_poses<Density>(poses(), blend, numbers_.data() + first, G, P);
+  }
+}
+
+template <class Real>
+Sum<Real> BlendedEnergy::value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                             int begin, int end) const {
   std::fill_n(gradient, size(), Real(0.0));
-  return Densities::with(energies_[0].material.view().kind, [&]<class Density>() {
+  return Densities::with(kind(), [&]<class Density>() {
     Sum<Real> energy(0.0);
-    const PoseElement* pose = elements_.data() + static_cast<std::size_t>(begin) * poses();
     for (int t = begin; t < end; ++t) {
-      Real G[3][3], P[3][3], there[3][3], stress[3][3], moduli[Density::kModuli];
-      displacement_gradient(energies_[0].rest.tets[t], u, G);
-      for (auto& row : P)
-        for (Real& entry : row) entry = Real(0.0);
-      for (int k = 0; k < poses(); ++k, ++pose) {
-        for (int i = 0; i < Density::kModuli; ++i) moduli[i] = weights[k] * Real(pose->moduli[i]);
-        against_pose(pose->map, G, there);
-        energy += widened(Density::value_and_stress(moduli, there, stress));
-        add_stress(pose->map, stress, P);
-      }
-      scatter_stress(energies_[0].rest.tets[t], P, gradient);
+      const auto& tet = energies_[0].rest.tets[t];
+      Real G[3][3], P[3][3];
+      displacement_gradient(tet, u, G);
+      energy += tet_value_and_stress<Density>(t, blend, G, P);
+      scatter_stress(tet, P, gradient);
     }
     return energy;
   });
 }
 
+void BlendedEnergy::tet_stresses(const double* weights, const double* u, double* stresses,
+                                 double* energies) const {
+  std::vector<double> blend(blend_size());
+  set_weights(0, weights, blend.data());
+  Densities::with(kind(), [&]<class Density>() {
+    for (int t = 0; t < tets(); ++t) {
+      double G[3][3], P[3][3];
+      displacement_gradient(energies_[0].rest.tets[t], u, G);
+      *energies++ = tet_value_and_stress<Density>(t, blend.data(), G, P);
+      for (const auto& row : P)
+        for (const double entry : row) *stresses++ = entry;
+    }
+  });
+}
+
 #define SNAPSPACE_DEFINED(Real)                                                                   \
+  template void BlendedEnergy::set_weights(int, const double*, Real*) const;                      \
   template Sum<Real> BlendedEnergy::value_and_gradient(const Real*, const Real*, Real*, int, int) \
       const;
 SNAPSPACE_PACKS(SNAPSPACE_DEFINED)

@@ -10,10 +10,11 @@ namespace snapspace {
 /// Sum of weights_k * E_k, with pose k of one mesh as the rest shape of E_k (paper, sec. 3.3), as a
 /// function of displacements u from pose 0.
 ///
-/// All poses have the same tets. Let F be a tet's deformation gradient against pose 0, and A_k the
-/// constant map of its edges in pose k onto those in pose 0. Against pose k the deformation
-/// gradient is F A_k: a pose needs neither the vertices nor F, and its stress P_k adds P_k A_k^T to
-/// the one against pose 0. That holds for every density.
+/// All poses have the same tets, and a tet's energy against pose k is that of F A_k, see PoseBlend:
+/// a pose needs neither the vertices nor F.
+///
+/// Samples differ in their weights. What evaluations need of these is made once per sample: the
+/// weights themselves, or the numbers of all tets where the density collapses.
 class BlendedEnergy {
  public:
   /// @param poses  count x n x 3, row-major   @param tets  m x 4, none without volume in any pose
@@ -28,26 +29,37 @@ class BlendedEnergy {
   /// Pose 0 - this pose, 3n: what is added to u for E_k.
   [[nodiscard]] const std::vector<double>& offset(int pose) const { return offsets_[pose]; }
 
-  /// Value at u of the tets from `begin` to before `end`; `gradient` (3n) is overwritten. The
-  /// vertices are read and written once for all poses. @param weights  one per pose
+  /// Numbers that stand for the weights of a sample.
+  [[nodiscard]] std::size_t blend_size() const;
+
+  /// Sets a lane of `blend` (blend_size()) to a sample's weights (poses).
   template <class Real>
-  [[nodiscard]] Sum<Real> value_and_gradient(const Real* weights, const Real* u, Real* gradient,
+  void set_weights(int lane, const double* weights, Real* blend) const;
+
+  /// Value at u of the tets from `begin` to before `end`; `gradient` (3n) is overwritten.
+  template <class Real>
+  [[nodiscard]] Sum<Real> value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                              int begin, int end) const;
 
- private:
-  struct PoseElement {
-    double map[3][3];            // A_k - I
-    double moduli[kMostModuli];  // times volume
-  };
+  /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row), and
+  /// energies (tets), at u for these weights.
+  void tet_stresses(const double* weights, const double* u, double* stresses,
+                    double* energies) const;
 
-  [[nodiscard]] PoseElement element(int tet, int pose) const;
+ private:
+  [[nodiscard]] int kind() const { return energies_[0].material.view().kind; }
+  void fill_numbers(int tet, int pose, double* result) const;
+  template <class Density, class Real>
+  [[nodiscard]] Sum<Real> tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
+                                               Real P[3][3]) const;
 
   std::vector<ElasticEnergy> energies_;
   std::vector<std::vector<double>> offsets_;
-  std::vector<PoseElement> elements_;  // tet by tet, pose by pose
+  std::vector<double> numbers_;  // tet by tet, pose by pose, see PoseBlend
 };
 
 #define SNAPSPACE_DECLARED(Real)                                                               \
+  extern template void BlendedEnergy::set_weights(int, const double*, Real*) const;            \
   extern template Sum<Real> BlendedEnergy::value_and_gradient(const Real*, const Real*, Real*, \
                                                               int, int) const;
 SNAPSPACE_PACKS(SNAPSPACE_DECLARED)

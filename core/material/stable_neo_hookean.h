@@ -45,6 +45,58 @@ struct StableNeoHookean {
     }
     return result;
   }
+
+  /// sum_k w_k psi_k(F A_k), collapsed. With weighted moduli and J = det F it is
+  ///   tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const,
+  ///   M = sum mu A A^T,  alpha = sum (lam + mu) det(A)^2,  beta = sum (lam + 2 mu) det A.
+  /// In the displacement gradient, where little cancels near pose 0, with gamma = alpha - beta and
+  /// N = M + gamma I, which vanishes for pose 0 alone:
+  ///   tr(G N) + tr(G M G^T) / 2 + gamma (I_2(G) + det G) + alpha/2 (J - 1)^2 + psi(A).
+  struct Blend {
+    static constexpr int kNumbers = 9;  ///< N (xx, yy, zz, yz, xz, xy), gamma, alpha, psi(A)
+
+    static void fill(const double* moduli, const double map[3][3], double* result) {
+      const double lam = moduli[0], mu = moduli[1];
+      double stress[3][3];
+      const double change = VolumeChange<double>(map).determinant, det = 1.0 + change;
+      // N = mu (A A^T - I) + (gamma + mu) I
+      const double shift = change * ((lam + mu) * det - mu);
+      for (int e = 0; e < 6; ++e) {
+        const int r = kEntries[e][0], c = kEntries[e][1];
+        const double square = map[r][0] * map[c][0] + map[r][1] * map[c][1] + map[r][2] * map[c][2];
+        result[e] = mu * (map[r][c] + map[c][r] + square) + (r == c ? shift : 0.0);
+      }
+      result[6] = shift - mu;
+      result[7] = (lam + mu) * det * det;
+      result[8] = StableNeoHookean::value_and_stress(moduli, map, stress);
+    }
+
+    template <class Real>
+    static Real value_and_stress(const Real* numbers, const Real G[3][3], Real P[3][3]) {
+      const VolumeChange<Real> change(G);
+      Real N[3][3], GN[3][3];
+      for (int e = 0; e < 6; ++e)
+        N[kEntries[e][0]][kEntries[e][1]] = N[kEntries[e][1]][kEntries[e][0]] = numbers[e];
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          GN[r][c] = G[r][0] * N[0][c] + G[r][1] * N[1][c] + G[r][2] * N[2][c];
+      const Real gamma = numbers[6], pressure = numbers[7] * change.determinant;
+      const Real both = gamma + pressure;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) {
+          const Real linear = (N[r][c] + GN[r][c]) - gamma * G[r][c];
+          P[r][c] = r == c ? (linear + pressure) + both * change.cofactors[r][c]
+                           : linear + both * change.cofactors[r][c];
+        }
+      const Real half(0.5);
+      const Real square = inner(G, N) + half * (inner(GN, G) - rounded(gamma * inner(G, G)));
+      const Real volume = gamma * (change.second + change.third);
+      return numbers[8] + (square + volume) + half * pressure * change.determinant;
+    }
+
+   private:
+    static constexpr int kEntries[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
+  };
 };
 
 }  // namespace snapspace

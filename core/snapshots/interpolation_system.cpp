@@ -36,7 +36,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
   InterpolationObjective(const InterpolationSystem& system, int threads)
       : system_(system),
         threads_(threads),
-        weights_(system.input_size(), Real(0.0)),
+        blend_(system.energy->blend_size(), Real(0.0)),
         second_half_(system.size(), Real(0.0)) {}
 
   [[nodiscard]] int size() const override { return system_.size(); }
@@ -45,7 +45,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
   }
 
   void load(int lane, const double* weights) override {
-    for (std::size_t k = 0; k < weights_.size(); ++k) set_lane(weights_[k], lane, weights[k]);
+    system_.energy->set_weights(lane, weights, blend_.data());
   }
 
   /// Few samples are a pack or two, which would leave threads idle: the tets are visited in two
@@ -58,7 +58,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
     parallel_for(2, threads_, [&](int half) {
       const FlushDenormals flush;  // as on the caller's thread
       values[half] = system_.energy->value_and_gradient(
-          weights_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
+          blend_.data(), u, half == 0 ? gradient : second_half_.data(), half == 0 ? 0 : tets / 2,
           half == 0 ? tets / 2 : tets);
     });
     for (int i = 0; i < size(); ++i) gradient[i] += second_half_[i];
@@ -73,7 +73,7 @@ class InterpolationObjective final : public LaneObjective<Real> {
  private:
   const InterpolationSystem& system_;
   int threads_;
-  std::vector<Real> weights_;
+  std::vector<Real> blend_;
   std::vector<Real> second_half_;  // of the gradient
   Scratch scratch_;
 };
@@ -86,22 +86,26 @@ InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vecto
           Numbering(mesh.order),
           std::make_shared<BlendedEnergy>(poses.data(), count, static_cast<int>(mesh.order.size()),
                                           mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4),
-                                          material.reordered(mesh.tet_order))) {}
+                                          material.reordered(mesh.tet_order)),
+          mesh.tet_order) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
-                                         std::shared_ptr<const BlendedEnergy> blended)
+                                         std::shared_ptr<const BlendedEnergy> blended,
+                                         std::vector<std::int32_t> tets)
     : InterpolationSystem(
-          std::move(numbers), blended,
+          std::move(numbers), blended, std::move(tets),
           ScalarInverse(scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1))) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
-                                         ScalarInverse scalar)
-    : SampleSystem(std::move(numbers), std::move(scalar)), energy(std::move(blended)) {}
+                                         std::vector<std::int32_t> tets, ScalarInverse scalar)
+    : SampleSystem(std::move(numbers), std::move(scalar)),
+      energy(std::move(blended)),
+      tet_order(std::move(tets)) {}
 
 InterpolationSystem InterpolationSystem::adapted(const std::vector<double>& shapes,
                                                  int count) const {
-  return {numbering, energy, inverse.of(scalar_matrix(*energy, shapes, count))};
+  return {numbering, energy, tet_order, inverse.of(scalar_matrix(*energy, shapes, count))};
 }
 
 LaneObjectives InterpolationSystem::lanes() const {

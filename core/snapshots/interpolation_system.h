@@ -19,6 +19,7 @@ namespace snapspace {
 class InterpolationSystem final : public SampleSystem {
  public:
   std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
+  std::vector<std::int32_t> tet_order;          ///< the caller's number of every tet
 
   /// @param mesh   pose 0, renumbered
   /// @param poses  count x n x 3 in the internal numbering
@@ -49,9 +50,10 @@ class InterpolationSystem final : public SampleSystem {
                 BlockHessian& hessian) const override;
 
  private:
-  InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended);
   InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
-                      ScalarInverse scalar);
+                      std::vector<std::int32_t> tets);
+  InterpolationSystem(Numbering numbers, std::shared_ptr<const BlendedEnergy> blended,
+                      std::vector<std::int32_t> tets, ScalarInverse scalar);
 };
 
 }  // namespace snapspace

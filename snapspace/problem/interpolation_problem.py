@@ -208,11 +208,6 @@ class InterpolationProblem:
         return registered(mean, self.base, self._mass_of(mean))
 
     def _checked_material(self, material: Material) -> Material:
-        if not isinstance(material, StVK):
-            raise ValueError(
-                f"InterpolationProblem: the material is {material.title}, but poses are blended "
-                "with St.Venant-Kirchhoff only; leave the material out, or give StVK(lam, mu)"
-            )
         material.check_tets(len(self.poses.tets), "InterpolationProblem")
         return material
 

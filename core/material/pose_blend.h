@@ -1,0 +1,63 @@
+#pragma once
+#include "material/matrix3.h"
+#include "simd/lanes.h"
+
+namespace snapspace {
+
+/// sum_k w_k psi_k(F A_k) of a tet: the energies against several poses of one body, with weights.
+///
+/// F is the deformation gradient against pose 0, and the constant A_k maps the tet's edges in pose
+/// k onto those in pose 0. A pose contributes some numbers to a tet. Most densities need the
+/// numbers of every pose: the map A_k - I, and the moduli times the tet's volume in pose k. One
+/// with a nested `Blend` collapses: its numbers are added up, times the weights, and the sum costs
+/// the same for any number of poses.
+template <class Density>
+struct PoseBlend {
+  static constexpr bool kCollapses = requires { typename Density::Blend; };
+
+  /// Numbers of one pose.
+  static constexpr int numbers() {
+    if constexpr (kCollapses)
+      return Density::Blend::kNumbers;
+    else
+      return 9 + Density::kModuli;
+  }
+
+  /// @param moduli  times the tet's volume in the pose   @param map  A - I
+  static void fill(const double* moduli, const double map[3][3], double* result) {
+    if constexpr (kCollapses) {
+      Density::Blend::fill(moduli, map, result);
+    } else {
+      for (int e = 0; e < 9; ++e) result[e] = map[e / 3][e % 3];
+      for (int i = 0; i < Density::kModuli; ++i) result[9 + i] = moduli[i];
+    }
+  }
+};
+
+/// The sum over poses of a density that does not collapse, and P = sum_k w_k P_k A_k^T, at the
+/// displacement gradient G against pose 0.
+/// @param numbers  pose by pose, see PoseBlend: numbers, or packs with one tet per lane
+template <class Density, class Number, class Real>
+inline Sum<Real> sum_over_poses(int poses, const Real* weights, const Number* numbers,
+                                const Real G[3][3], Real P[3][3]) {
+  Sum<Real> value(0.0);
+  for (int e = 0; e < 9; ++e) P[e / 3][e % 3] = Real(0.0);
+  for (int k = 0; k < poses; ++k, numbers += 9 + Density::kModuli) {
+    Real map[3][3], there[3][3], stress[3][3], moduli[Density::kModuli];
+    for (int e = 0; e < 9; ++e) map[e / 3][e % 3] = Real(numbers[e]);
+    for (int i = 0; i < Density::kModuli; ++i) moduli[i] = weights[k] * Real(numbers[9 + i]);
+    // F A - I = map + G + G map
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        there[r][c] =
+            map[r][c] + G[r][c] + (G[r][0] * map[0][c] + G[r][1] * map[1][c] + G[r][2] * map[2][c]);
+    value += widened(Density::value_and_stress(moduli, there, stress));
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        P[r][c] += stress[r][c] +
+                   (stress[r][0] * map[c][0] + stress[r][1] * map[c][1] + stress[r][2] * map[c][2]);
+  }
+  return value;
+}
+
+}  // namespace snapspace
