@@ -303,6 +303,11 @@ class InterpolationSystem(SampleSystem):
         The same problem with an inverse for solutions near displacements (k, 3n).
         """
 
+    def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """
+        First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), and its energy (m,).
+        """
+
 class SoftModes:
     """
     Deformations that the scalar factor of a posing system mistakes for stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest against the scalar matrix.
@@ -530,6 +535,46 @@ class CubatureLoop:
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def q(self) -> NDArray[numpy.float64]: ...
+
+    @q.setter
+    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    @dimension.setter
+    def dimension(self, arg: int, /) -> None: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+class BlendedCubature:
+    """Blended energy of several poses as a weighted sum over few tets."""
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """Value, gradient and Hessian."""
+
+class BlendedCubatureLoop:
+    """The live loop of blending with a cubature instead of quartics."""
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+
+    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
     @property
     def q(self) -> NDArray[numpy.float64]: ...

@@ -103,4 +103,17 @@ void bind_offsets(nb::class_<Loop<Solver>>& loop) {
       nb::arg("offsets"));
 }
 
+/// For the loops of blending: the weights of the poses.
+template <class Solver>
+void bind_weights(nb::class_<Loop<Solver>>& loop) {
+  loop.def(
+      "set_weights",
+      [](Loop<Solver>& self, VectorIn weights) {
+        require(weights.size() == static_cast<std::size_t>(self.solver.poses()),
+                "weights must have one entry per pose");
+        self.solver.set_weights(weights.data());
+      },
+      nb::arg("weights"));
+}
+
 }  // namespace snapspace

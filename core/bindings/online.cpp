@@ -1,4 +1,5 @@
 #include "bindings/live_loop.h"
+#include "online/blended_quartic.h"
 #include "online/blending_solver.h"
 #include "online/posing_solver.h"
 #include "online/reconstruct.h"
@@ -7,7 +8,7 @@ namespace snapspace {
 
 namespace {
 
-using online::BlendingSolver;
+using online::BlendedQuartic;
 using online::Quartic;
 
 online::Storage storage(bool single) {
@@ -16,6 +17,7 @@ online::Storage storage(bool single) {
 
 using PosingSolver = online::PosingSolver<Quartic>;
 using PosingLoop = Loop<PosingSolver>;
+using BlendingSolver = online::BlendingSolver<BlendedQuartic>;
 using BlendingLoop = Loop<BlendingSolver>;
 
 }  // namespace
@@ -93,31 +95,23 @@ void bind_online(nb::module_& m) {
 
   nb::class_<BlendingLoop> blending(
       m, "BlendingLoop", "The live loop of blending: set weights, solve from the last frame.");
-  blending
-      .def(
-          "__init__",
-          [](BlendingLoop* self, int dimension, MatrixIn coefficients, bool single) {
-            require(dimension >= 1 && coefficients.shape(0) >= 1 &&
-                        coefficients.shape(1) == online::quartic_count(dimension + 1),
-                    "coefficients must be (poses, C(dimension + 4, 4))");
-            BlendingSolver solver(dimension, static_cast<int>(coefficients.shape(0)),
-                                  coefficients.data(), storage(single));
-            require_valid(solver,
-                          "the reduced Hessian at the mean shape is not positive definite; the "
-                          "model is damaged or its mean shape is not a minimum");
-            const auto d = static_cast<std::size_t>(dimension);
-            new (self) BlendingLoop{std::move(solver), std::vector<double>(d, 0.0)};
-          },
-          nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false,
-          nb::keep_alive<1, 3>())
-      .def(
-          "set_weights",
-          [](BlendingLoop& self, VectorIn weights) {
-            require(weights.size() == static_cast<std::size_t>(self.solver.poses()),
-                    "weights must have one entry per pose");
-            self.solver.set_weights(weights.data());
-          },
-          nb::arg("weights"));
+  blending.def(
+      "__init__",
+      [](BlendingLoop* self, int dimension, MatrixIn coefficients, bool single) {
+        require(dimension >= 1 && coefficients.shape(0) >= 1 &&
+                    coefficients.shape(1) == online::quartic_count(dimension + 1),
+                "coefficients must be (poses, C(dimension + 4, 4))");
+        BlendingSolver solver(BlendedQuartic(dimension, static_cast<int>(coefficients.shape(0)),
+                                             coefficients.data(), storage(single)));
+        require_valid(solver,
+                      "the reduced Hessian at the mean shape is not positive definite; the "
+                      "model is damaged or its mean shape is not a minimum");
+        const auto d = static_cast<std::size_t>(dimension);
+        new (self) BlendingLoop{std::move(solver), std::vector<double>(d, 0.0)};
+      },
+      nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false,
+      nb::keep_alive<1, 3>());
+  bind_weights(blending);
   bind_loop(blending);
 }
 

@@ -1,73 +1,68 @@
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "online/minimizers.h"
-#include "online/quartic.h"
 
 namespace snapspace::online {
 
-/// Minimises the reduced interpolation energy sum_k w_k E_k(q), one quartic per pose, frame by
-/// frame.
-///
-/// The coefficients are combined once per change of the weights; from then on a single quartic is
-/// evaluated, whatever the number of poses. Takes no memory after construction.
+/// Minimises the reduced interpolation energy sum_k w_k E_k(q) frame by frame. Takes no memory
+/// after construction.
+/// @tparam Elastic  BlendedQuartic or BlendedCubature
+template <class Elastic>
 class BlendingSolver {
  public:
-  /// Keeps a pointer to the coefficients, poses x quartic_count(dimension + 1). The weights are
-  /// equal at first.
-  BlendingSolver(int dimension, int poses, const double* coefficients,
-                 Storage storage = Storage::double_precision)
-      : poses_(poses),
-        coefficients_(coefficients),
-        weights_(poses, 1.0 / poses),
+  /// The weights are equal at first.
+  explicit BlendingSolver(Elastic elastic)
+      : elastic_(std::move(elastic)),
+        weights_(elastic_.poses(), 1.0 / elastic_.poses()),
         equal_(weights_),
-        blended_(dimension, storage),
-        minimizers_(dimension) {
-    set_weights(equal_.data());
-    valid_ = minimizers_.prepare(*this, dimension);
+        minimizers_(elastic_.dimension()) {
+    elastic_.set_weights(equal_.data());
+    valid_ = minimizers_.prepare(*this, dimension());
   }
 
   /// False if the Hessian at the mean shape, q = 0 at equal weights, is not positive definite: a
   /// solve has then no matrix to start from.
   [[nodiscard]] bool valid() const { return valid_; }
 
-  [[nodiscard]] int poses() const { return poses_; }
-  [[nodiscard]] int dimension() const { return blended_.dimension(); }
-  [[nodiscard]] int capacity() const { return blended_.capacity(); }
+  [[nodiscard]] int poses() const { return elastic_.poses(); }
+  [[nodiscard]] int dimension() const { return elastic_.dimension(); }
+  [[nodiscard]] int capacity() const { return elastic_.capacity(); }
 
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights stay.
   void set_dimension(int dimension) {
-    blended_.set_dimension(dimension);
-    blended_.combine(poses_, equal_.data(), coefficients_);
+    elastic_.set_dimension(dimension);
+    elastic_.set_weights(equal_.data());
     minimizers_.prepare(*this, dimension);
-    blended_.combine(poses_, weights_.data(), coefficients_);
+    elastic_.set_weights(weights_.data());
   }
 
-  /// Combines the coefficients for weights (poses).
+  /// Takes the weights of the poses.
   void set_weights(const double* weights) {
-    weights_.assign(weights, weights + poses_);
-    blended_.combine(poses_, weights, coefficients_);
+    weights_.assign(weights, weights + poses());
+    elastic_.set_weights(weights);
   }
 
   double value_and_gradient(const double* q, double* gradient) {
-    return blended_.value_and_gradient(q, gradient);
+    return elastic_.value_and_gradient(q, gradient);
   }
 
   /// The lower triangle of the Hessian, too.
   double derivatives(const double* q, double* gradient, double* hessian) {
-    return blended_.derivatives(q, gradient, hessian);
+    return elastic_.derivatives(q, gradient, hessian);
   }
 
-  /// From q, in place.
+  /// From q, in place. Where a Hessian is dear, BFGS keeps its approximation from frame to frame.
   Report solve(double* q, Method method, const Termination& stop) {
+    if constexpr (Elastic::kHessianIsDear)
+      if (method == Method::bfgs) return minimizers_.minimize_onwards(*this, q, stop);
     return minimizers_.minimize(*this, method, q, stop);
   }
 
  private:
-  int poses_;
-  const double* coefficients_;
+  Elastic elastic_;
   std::vector<double> weights_, equal_;
-  Quartic blended_;
   Minimizers minimizers_;
   bool valid_ = false;
 };

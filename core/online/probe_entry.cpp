@@ -27,8 +27,8 @@ bool has_arrays(const snapspace_probe& probe) {
 
 /// Whether rests and pins are those of the session, and all indices in range.
 bool fits(const snapspace_session& session, const snapspace_probe& probe) {
-  const int handles = session.blending ? 0 : static_cast<int>(session.state.size() / 12);
-  const int rests = session.blending ? session.blending->poses() : 1;
+  const int handles = session.blends() ? 0 : static_cast<int>(session.state.size() / 12);
+  const int rests = session.blends() ? static_cast<int>(session.state.size()) : 1;
   return probe.rests == rests &&
          all_below(probe.tet_corners, 4 * std::size_t(probe.tets), probe.corners) &&
          all_below(probe.sampled, probe.samples, probe.corners) &&
@@ -65,7 +65,7 @@ int snapspace_residual(snapspace_session* session, double* residual) {
   if (!session->probe) return SNAPSPACE_WRONG_KIND;
   const double* state = session->state.data();
   *residual = session->probe->norm(session->q.data(), session->dimension(),
-                                   session->blending ? nullptr : state,
-                                   session->blending ? state : nullptr);
+                                   session->blends() ? nullptr : state,
+                                   session->blends() ? state : nullptr);
   return SNAPSPACE_OK;
 }

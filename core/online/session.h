@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "material/tet_material.h"
+#include "online/blended_cubature.h"
+#include "online/blended_quartic.h"
 #include "online/blending_solver.h"
 #include "online/cubature.h"
 #include "online/posing_solver.h"
@@ -14,15 +16,17 @@
 #include "online/residual_probe.h"
 #include "online/snapspace_online.h"
 
-/// One of the three solvers, with its coordinates, and what it is told to solve for.
+/// One of the four solvers, with its coordinates, and what it is told to solve for.
 struct snapspace_session {
   using Posing = snapspace::online::PosingSolver<snapspace::online::Quartic>;
   using PosingCubature = snapspace::online::PosingSolver<snapspace::online::Cubature>;
-  using Blending = snapspace::online::BlendingSolver;
+  using Blending = snapspace::online::BlendingSolver<snapspace::online::BlendedQuartic>;
+  using BlendingCubature = snapspace::online::BlendingSolver<snapspace::online::BlendedCubature>;
 
   std::unique_ptr<Posing> posing;
   std::unique_ptr<PosingCubature> cubature;
   std::unique_ptr<Blending> blending;
+  std::unique_ptr<BlendingCubature> blending_cubature;
   std::unique_ptr<snapspace::online::ResidualProbe> probe;
   snapspace_basis basis;
   std::vector<double> q;         // as many as the model has
@@ -41,14 +45,21 @@ struct snapspace_session {
     state.assign(solver->poses(), 1.0 / solver->poses());
     blending = std::move(solver);
   }
+  void take(std::unique_ptr<BlendingCubature> solver) {
+    state.assign(solver->poses(), 1.0 / solver->poses());
+    blending_cubature = std::move(solver);
+  }
 
   /// What `act` returns for the solver that is there.
   template <class Act>
   auto with_solver(Act act) const {
     if (posing) return act(*posing);
     if (cubature) return act(*cubature);
-    return act(*blending);
+    if (blending) return act(*blending);
+    return act(*blending_cubature);
   }
+  /// Whether it blends poses; else it poses handles.
+  [[nodiscard]] bool blends() const { return blending || blending_cubature; }
   [[nodiscard]] int dimension() const {
     return with_solver([](const auto& solver) { return solver.dimension(); });
   }

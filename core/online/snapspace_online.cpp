@@ -11,6 +11,8 @@
 
 using snapspace::TetMaterial;
 using snapspace::online::all_finite;
+using snapspace::online::BlendedCubature;
+using snapspace::online::BlendedQuartic;
 using snapspace::online::BlendingSolver;
 using snapspace::online::Cubature;
 using snapspace::online::Method;
@@ -19,11 +21,17 @@ using snapspace::online::read_material;
 using snapspace::online::Report;
 using PosingSolver = snapspace::online::PosingSolver<Quartic>;
 using CubatureSolver = snapspace::online::PosingSolver<Cubature>;
+using BlendingQuarticSolver = BlendingSolver<BlendedQuartic>;
+using BlendingCubatureSolver = BlendingSolver<BlendedCubature>;
 
 namespace {
 
 bool is_basis(const snapspace_basis* basis) {
   return basis && basis->vertices >= 0 && (basis->vertices == 0 || (basis->tau && basis->modes));
+}
+
+bool is_cubature(const snapspace_cubature* cubature) {
+  return cubature && cubature->tets >= 1 && cubature->rows && cubature->weights;
 }
 
 snapspace_session* fail(int* error, int code) {
@@ -99,8 +107,7 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
                                                     const double* K, const double* L,
                                                     const double* S, const snapspace_basis* basis,
                                                     int* error) {
-  if (dimension < 1 || handles < 1 || !cubature || cubature->tets < 1 || !cubature->rows ||
-      !cubature->weights || !K || !L || !S || !is_basis(basis))
+  if (dimension < 1 || handles < 1 || !is_cubature(cubature) || !K || !L || !S || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
   TetMaterial material;
   const int wrong = read_material(cubature->material, cubature->tets, material);
@@ -114,7 +121,22 @@ snapspace_session* snapspace_create_blending(int dimension, int poses, const dou
                                              const snapspace_basis* basis, int* error) {
   if (dimension < 1 || poses < 1 || !quartics || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
-  return begin(std::make_unique<BlendingSolver>(dimension, poses, quartics), *basis, error);
+  BlendedQuartic elastic(dimension, poses, quartics);
+  return begin(std::make_unique<BlendingQuarticSolver>(std::move(elastic)), *basis, error);
+}
+
+snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
+                                                      const snapspace_cubature* cubature,
+                                                      const double* corners, const double* tau,
+                                                      const snapspace_basis* basis, int* error) {
+  if (dimension < 1 || poses < 1 || !is_cubature(cubature) || !corners || !tau || !is_basis(basis))
+    return fail(error, SNAPSPACE_BAD_ARGUMENT);
+  TetMaterial material;
+  const int wrong = read_material(cubature->material, cubature->tets, material);
+  if (wrong != SNAPSPACE_OK) return fail(error, wrong);
+  BlendedCubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
+                          {poses, corners, tau});
+  return begin(std::make_unique<BlendingCubatureSolver>(std::move(elastic)), *basis, error);
 }
 
 void snapspace_destroy(snapspace_session* session) { delete session; }
@@ -128,9 +150,10 @@ int snapspace_set_offsets(snapspace_session* session, const double* offsets) {
 
 int snapspace_set_weights(snapspace_session* session, const double* weights) {
   if (!session || !weights) return SNAPSPACE_BAD_ARGUMENT;
-  if (!session->blending) return SNAPSPACE_WRONG_KIND;
-  if (!all_finite(weights, session->blending->poses())) return SNAPSPACE_NOT_FINITE;
-  session->blending->set_weights(weights);
+  if (!session->blends()) return SNAPSPACE_WRONG_KIND;
+  if (!all_finite(weights, session->state.size())) return SNAPSPACE_NOT_FINITE;
+  if (session->blending) session->blending->set_weights(weights);
+  if (session->blending_cubature) session->blending_cubature->set_weights(weights);
   std::copy_n(weights, session->state.size(), session->state.data());
   return SNAPSPACE_OK;
 }

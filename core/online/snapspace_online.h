@@ -113,6 +113,15 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
 snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,
                                              const snapspace_basis* basis, int* error);
 
+/* A blending session with a cubature instead of quartics: copies its arrays. rows and weights are
+ * those of pose 0. corners (poses x tets x 4 x 3) are the cubature's tets in each pose, none
+ * without volume, and tau (tets x 4 x 3) at the mean shape. As fast for many poses as for two where
+ * the density collapses, which stable neo-Hookean does. */
+snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
+                                                      const snapspace_cubature* cubature,
+                                                      const double* corners, const double* tau,
+                                                      const snapspace_basis* basis, int* error);
+
 void snapspace_destroy(snapspace_session* session);
 
 /* Offsets [A - I | t] of all handles (handles x 3 x 4) about their centroids at rest. Costs

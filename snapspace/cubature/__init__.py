@@ -1,7 +1,17 @@
 """Cubature: elastic energies in reduced coordinates, summed over few tets."""
 
+from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature
 from .held_out_errors import CubatureErrors
-from .train import FEWEST_SNAPSHOTS, default_tets, train_cubature
+from .train import FEWEST_SNAPSHOTS, default_tets, train_blended_cubature, train_cubature
 
-__all__ = ["FEWEST_SNAPSHOTS", "Cubature", "CubatureErrors", "default_tets", "train_cubature"]
+__all__ = [
+    "FEWEST_SNAPSHOTS",
+    "BlendedCubature",
+    "Cubature",
+    "CubatureErrors",
+    "WeightedCubature",
+    "default_tets",
+    "train_blended_cubature",
+    "train_cubature",
+]

@@ -9,6 +9,7 @@ from .. import _core as core
 from ..material import Material
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
+from .chosen_tets import check_chosen, check_in_mesh
 from .displacement_gradients import displacement_gradients
 
 FloatArray = NDArray[np.float64]
@@ -47,19 +48,7 @@ class Cubature:
         rows: NDArray[np.float32],
         material: Material,
     ) -> None:
-        r = len(tets)
-        if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
-            raise ValueError(
-                f"Cubature: {r} tets need weights ({r},) and rows ({r}, 9, d), got arrays of "
-                f"shapes {weights.shape} and {rows.shape}"
-            )
-        bad = np.flatnonzero(~(np.isfinite(weights) & (weights > 0)))
-        if bad.size:
-            raise ValueError(
-                f"Cubature: the weight of tet {tets[bad[0]]} is {weights[bad[0]]}, but weights "
-                "must be positive"
-            )
-        material.check_tets(r, "Cubature")
+        check_chosen(tets, weights, rows, material, who="Cubature")
         self.tets = tets
         self.weights = weights
         self.rows = np.ascontiguousarray(rows, np.float32)
@@ -83,9 +72,7 @@ class Cubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
-        count = len(problem.mesh.tets)
-        if len(tets) and not 0 <= tets.min() <= tets.max() < count:
-            raise ValueError(f"Cubature: tets must be between 0 and {count - 1}")
+        check_in_mesh(tets, len(problem.mesh.tets), who="Cubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
         return cls(tets, weights, rows, problem.material.of_tets(tets))
 

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
-from ..problem import PosingProblem
-from ..subspace import AffineSubspace
-from .cubature import Cubature
+from .elastic_states import ElasticStates
 
 FloatArray = NDArray[np.float64]
 
@@ -41,19 +40,18 @@ class CubatureErrors:
 
 @single_threaded_blas
 def held_out_errors(
-    problem: PosingProblem,
-    subspace: AffineSubspace,
-    cubature: Cubature,
-    states: FloatArray,
+    states: ElasticStates,
+    cubature: Callable[[int], tuple[float, FloatArray]],
     compliance: FloatArray,
 ) -> CubatureErrors:
-    """Errors at reduced states (s, d), s >= 1."""
+    """Errors at one state or more, where `cubature` gives value and gradient (d,) of a state."""
+    basis = states.subspace.basis
     errors = np.empty((len(states), 3))
-    for target, q in zip(errors, states, strict=True):
-        energy, full = problem.energy.core.value_and_gradient(subspace.basis @ q)
-        force = subspace.basis.T @ full
-        value, gradient = cubature.value_and_gradient(q)
-        target[0] = abs(value - energy) / energy
+    for k, (target, q) in enumerate(zip(errors, states.coordinates, strict=True)):
+        exact = states.forces(k, basis @ q)
+        force = basis.T @ exact.gradient
+        value, gradient = cubature(k)
+        target[0] = abs(value - exact.energy) / exact.unit
         target[1] = np.linalg.norm(gradient - force) / np.linalg.norm(force)
         target[2] = np.linalg.norm(compliance @ (gradient - force)) / np.linalg.norm(q)
     median, worst = np.median(errors, axis=0).tolist(), errors.max(axis=0).tolist()

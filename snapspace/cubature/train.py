@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import time
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Generic
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csr_array
 
 from ..blas import single_threaded_blas
-from ..problem import PosingProblem
+from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
+from .blended_cubature import BlendedCubature
 from .candidates import candidate_tets
 from .cubature import Cubature
-from .held_out_errors import held_out_errors
+from .elastic_states import BlendingStates, PosingStates, States, chosen
+from .held_out_errors import CubatureErrors, held_out_errors
 from .nonnegative_fit import nonnegative_fit
 from .training_rows import training_rows
 
@@ -30,6 +34,8 @@ CANDIDATES, ROWS = 20, 3
 TRAINED, HELD_OUT = 200, 20
 #: One snapshot in so many is held out, which takes as many at least.
 FEWEST_SNAPSHOTS = 10
+#: One blended state in so many says how large energies are.
+PILOT_STEP = 8
 
 
 def default_tets(dimension: int) -> int:
@@ -79,44 +85,102 @@ def train_cubature(
         For fewer than ten states that are not at rest, or a number of tets that is not between 1
         and that of the mesh.
     """
-    count = _checked_count(problem, subspace, tets)
+    states = PosingStates(problem, subspace, coordinates[_moved(coordinates)])
+    compliance = _inverse(
+        _stiffness(problem.energy.hessian(problem.base), subspace) + handle_hessian
+    )
+    fit = _fit(states, compliance, tets=tets, seed=seed)
+    cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+    errors = held_out_errors(
+        fit.unseen,
+        lambda k: cubature.value_and_gradient(fit.unseen.coordinates[k]),
+        compliance,
+    )
+    return cubature, fit.record(errors)
+
+
+def train_blended_cubature(
+    problem: InterpolationProblem,
+    subspace: AffineSubspace,
+    coordinates: FloatArray,
+    weights: FloatArray,
+    *,
+    tets: int | None = None,
+    seed: int = 0,
+) -> tuple[BlendedCubature, dict[str, Any]]:
+    """The same for blended poses: one set of tets for all of them.
+
+    Arguments, result and errors as for `train_cubature`, but every state has its weights (k,
+    poses), and the subspace is attached to the mean shape. The poses themselves, where all tets are
+    at rest, do not count.
+    """
+    own = _moved(coordinates) & (weights.max(axis=1, initial=0.0) < 1.0 - 1e-9)
+    states = BlendingStates(problem, subspace, coordinates[own], weights[own])
+    system, mean = problem.system, subspace.tau - problem.base
+    energies = [
+        system.value_and_gradient(mean + subspace.basis @ q, w)[0]
+        for q, w in zip(states.coordinates[::PILOT_STEP], states.weights[::PILOT_STEP], strict=True)
+    ]
+    states = replace(states, floor=0.01 * max(energies, default=0.0))
+    compliance = _inverse(_mean_stiffness(states))
+    fit = _fit(states, compliance, tets=tets, seed=seed)
+    cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+    unseen = fit.unseen
+    errors = held_out_errors(
+        unseen,
+        lambda k: cubature.value_and_gradient(unseen.coordinates[k], unseen.weights[k]),
+        compliance,
+    )
+    return cubature, fit.record(errors)
+
+
+@dataclass(frozen=True)
+class _Fit(Generic[States]):
+    """Chosen tets with the volumes that they stand for, and the states that were held out."""
+
+    tets: NDArray[np.int32]
+    volumes: FloatArray
+    unseen: States
+    trained: int
+    rows: int
+    seed: int
+    begin: float
+
+    def record(self, errors: CubatureErrors) -> dict[str, Any]:
+        """For a model's provenance."""
+        return {
+            "tets": len(self.tets),
+            "trained_states": self.trained,
+            "rows": self.rows,
+            "seed": self.seed,
+            "seconds": time.perf_counter() - self.begin,
+            "held_out": errors.as_json(),
+        }
+
+
+def _fit(states: States, compliance: FloatArray, *, tets: int | None, seed: int) -> _Fit[States]:
     begin = time.perf_counter()
-    states = coordinates[np.abs(coordinates).max(axis=1, initial=0.0) > 0]
+    mesh, dimension = states.problem.mesh, states.subspace.dimension
+    count = _checked_count(len(mesh.tets), dimension, tets)
     if len(states) < FEWEST_SNAPSHOTS:
         raise ValueError(
             f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
             f"on, it takes {FEWEST_SNAPSHOTS}; solve more samples"
         )
     held = np.arange(len(states)) % FEWEST_SNAPSHOTS == FEWEST_SNAPSHOTS // 2
-    trained, unseen = _spread(states[~held], TRAINED), _spread(states[held], HELD_OUT)
-    compliance = _compliance(problem, subspace, handle_hessian)
-    candidates = candidate_tets(problem, subspace, trained, CANDIDATES * count)
-    rows = training_rows(
-        problem,
-        subspace,
-        trained,
-        candidates,
-        compliance,
-        directions=min(subspace.dimension, -(-ROWS * count // len(trained))),
-        seed=seed,
-    )
-    chosen, factors = nonnegative_fit(rows.columns, rows.target, count)
-    picked = candidates[chosen]
-    cubature = Cubature.of_tets(problem, subspace, picked, factors * problem.mesh.volumes[picked])
-    errors = held_out_errors(problem, subspace, cubature, unseen, compliance)
-    return cubature, {
-        "tets": len(picked),
-        "trained_states": len(trained),
-        "rows": len(rows.target),
-        "seed": seed,
-        "seconds": time.perf_counter() - begin,
-        "held_out": errors.as_json(),
-    }
+    trained = _spread_out(chosen(states, _spread(np.flatnonzero(~held), TRAINED)))
+    unseen = _spread_out(chosen(states, _spread(np.flatnonzero(held), HELD_OUT)))
+    candidates = candidate_tets(trained, CANDIDATES * count)
+    directions = min(dimension, -(-ROWS * count // len(trained)))
+    rows = training_rows(trained, candidates, compliance, directions=directions, seed=seed)
+    picks, factors = nonnegative_fit(rows.columns, rows.target, count)
+    picked = candidates[picks]
+    volumes = factors * mesh.volumes[picked]
+    return _Fit(picked, volumes, unseen, len(trained), len(rows.target), seed, begin)
 
 
-def _checked_count(problem: PosingProblem, subspace: AffineSubspace, tets: int | None) -> int:
-    available = len(problem.mesh.tets)
-    count = min(default_tets(subspace.dimension), available) if tets is None else tets
+def _checked_count(available: int, dimension: int, tets: int | None) -> int:
+    count = min(default_tets(dimension), available) if tets is None else tets
     if not 1 <= count <= available:
         raise ValueError(
             f"reduce: tets is {count}, but must be between 1 and the mesh's {available}"
@@ -124,18 +188,57 @@ def _checked_count(problem: PosingProblem, subspace: AffineSubspace, tets: int |
     return count
 
 
-def _spread(states: FloatArray, count: int) -> FloatArray:
-    """At most `count` of the rows, evenly spread."""
-    which = np.unique(np.linspace(0, len(states) - 1, count).round().astype(int))
-    chosen: FloatArray = states[which]
-    return chosen
+def _moved(coordinates: FloatArray) -> NDArray[np.bool_]:
+    moved: NDArray[np.bool_] = np.abs(coordinates).max(axis=1, initial=0.0) > 0
+    return moved
+
+
+def _spread(which: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """At most `count` of the indices, evenly spread."""
+    places = np.unique(np.linspace(0, len(which) - 1, count).round().astype(int))
+    some: NDArray[np.intp] = which[places]
+    return some
+
+
+import os
+T = float(os.environ.get("BT", "0.5"))
+def _spread_out(states):
+    if isinstance(states, PosingStates) or T == 0:
+        return states
+    w = states.weights
+    away = (1 - T) * w + T * np.roll(w, 1, axis=0)
+    return replace(states, coordinates=np.repeat(states.coordinates, 2, axis=0), weights=np.stack([w, away], axis=1).reshape(-1, w.shape[1]))
+
+@single_threaded_blas
+def _stiffness(hessian: csr_array, subspace: AffineSubspace) -> FloatArray:
+    """The exact reduced Hessian of a full one (3n, 3n), symmetric."""
+    stiffness = subspace.basis.T @ (hessian @ subspace.basis)
+    symmetric: FloatArray = (stiffness + stiffness.T) / 2
+    return symmetric
 
 
 @single_threaded_blas
-def _compliance(
-    problem: PosingProblem, subspace: AffineSubspace, handle_hessian: FloatArray
-) -> FloatArray:
-    """Inverse of the exact reduced Hessian at rest, (d, d)."""
-    stiffness = subspace.basis.T @ (problem.energy.hessian(problem.base) @ subspace.basis)
-    inverse: FloatArray = np.linalg.inv((stiffness + stiffness.T) / 2 + handle_hessian)
+def _mean_stiffness(states: BlendingStates) -> FloatArray:
+    """The exact reduced Hessian at the mean shape, (d, d), by central differences of forces.
+
+    They take 2 d gradients for any number of poses. Only directions are weighed with it: the error,
+    of the square of the step, is of no consequence.
+    """
+    problem, basis = states.problem, states.subspace.basis
+    mean, center = states.subspace.tau - problem.base, problem.domain.center
+    step = 1e-3 * float(np.sqrt(np.mean(states.coordinates**2)))
+    columns = []
+    for mode in basis.T:
+        forces = [
+            problem.system.value_and_gradient(mean + h * mode, center)[1] for h in (-step, step)
+        ]
+        columns.append((forces[1] - forces[0]) @ basis / (2.0 * step))
+    matrix = np.array(columns)
+    symmetric: FloatArray = (matrix + matrix.T) / 2
+    return symmetric
+
+
+@single_threaded_blas
+def _inverse(matrix: FloatArray) -> FloatArray:
+    inverse: FloatArray = np.linalg.inv(matrix)
     return inverse

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
-from ..problem import PosingProblem
-from ..subspace import AffineSubspace
 from .displacement_gradients import displacement_gradients
+from .elastic_states import ElasticStates
 
 FloatArray = NDArray[np.float64]
 
@@ -35,9 +34,7 @@ class TrainingRows:
 
 @single_threaded_blas
 def training_rows(
-    problem: PosingProblem,
-    subspace: AffineSubspace,
-    states: FloatArray,
+    states: ElasticStates,
     candidates: NDArray[np.int32],
     compliance: FloatArray,
     *,
@@ -54,9 +51,9 @@ def training_rows(
 
     Parameters
     ----------
-    states : (s, d)
+    states : ElasticStates, s of them
     candidates : (c,) tets
-    compliance : (d, d), inverse Hessian at rest with the handles
+    compliance : (d, d), inverse Hessian of the objective at tau
     directions : rows of forces per state
     seed : of the random vectors
 
@@ -65,33 +62,33 @@ def training_rows(
     TrainingRows
         Of s * (directions + 1) rows. All-one weights of all tets would solve it exactly.
     """
-    d = subspace.dimension
-    modes = displacement_gradients(problem.mesh, subspace.basis, candidates)
+    basis, d = states.subspace.basis, states.subspace.dimension
+    modes = displacement_gradients(states.problem.mesh, basis, candidates)
     # (9, c, d): one entry of all candidates is contiguous
     modes = np.ascontiguousarray(modes.swapaxes(0, 1)).reshape(-1, d)
     rng = np.random.default_rng(seed)
     columns = np.empty((len(states), directions + 1, len(candidates)), np.float32)
     target = np.empty((len(states), directions + 1))
     for begin in range(0, len(states), _BLOCK):
-        block = states[begin : begin + _BLOCK]
+        block = states.coordinates[begin : begin + _BLOCK]
         along = compliance @ rng.standard_normal((len(block), d, directions))
         # entry, candidate, state, direction: one product for all states of the block
         flat = along.swapaxes(0, 1).reshape(d, -1).astype(np.float32)
         pushed = (modes @ flat).reshape(9, len(candidates), len(block), directions)
-        shapes = np.ascontiguousarray((subspace.basis @ block.T).T)
-        gradients = np.empty_like(shapes)
-        for k, shape in enumerate(shapes):
-            stresses, energies = problem.energy.core.tet_stresses(shape)
-            energy, gradients[k] = problem.energy.core.value_and_gradient(shape)
-            entries = stresses[candidates].T.astype(np.float32)
+        displacements = np.ascontiguousarray((basis @ block.T).T)
+        gradients = np.empty_like(displacements)
+        for k, displacement in enumerate(displacements):
+            tets = states.forces(begin + k, displacement)
+            gradients[k] = tets.gradient
+            entries = tets.stresses[candidates].T.astype(np.float32)
             forces = np.zeros((len(candidates), directions), np.float32)
             for entry, push in zip(entries, pushed[:, :, k], strict=True):
                 forces += entry[:, None] * push
             columns[begin + k, :-1] = forces.T
-            columns[begin + k, -1] = energies[candidates] / energy
-        reduced = gradients @ subspace.basis
+            columns[begin + k, -1] = tets.energies[candidates] / tets.unit
+            target[begin + k, -1] = tets.energy / tets.unit
+        reduced = gradients @ basis
         target[begin : begin + len(block), :-1] = np.einsum("sd,sdk->sk", reduced, along)
-        target[begin : begin + len(block), -1] = 1.0
     scale = ENERGY_WEIGHT * np.sqrt(np.mean(target[:, :-1] ** 2) * directions)
     columns[:, -1] *= np.float32(scale)
     target[:, -1] *= scale

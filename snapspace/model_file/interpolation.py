@@ -7,26 +7,28 @@ from typing import Any
 import numpy as np
 
 from ..problem import InterpolationProblem, Poses
-from ..reduction import InterpolationModel, coefficient_count
+from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics, coefficient_count
 from ..subspace import AffineSubspace
 from . import eigenvalues, shown_surface
 from . import material as material_file
 from .container import Arrays, check_shapes
 
-DTYPES: dict[str, type] = {
+_COMMON: dict[str, type] = {
     "poses": np.float64,
     "tets": np.int32,
     "mean_shape": np.float64,
     **shown_surface.DTYPES,
     "basis": np.float64,
-    "quartics": np.float64,
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
+DTYPES = {**_COMMON, "quartics": np.float64}
+#: With few tets instead of the quartics; their rows are made of the basis again.
+CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
 
 
 def interpolation_arrays(model: InterpolationModel) -> Arrays:
-    """The arrays of a model; the names are those of DTYPES."""
+    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES."""
     problem = model.problem
     return {
         "poses": problem.poses.shapes,
@@ -37,7 +39,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
         "basis": model.subspace.basis.T,
         **eigenvalues.eigenvalue_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
-        "quartics": model.coefficients,
+        **_blend_arrays(model.blends),
         "training_parameters": model.training_parameters,
         "training_coordinates": model.training_coordinates,
     }
@@ -78,18 +80,36 @@ def interpolation_model(
         {
             "mean_shape": (3 * n,),
             "basis": (d, 3 * n),
-            "quartics": (len(poses), coefficient_count(d)),
             "training_parameters": (k, problem.parameter_count),
             "training_coordinates": (k, d),
         },
     )
     mass = problem.mass(lumped=content["lumped_mass"])
+    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues"))
     return InterpolationModel(
         problem=problem,
-        subspace=AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues")),
-        coefficients=arrays["quartics"],
+        subspace=subspace,
+        blends=_blends(arrays, problem, subspace),
         surface=shown_surface.surface(arrays, problem.mesh),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,
+    )
+
+
+def _blend_arrays(blends: PoseQuartics | BlendedCubature) -> Arrays:
+    if isinstance(blends, BlendedCubature):
+        return {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
+    return {"quartics": blends.coefficients}
+
+
+def _blends(
+    arrays: Arrays, problem: InterpolationProblem, subspace: AffineSubspace
+) -> PoseQuartics | BlendedCubature:
+    d = subspace.dimension
+    if "quartics" in arrays:
+        check_shapes(arrays, {"quartics": (len(problem.poses), coefficient_count(d))})
+        return PoseQuartics(d, arrays["quartics"])
+    return BlendedCubature.of_tets(
+        problem, subspace, arrays["cubature_tets"], arrays["cubature_weights"]
     )

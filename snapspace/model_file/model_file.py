@@ -6,7 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from ..reduction import Cubature, InterpolationModel, PosingModel, ReducedModel
+from ..reduction import BlendedCubature, Cubature, InterpolationModel, PosingModel, ReducedModel
 from . import eigenvalues, error_estimator, interpolation, material, posing, shown_surface
 from .container import check_dtypes, checksum, read_container, write_container
 
@@ -15,11 +15,13 @@ VERSION = 2
 #: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff.
 READABLE = (1, 2)
 SUFFIX = ".snapspace"
-POSING, CUBATURE, INTERPOLATION = "posing", "posing-cubature", "interpolation"
+POSING, CUBATURE = "posing", "posing-cubature"
+INTERPOLATION, BLENDED_CUBATURE = "interpolation", "interpolation-cubature"
 _DTYPES = {
     POSING: posing.DTYPES,
     CUBATURE: posing.CUBATURE_DTYPES,
     INTERPOLATION: interpolation.DTYPES,
+    BLENDED_CUBATURE: interpolation.CUBATURE_DTYPES,
 }
 
 
@@ -39,7 +41,7 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
         kind = CUBATURE if isinstance(model.elastic, Cubature) else POSING
         arrays, content = posing.posing_arrays(model), posing.posing_content(model)
     elif isinstance(model, InterpolationModel):
-        kind = INTERPOLATION
+        kind = BLENDED_CUBATURE if isinstance(model.blends, BlendedCubature) else INTERPOLATION
         arrays = interpolation.interpolation_arrays(model)
         content = interpolation.interpolation_content(model)
     else:
@@ -91,7 +93,8 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
         )
-    make = interpolation.interpolation_model if kind == INTERPOLATION else posing.posing_model
+    blends = kind in (INTERPOLATION, BLENDED_CUBATURE)
+    make = interpolation.interpolation_model if blends else posing.posing_model
     try:
         model = make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
         return replace(model, error_estimator=error_estimator.estimator(arrays))

@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
 from ..model_file.container import Arrays, container_bytes
-from ..reduction import Cubature, InterpolationModel, PosingModel, Quartic, ReducedModel
+from ..reduction import (
+    BlendedCubature,
+    Cubature,
+    InterpolationModel,
+    PoseQuartics,
+    PosingModel,
+    Quartic,
+    ReducedModel,
+)
 from .estimator import estimator_arrays
 from .shape_space import quantised
 
@@ -120,10 +128,21 @@ def _interpolation_arrays(model: InterpolationModel) -> Arrays:
         "faces": surface.faces,
         **_modes("space", _on_surface(surface, model.subspace.basis.T)),
         **_modes("poses", _on_surface(surface, problem.pose_shapes - tau)),
-        "quartics": model.coefficients.astype(np.float32),
+        **_blend_arrays(model.blends),
         "sample_weights": model.training_parameters.astype(np.float32),
         "sample_coordinates": model.training_coordinates.astype(np.float32),
     }
+
+
+def _blend_arrays(blends: PoseQuartics | BlendedCubature) -> Arrays:
+    if isinstance(blends, BlendedCubature):
+        return {
+            "cubature_rows": blends.rows,
+            "cubature_weights": blends.weights,
+            "cubature_moduli": blends.material.moduli,
+            "cubature_corners": blends.corners.reshape(*blends.corners.shape[:2], 12),
+        }
+    return {"quartics": blends.coefficients.astype(np.float32)}
 
 
 def _on_surface(surface: EmbeddedSurface, rows: FloatArray) -> FloatArray:

@@ -1,6 +1,6 @@
 """Reduced energies and models."""
 
-from ..cubature import Cubature, CubatureErrors
+from ..cubature import BlendedCubature, Cubature, CubatureErrors
 from .energy_choice import (
     ENERGIES,
     Energy,
@@ -11,17 +11,25 @@ from .energy_choice import (
 from .handle_quadric import HandleQuadric, handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
-from .quartic import Quartic, coefficient_count, pose_quartics, reduced_quartic
+from .quartic import (
+    PoseQuartics,
+    Quartic,
+    coefficient_count,
+    pose_quartics,
+    reduced_quartic,
+)
 from .reduce import reduce
 from .reduced_model import ReducedModel
 
 __all__ = [
     "ENERGIES",
+    "BlendedCubature",
     "Cubature",
     "CubatureErrors",
     "Energy",
     "HandleQuadric",
     "InterpolationModel",
+    "PoseQuartics",
     "PosingModel",
     "Quartic",
     "ReducedModel",

@@ -31,19 +31,12 @@ def chosen_energy(
     Raises
     ------
     ValueError
-        For an unknown choice, an exact energy of a material whose density is no quartic, or a
-        cubature for interpolation.
+        For an unknown choice, or an exact energy of a material whose density is no quartic.
     """
     if energy not in ENERGIES:
         raise ValueError(
             f"reduce: unknown energy '{energy}'; known are {', '.join(map(str, ENERGIES))}"
         )
-    if isinstance(problem, InterpolationProblem):
-        if energy == "cubature":
-            raise ValueError(
-                "reduce: interpolation has exact energies only; leave energy='cubature' out"
-            )
-        return "exact"
     material = problem.material
     quartic = material.exact_degree == 4
     if energy == "exact" and not quartic:
@@ -53,7 +46,9 @@ def chosen_energy(
         )
     if energy != "auto":
         return energy
-    return "exact" if quartic and _quartic_pays(dimension) else "cubature"
+    # poses are blended in few dimensions, and their quartics need no training
+    blends = isinstance(problem, InterpolationProblem)
+    return "exact" if quartic and (blends or _quartic_pays(dimension)) else "cubature"
 
 
 def fewest_snapshots(

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..cubature import BlendedCubature, WeightedCubature
 from ..problem import InterpolationProblem
-from .quartic import Quartic, coefficient_count
+from .quartic import PoseQuartics, Quartic
 from .reduced_model import ReducedModel
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ class InterpolationModel(ReducedModel):
     """An interpolation problem restricted to a subspace attached to the mean shape.
 
     Fields as for `ReducedModel`, and
-    coefficients : (poses, C(d + 4, 4)), the quartic of every pose as in `Quartic`
+    blends : PoseQuartics, exact, or BlendedCubature, a sum over few tets
 
     The subspace is M-orthogonal to the translations and infinitesimal rotations of the mean shape,
     because all its snapshots were registered there: the reduced problem has no rigid null
@@ -31,25 +32,25 @@ class InterpolationModel(ReducedModel):
     """
 
     problem: InterpolationProblem
-    coefficients: FloatArray
+    blends: PoseQuartics | BlendedCubature
 
-    def elastic(self, weights: ArrayLike) -> Quartic:
-        """The reduced energy for weights (poses,): the weighted sum of the poses' quartics."""
-        combined = np.asarray(weights, np.float64) @ self.coefficients
-        return Quartic(self.dimension, combined)
+    def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature:
+        """The reduced energy for weights (poses,)."""
+        return self.blends.at(weights)
 
     def value(self, q: FloatArray, weights: ArrayLike) -> float:
-        """Reduced objective at coordinates (d,); equal to F at tau + U q."""
+        """Reduced objective at coordinates (d,).
+
+        Equal to F at tau + U q, but for the cubature's error.
+        """
         return self.elastic(weights).value(q)
 
     def leading(self, dimension: int) -> InterpolationModel:
         """The model on the first coordinates; nothing is computed anew."""
-        subspace = self.subspace.leading(dimension)
-        count = coefficient_count(dimension)
         return replace(
             self,
-            subspace=subspace,
-            coefficients=np.ascontiguousarray(self.coefficients[:, :count]),
+            subspace=self.subspace.leading(dimension),
+            blends=self.blends.leading(dimension),
             training_coordinates=self.training_coordinates[:, :dimension],
         )
 

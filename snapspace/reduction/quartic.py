@@ -70,6 +70,38 @@ class Quartic:
         return Quartic(dimension, self.coefficients[: coefficient_count(dimension)])
 
 
+class PoseQuartics:
+    """The exact energies of several poses, one quartic each: blends are their weighted sums.
+
+    Parameters
+    ----------
+    dimension : int, d
+    coefficients : (poses, C(d + 4, 4)), of each pose as in `Quartic`
+
+    Raises
+    ------
+    ValueError
+        If the number of coefficients does not match.
+    """
+
+    def __init__(self, dimension: int, coefficients: FloatArray) -> None:
+        if coefficients.ndim != 2 or coefficients.shape[1] != coefficient_count(dimension):
+            raise ValueError(
+                f"PoseQuartics: dimension {dimension} needs {coefficient_count(dimension)} "
+                f"coefficients per pose, got an array of shape {coefficients.shape}"
+            )
+        self.dimension = dimension
+        self.coefficients = np.ascontiguousarray(coefficients, np.float64)
+
+    def at(self, weights: ArrayLike) -> Quartic:
+        """The blended energy for weights (poses,)."""
+        return Quartic(self.dimension, np.asarray(weights, np.float64) @ self.coefficients)
+
+    def leading(self, dimension: int) -> PoseQuartics:
+        """The polynomials on the first coordinates."""
+        return PoseQuartics(dimension, self.coefficients[:, : coefficient_count(dimension)])
+
+
 def coefficient_count(dimension: int) -> int:
     """C(d + 4, 4), the number of monomials of degree up to four in d variables."""
     return math.comb(dimension + 4, 4)
@@ -92,14 +124,13 @@ def reduced_quartic(
 
 def pose_quartics(
     problem: InterpolationProblem, subspace: AffineSubspace, *, threads: int | None = None
-) -> FloatArray:
-    """Coefficients of every pose's elastic energy on a subspace, (poses, C(d + 4, 4))."""
-    return np.stack(
-        [
-            _coefficients(problem.pose_energy(k), pose, subspace, threads=threads)
-            for k, pose in enumerate(problem.pose_shapes)
-        ]
-    )
+) -> PoseQuartics:
+    """The elastic energies of all poses on a subspace, exact for St.Venant-Kirchhoff."""
+    coefficients = [
+        _coefficients(problem.pose_energy(k), pose, subspace, threads=threads)
+        for k, pose in enumerate(problem.pose_shapes)
+    ]
+    return PoseQuartics(subspace.dimension, np.stack(coefficients))
 
 
 def _coefficients(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, overload
 
-from ..cubature import Cubature, train_cubature
+from ..cubature import BlendedCubature, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
@@ -13,7 +13,7 @@ from .energy_choice import Energy, chosen_energy, fewest_snapshots
 from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
-from .quartic import Quartic, pose_quartics, reduced_quartic
+from .quartic import PoseQuartics, Quartic, pose_quartics, reduced_quartic
 from .shown_surface import surface_in
 from .training import check_attached, training
 
@@ -82,7 +82,7 @@ def reduce(
         positive weights, for all materials; handles stay exact. It is trained on the snapshots.
         auto: exact where the material allows it and d is at most 48, else a cubature. There an
         evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with
-        the default r, which the exact energy is worth. Interpolation: exact only.
+        the default r, which the exact energy is worth.
     snapshots : Snapshots, optional
         Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
         needs ten at least that are not at rest. Its quality is that of their forces: those of
@@ -122,10 +122,17 @@ def reduce(
     parameters, coordinates = training(problem, subspace, snapshots)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
+        blends: PoseQuartics | BlendedCubature
+        if kind == "exact":
+            blends = pose_quartics(problem, subspace, threads=threads)
+        else:
+            blends, record["cubature"] = train_blended_cubature(
+                problem, subspace, coordinates, parameters, tets=tets, seed=seed
+            )
         return InterpolationModel(
             problem=problem,
             subspace=subspace,
-            coefficients=pose_quartics(problem, subspace, threads=threads),
+            blends=blends,
             surface=shown,
             training_parameters=parameters,
             training_coordinates=coordinates,

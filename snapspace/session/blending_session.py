@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
-from ..reduction import InterpolationModel
+from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
+from .posing_loop import SINGLE_CUBATURE
 from .session import Session
 
 FloatArray = NDArray[np.float64]
@@ -143,5 +144,14 @@ class BlendingSession(Session[InterpolationModel]):
     def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
         return BlendingProbe(self.model.problem, self.model.subspace, sample)
 
-    def _make_loop(self, *, single: bool) -> core.BlendingLoop:
-        return core.BlendingLoop(self.model.dimension, self.model.coefficients, single=single)
+    def _default_minimizer(self, model: InterpolationModel) -> str:
+        # a Hessian of a cubature costs d / 4 times its gradient
+        return "bfgs" if isinstance(model.blends, BlendedCubature) else "newton"
+
+    def _make_loop(self, *, single: bool) -> core.BlendingLoop | core.BlendedCubatureLoop:
+        blends = self.model.blends
+        if isinstance(blends, PoseQuartics):
+            return core.BlendingLoop(blends.dimension, blends.coefficients, single=single)
+        if single:
+            raise ValueError(SINGLE_CUBATURE)
+        return core.BlendedCubatureLoop(*blends.core_arguments)

@@ -5,6 +5,10 @@ from __future__ import annotations
 from .. import _core as core
 from ..reduction import Cubature, PosingModel
 
+SINGLE_CUBATURE = (
+    "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
+)
+
 
 def posing_loop(model: PosingModel, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
     """The loop for the model's energy; ValueError for a cubature in single precision."""
@@ -12,8 +16,6 @@ def posing_loop(model: PosingModel, *, single: bool) -> core.PosingLoop | core.C
     if not isinstance(elastic, Cubature):
         return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
     if single:
-        raise ValueError(
-            "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
-        )
+        raise ValueError(SINGLE_CUBATURE)
     energy = elastic.rows, elastic.weights, elastic.material.core
     return core.CubatureLoop(*energy, handles.K, handles.L, handles.S)

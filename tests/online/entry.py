@@ -50,7 +50,7 @@ class Entry:
             assert isinstance(model, InterpolationModel)
             count = len(model.problem.poses)
             made = library.snapspace_create_blending(
-                d, count, address(model.coefficients), self._basis(), self._to(error)
+                d, count, address(model.blends.coefficients), self._basis(), self._to(error)
             )
         assert error.value == 0
         self.session = ctypes.c_void_p(made)

@@ -127,7 +127,7 @@ def test_the_mean_shape_is_a_strict_minimum_of_the_reduced_energy(
 def test_a_mean_shape_that_is_no_minimum_makes_no_session(
     blending_model: InterpolationModel,
 ) -> None:
-    spoilt = -blending_model.coefficients
+    spoilt = -blending_model.blends.coefficients
     with pytest.raises(ValueError, match="the reduced Hessian at the mean shape is not positive"):
         core.BlendingLoop(blending_model.dimension, spoilt)
 
@@ -140,8 +140,10 @@ def test_leading_is_the_model_of_the_leading_subspace(
     subspace = blending_model.subspace.leading(dimension)
     direct = reduce(blending_model.problem, subspace)
     assert leading.dimension == dimension
-    scale = np.abs(direct.coefficients).max()
-    assert leading.coefficients == pytest.approx(direct.coefficients, abs=1e-12 * scale)
+    scale = np.abs(direct.blends.coefficients).max()
+    assert leading.blends.coefficients == pytest.approx(
+        direct.blends.coefficients, abs=1e-12 * scale
+    )
     q = np.random.default_rng(2).normal(size=dimension)
     assert np.array_equal(leading.subspace.shape(q), subspace.shape(q))
     padded = np.concatenate([q, np.zeros(12 - dimension)])
@@ -149,14 +151,14 @@ def test_leading_is_the_model_of_the_leading_subspace(
     kept = blending_model.training_coordinates[:, :dimension]
     assert np.array_equal(leading.training_coordinates, kept)
     again = leading.leading(1)
-    assert np.array_equal(again.coefficients, blending_model.leading(1).coefficients)
+    assert np.array_equal(again.blends.coefficients, blending_model.leading(1).blends.coefficients)
 
 
 @pytest.mark.parametrize("weights", [WEIGHTS, np.array([1.4, -0.3, -0.1]), np.eye(3)[1]])
 def test_the_live_loop_combines_the_quartics(
     blending_model: InterpolationModel, weights: FloatArray
 ) -> None:
-    loop = core.BlendingLoop(blending_model.dimension, blending_model.coefficients)
+    loop = core.BlendingLoop(blending_model.dimension, blending_model.blends.coefficients)
     quartics = [blending_model.elastic(e) for e in np.eye(3)]
     for others in (np.eye(3)[2], weights):  # the second time nothing is left of the first
         loop.set_weights(others)
@@ -201,9 +203,9 @@ def test_coefficients_are_bitwise_the_same_for_any_number_of_threads(
 ) -> None:
     problem, subspace = blending_model.problem, blending_model.subspace
     for threads in (1, 2, 4, None):
-        coefficients = pose_quartics(problem, subspace, threads=threads)
+        coefficients = pose_quartics(problem, subspace, threads=threads).coefficients
         assert coefficients.shape == (3, coefficient_count(12))
-        assert np.array_equal(coefficients, blending_model.coefficients)
+        assert np.array_equal(coefficients, blending_model.blends.coefficients)
 
 
 def test_the_surface_is_that_of_the_tets_unless_given(blending_model: InterpolationModel) -> None:

@@ -1,0 +1,159 @@
+#include "online/blended_cubature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "element/make_rest_tet.h"
+#include "element/tet.h"
+#include "material/pose_blend.h"
+#include "material/principal_hessian.h"
+
+namespace snapspace::online {
+
+namespace {
+
+constexpr int kWidth = TetRows::kWidth;
+constexpr std::int32_t kCorners[4] = {0, 1, 2, 3};
+
+/// Displacement gradient of a tet that moves from one place (4 x 3) to another, against the first.
+void gradient_between(const double* from, const double* to, double G[3][3]) {
+  double moved[12];
+  for (int i = 0; i < 12; ++i) moved[i] = to[i] - from[i];
+  displacement_gradient(make_rest_tet(from, kCorners), moved, G);
+}
+
+}  // namespace
+
+BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
+                                 const TetMaterial& material, const PoseTets& poses)
+    : rows_(dimension, tets, rows),
+      kind_(material.kind),
+      poses_(poses.poses),
+      moduli_count_(material_moduli(material.kind)),
+      weights_(poses.poses, 0.0),
+      offsets_(9 * static_cast<std::size_t>(rows_.blocks()), Tets(0.0)) {
+  numbers_count_ =
+      Densities::with(kind_, []<class Density>() { return PoseBlend<Density>::numbers(); });
+  const std::size_t pairs = static_cast<std::size_t>(tets) * poses_;
+  maps_.resize(9 * pairs);
+  moduli_.resize(moduli_count_ * pairs);
+  const std::size_t packs = static_cast<std::size_t>(rows_.blocks()) * numbers_count_;
+  numbers_.assign(packs * poses_, Tets(0.0));
+  blend_.assign(std::max<std::size_t>(packs, poses_), Tets(0.0));
+  for (int tet = 0; tet < tets; ++tet) set_tet(tet, weights[tet], material.of(tet), poses);
+}
+
+void BlendedCubature::set_tet(int tet, double weight, const double* moduli, const PoseTets& poses) {
+  const int block = tet / kWidth, lane = tet % kWidth;
+  const auto corners = [&](int pose) {
+    return poses.corners + 12 * (static_cast<std::size_t>(pose) * rows_.tets() + tet);
+  };
+  double G[3][3];
+  gradient_between(corners(0), poses.tau + 12 * static_cast<std::size_t>(tet), G);
+  for (int e = 0; e < 9; ++e) offsets_[9 * block + e].set(lane, G[e / 3][e % 3]);
+  const double share = weight / make_rest_tet(corners(0), kCorners).volume;
+  std::vector<double> numbers(numbers_count_);
+  for (int k = 0; k < poses_; ++k) {
+    const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + k;
+    // F A = F + F map: the map is pose 0's displacement gradient against pose k
+    double map[3][3];
+    gradient_between(corners(k), corners(0), map);
+    const double volume = share * make_rest_tet(corners(k), kCorners).volume;
+    for (int e = 0; e < 9; ++e) maps_[9 * pair + e] = map[e / 3][e % 3];
+    double* weighted = moduli_.data() + moduli_count_ * pair;
+    for (int i = 0; i < moduli_count_; ++i) weighted[i] = volume * moduli[i];
+    Densities::with(
+        kind_, [&]<class Density>() { PoseBlend<Density>::fill(weighted, map, numbers.data()); });
+    for (int i = 0; i < numbers_count_; ++i)
+      numbers_[(static_cast<std::size_t>(block) * poses_ + k) * numbers_count_ + i].set(lane,
+                                                                                        numbers[i]);
+  }
+}
+
+void BlendedCubature::set_weights(const double* weights) {
+  std::copy_n(weights, poses_, weights_.data());
+  if (!Densities::with(kind_, []<class Density>() { return PoseBlend<Density>::kCollapses; })) {
+    for (int k = 0; k < poses_; ++k) blend_[k] = Tets(weights[k]);
+    return;
+  }
+  const Tets* numbers = numbers_.data();
+  Tets* sums = blend_.data();
+  for (int b = 0; b < rows_.blocks(); ++b, sums += numbers_count_) {
+    std::fill_n(sums, numbers_count_, Tets(0.0));
+    for (int k = 0; k < poses_; ++k, numbers += numbers_count_)
+      for (int i = 0; i < numbers_count_; ++i) sums[i] += Tets(weights[k]) * numbers[i];
+  }
+}
+
+void BlendedCubature::gradients(int block, Tets G[3][3]) const {
+  rows_.gradients(block, G);
+  for (int e = 0; e < 9; ++e) G[e / 3][e % 3] += offsets_[9 * block + e];
+}
+
+double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
+  rows_.begin(q);
+  const double value = Densities::with(kind_, [&]<class Density>() {
+    using Blend = PoseBlend<Density>;
+    double sum = 0.0;
+    for (int b = 0; b < rows_.blocks(); ++b) {
+      Tets G[3][3], P[3][3];
+      gradients(b, G);
+      if constexpr (Blend::kCollapses) {
+        sum +=
+            lane_sum(Density::Blend::value_and_stress(blend_.data() + b * Blend::numbers(), G, P));
+      } else {
+        const Tets* numbers = numbers_.data() + b * poses_ * Blend::numbers();
+        sum += lane_sum(sum_over_poses<Density>(poses_, blend_.data(), numbers, G, P));
+      }
+      rows_.add_stresses(b, P);
+    }
+    return sum;
+  });
+  rows_.end(gradient);
+  return value;
+}
+
+/// Adds the Hessian of a tet's energy against a pose, by its displacement gradient against pose 0,
+/// times the pose's weight: dP = P'(dF A) A^T.
+void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
+                                    double hessian[9][9]) const {
+  const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + pose;
+  const double* map = maps_.data() + 9 * pair;
+  double A[3][3], there[3][3], change[3][3], stress[3][3];
+  for (int e = 0; e < 9; ++e) A[e / 3][e % 3] = map[e] + (e % 4 == 0 ? 1.0 : 0.0);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      there[r][c] = map[3 * r + c] + G[r][0] * A[0][c] + G[r][1] * A[1][c] + G[r][2] * A[2][c];
+  const PrincipalHessian principal({kind_, 1, moduli_.data() + moduli_count_ * pair}, 0, there);
+  for (int e = 0; e < 9; ++e) {
+    for (int f = 0; f < 9; ++f) change[f / 3][f % 3] = f / 3 == e / 3 ? A[e % 3][f % 3] : 0.0;
+    principal.multiply(change, stress);
+    for (int f = 0; f < 9; ++f) {
+      const double *P = stress[f / 3], *row = A[f % 3];
+      hessian[f][e] += weights_[pose] * (P[0] * row[0] + P[1] * row[1] + P[2] * row[2]);
+    }
+  }
+}
+
+double BlendedCubature::derivatives(const double* q, double* gradient, double* hessian) {
+  const double value = value_and_gradient(q, gradient);
+  const auto d = static_cast<std::size_t>(dimension());
+  std::fill_n(hessian, d * d, 0.0);
+  for (int b = 0; b < rows_.blocks(); ++b) {
+    Tets G[3][3], curvature[9][9];
+    gradients(b, G);
+    for (auto& row : curvature) std::fill_n(row, 9, Tets(0.0));
+    for (int lane = 0; lane < rows_.lanes(b); ++lane) {
+      double own[3][3], sum[9][9] = {};
+      for (int e = 0; e < 9; ++e) own[e / 3][e % 3] = G[e / 3][e % 3][lane];
+      for (int k = 0; k < poses_; ++k)
+        if (weights_[k] != 0.0) add_curvature(b * kWidth + lane, k, own, sum);
+      for (int e = 0; e < 81; ++e) curvature[e / 9][e % 9].set(lane, sum[e / 9][e % 9]);
+    }
+    rows_.add_curvatures(b, curvature, hessian);
+  }
+  return value;
+}
+
+}  // namespace snapspace::online

@@ -1,0 +1,66 @@
+#pragma once
+#include <vector>
+
+#include "material/tet_material.h"
+#include "online/tet_rows.h"
+
+namespace snapspace::online {
+
+/// Some tets of a body in several poses.
+struct PoseTets {
+  int poses;
+  const double* corners;  ///< poses x tets x 4 x 3: the tets in each pose, none without volume
+  const double* tau;      ///< tets x 4 x 3: the tets where the reduced coordinates vanish
+};
+
+/// The blended energy sum_k w_k E_k of several poses as a weighted sum over few tets, for any
+/// density: the same tets for all poses. See PoseBlend for what a tet's energy is.
+///
+/// A density that collapses is evaluated once per tet, for any number of poses; the others once per
+/// pose. Takes no memory after construction.
+class BlendedCubature {
+ public:
+  static constexpr bool kHessianIsDear = true;
+
+  /// Copies its arrays. The weights of the poses are zero at first.
+  /// @param rows  tets x 9 x dimension, displacement gradients of the modes against pose 0
+  /// @param weights  tets, the volume in pose 0 that each stands for
+  /// @param material  of these tets
+  BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
+                  const TetMaterial& material, const PoseTets& poses);
+
+  [[nodiscard]] int poses() const { return poses_; }
+  [[nodiscard]] int dimension() const { return rows_.dimension(); }
+  [[nodiscard]] int capacity() const { return rows_.capacity(); }
+
+  /// Restricts the energy to the first coordinates, 1 <= dimension <= capacity.
+  void set_dimension(int dimension) { rows_.set_dimension(dimension); }
+
+  /// Takes the weights of the poses.
+  void set_weights(const double* weights);
+
+  /// Value at q (d); `gradient` (d) is overwritten.
+  double value_and_gradient(const double* q, double* gradient);
+
+  /// Also the lower triangle of the Hessian (d x d), which is overwritten.
+  double derivatives(const double* q, double* gradient, double* hessian);
+
+ private:
+  using Tets = TetRows::Tets;
+
+  void set_tet(int tet, double weight, const double* moduli, const PoseTets& poses);
+  /// Displacement gradients against pose 0.
+  void gradients(int block, Tets G[3][3]) const;
+  void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
+
+  TetRows rows_;
+  int kind_, poses_;
+  int numbers_count_, moduli_count_;   // of a tet and pose
+  std::vector<double> weights_;        // of the poses
+  std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau
+  std::vector<double> maps_, moduli_;  // tet, pose: A - I, and the moduli times volume
+  std::vector<Tets> numbers_;          // block, pose: see PoseBlend
+  std::vector<Tets> blend_;            // block: numbers of all poses together, or their weights
+};
+
+}  // namespace snapspace::online

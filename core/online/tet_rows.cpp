@@ -1,0 +1,102 @@
+#include "online/tet_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace snapspace::online {
+
+TetRows::TetRows(int dimension, int tets, const float* rows)
+    : capacity_(dimension),
+      dimension_(dimension),
+      pairs_((dimension + 1) / 2),
+      tets_(tets),
+      coordinates_(2 * pairs_, 0.0),
+      sums_(2 * pairs_) {
+  const std::size_t size = static_cast<std::size_t>(tets) * 9 * dimension;
+  double largest = 1e-200;
+  for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, std::abs(double{rows[i]}));
+  const double least = 1e-30 * largest;  // the first of two numbers must not be zero
+  const auto word = [&](double first, double second) {
+    return number_pair(std::abs(first) < least ? least : first, second);
+  };
+
+  words_.assign(static_cast<std::size_t>(blocks()) * pairs_ * 9, Tets(word(0.0, 0.0)));
+  for (int tet = 0; tet < tets; ++tet) {
+    const int block = tet / kWidth, lane = tet % kWidth;
+    for (int pair = 0; pair < pairs_; ++pair)
+      for (int e = 0; e < 9; ++e) {
+        const float* row = rows + (static_cast<std::size_t>(tet) * 9 + e) * dimension + 2 * pair;
+        const double second = 2 * pair + 1 < dimension ? row[1] : 0.0f;
+        words_[(static_cast<std::size_t>(block) * pairs_ + pair) * 9 + e].set(lane,
+                                                                              word(row[0], second));
+      }
+  }
+}
+
+void TetRows::set_dimension(int dimension) {
+  dimension_ = dimension;
+  pairs_ = (dimension + 1) / 2;
+}
+
+void TetRows::begin(const double* q) {
+  std::copy_n(q, dimension_, coordinates_.data());
+  if (dimension_ % 2 == 1) coordinates_[dimension_] = 0.0;
+  std::fill(sums_.begin(), sums_.end(), Tets(0.0));
+}
+
+void TetRows::gradients(int block, Tets G[3][3]) const {
+  // Nine named sums stay in registers, an array might not.
+  Tets g0(0.0), g1(0.0), g2(0.0), g3(0.0), g4(0.0), g5(0.0), g6(0.0), g7(0.0), g8(0.0);
+  const Tets* row = words(block);
+  for (int pair = 0; pair < pairs_; ++pair, row += 9) {
+    const Tets a(coordinates_[2 * pair]), b(coordinates_[2 * pair + 1]);
+    const auto term = [&](int e) { return row[e] * a + second_numbers(row[e]) * b; };
+    g0 += term(0), g1 += term(1), g2 += term(2);
+    g3 += term(3), g4 += term(4), g5 += term(5);
+    g6 += term(6), g7 += term(7), g8 += term(8);
+  }
+  G[0][0] = g0, G[0][1] = g1, G[0][2] = g2;
+  G[1][0] = g3, G[1][1] = g4, G[1][2] = g5;
+  G[2][0] = g6, G[2][1] = g7, G[2][2] = g8;
+}
+
+void TetRows::add_stresses(int block, const Tets P[3][3]) {
+  const Tets* row = words(block);
+  for (int pair = 0; pair < pairs_; ++pair, row += 9) {
+    Tets first(0.0), second(0.0);
+    for (int e = 0; e < 9; ++e) {
+      first += row[e] * P[e / 3][e % 3];
+      second += second_numbers(row[e]) * P[e / 3][e % 3];
+    }
+    sums_[2 * pair] += first;
+    sums_[2 * pair + 1] += second;
+  }
+}
+
+void TetRows::end(double* gradient) const {
+  for (int mode = 0; mode < dimension_; ++mode) gradient[mode] = lane_sum(sums_[mode]);
+}
+
+TetRows::Tets TetRows::entry(const Tets* words, int mode, int e) {
+  const Tets word = words[9 * (mode / 2) + e];
+  return mode % 2 == 0 ? word : second_numbers(word);
+}
+
+void TetRows::add_curvatures(int block, const Tets curvature[9][9], double* hessian) const {
+  const Tets* own = words(block);
+  Tets change[9];
+  for (int i = 0; i < dimension_; ++i) {
+    for (int f = 0; f < 9; ++f) {
+      change[f] = Tets(0.0);
+      for (int e = 0; e < 9; ++e) change[f] += curvature[f][e] * entry(own, i, e);
+    }
+    double* row = hessian + static_cast<std::size_t>(i) * dimension_;
+    for (int j = 0; j <= i; ++j) {
+      Tets sum(0.0);
+      for (int e = 0; e < 9; ++e) sum += entry(own, j, e) * change[e];
+      row[j] += lane_sum(sum);
+    }
+  }
+}
+
+}  // namespace snapspace::online

@@ -1,0 +1,40 @@
+"""What all cubatures ask of the tets that they are given."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..material import Material
+
+FloatArray = NDArray[np.float64]
+
+
+def check_chosen(
+    tets: NDArray[np.int32],
+    weights: FloatArray,
+    rows: NDArray[np.float32],
+    material: Material,
+    *,
+    who: str,
+) -> None:
+    """ValueError of `who` unless sizes match and all weights are positive and finite."""
+    r = len(tets)
+    if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
+        raise ValueError(
+            f"{who}: {r} tets need weights ({r},) and rows ({r}, 9, d), got arrays of "
+            f"shapes {weights.shape} and {rows.shape}"
+        )
+    bad = np.flatnonzero(~(np.isfinite(weights) & (weights > 0)))
+    if bad.size:
+        raise ValueError(
+            f"{who}: the weight of tet {tets[bad[0]]} is {weights[bad[0]]}, but weights "
+            "must be positive"
+        )
+    material.check_tets(r, who)
+
+
+def check_in_mesh(tets: NDArray[np.int32], count: int, *, who: str) -> None:
+    """ValueError of `who` unless the mesh has all of these tets."""
+    if len(tets) and not 0 <= tets.min() <= tets.max() < count:
+        raise ValueError(f"{who}: tets must be between 0 and {count - 1}")
