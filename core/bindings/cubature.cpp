@@ -1,19 +1,14 @@
-#include "online/cubature.h"
-
 #include "bindings/live_loop.h"
 #include "energy/material_field.h"
-#include "online/posing_solver.h"
 
 namespace snapspace {
 
 namespace {
 
-using online::Cubature;
-using CubatureSolver = online::PosingSolver<Cubature>;
-using CubatureLoop = Loop<CubatureSolver>;
 using RowsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
-Cubature make_cubature(const RowsIn& rows, const VectorIn& weights, const MaterialField& material) {
+live::CubatureArrays cubature_arrays(const RowsIn& rows, const VectorIn& weights,
+                                     const MaterialField& material) {
   require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
               weights.size() == rows.shape(0),
           "rows (tets, 9, d) and weights (tets,) do not match");
@@ -25,43 +20,32 @@ Cubature make_cubature(const RowsIn& rows, const VectorIn& weights, const Materi
 }  // namespace
 
 void bind_cubature(nb::module_& m) {
-  nb::class_<Cubature>(m, "Cubature", "Elastic energy as a weighted sum over few tets.")
+  nb::class_<Cubature, ReducedFunction>(m, "Cubature",
+                                        "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
           [](Cubature* self, RowsIn rows, VectorIn weights, const MaterialField& material) {
-            new (self) Cubature(make_cubature(rows, weights, material));
+            new (self) Cubature{{live::cubature(cubature_arrays(rows, weights, material))}};
           },
-          nb::arg("rows"), nb::arg("weights"), nb::arg("material"))
-      .def_prop_ro("dimension", &Cubature::dimension)
-      .def(
-          "value_and_gradient",
-          [](Cubature& self, VectorIn q) { return value_and_gradient(self, q); }, nb::arg("q"))
-      .def(
-          "derivatives", [](Cubature& self, VectorIn q) { return derivatives(self, q); },
-          nb::arg("q"), "Value, gradient and Hessian.");
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"));
 
-  nb::class_<CubatureLoop> loop(m, "CubatureLoop",
-                                "The live loop of posing with a cubature instead of a quartic.");
-  loop.def(
-      "__init__",
-      [](CubatureLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-         MatrixIn K, TensorIn L, TensorIn S) {
-        Cubature elastic = make_cubature(rows, weights, material);
-        const auto d = static_cast<std::size_t>(elastic.dimension());
-        require(K.shape(0) == d && K.shape(1) == d && L.shape(1) == d && L.shape(2) == 12 &&
-                    S.shape(0) == L.shape(0) && S.shape(1) == 4 && S.shape(2) == 4,
-                "rows (tets, 9, d), K (d,d), L (h,d,12), S (h,4,4) do not match");
-        CubatureSolver solver(std::move(elastic), static_cast<int>(L.shape(0)), K.data(), L.data(),
-                              S.data());
-        require_valid(solver,
-                      "the reduced Hessian at rest is not positive definite; the cubature has too "
-                      "few tets, or the handles do not hold the shape");
-        new (self) CubatureLoop{std::move(solver), std::vector<double>(d, 0.0)};
-      },
-      nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("K"), nb::arg("L"),
-      nb::arg("S"));
-  bind_offsets(loop);
-  bind_loop(loop);
+  nb::class_<CubatureLoop, PosingLoop>(
+      m, "CubatureLoop", "The live loop of posing with a cubature instead of a quartic.")
+      .def(
+          "__init__",
+          [](CubatureLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
+             MatrixIn K, TensorIn L, TensorIn S) {
+            constexpr auto kMismatch =
+                "rows (tets, 9, d), K (d,d), L (h,d,12), S (h,4,4) do not match";
+            const live::CubatureArrays elastic = cubature_arrays(rows, weights, material);
+            require(K.shape(0) == rows.shape(2), kMismatch);
+            new (self) CubatureLoop(
+                live::posing_solver(elastic, handle_arrays(K, L, S, kMismatch)),
+                "the reduced Hessian at rest is not positive definite; the cubature has too few "
+                "tets, or the handles do not hold the shape");
+          },
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("K"), nb::arg("L"),
+          nb::arg("S"));
 }
 
 }  // namespace snapspace
