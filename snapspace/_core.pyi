@@ -453,10 +453,8 @@ class Report:
 def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """tau + sum of q_i modes_i, (3n,)."""
 
-class Quartic:
-    """Polynomial of degree four with fully symmetric packed coefficients."""
-
-    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
+class ReducedFunction:
+    """A function of reduced coordinates q (d,)."""
 
     @property
     def dimension(self) -> int: ...
@@ -466,133 +464,67 @@ class Quartic:
     def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
         """Value, gradient and Hessian in one pass."""
 
-class PosingLoop:
+class Quartic(ReducedFunction):
+    """Polynomial of degree four with fully symmetric packed coefficients."""
+
+    def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
+
+class LiveLoop:
+    """Solves frame by frame, each from the last one."""
+
+    @property
+    def q(self) -> NDArray[numpy.float64]: ...
+
+    @q.setter
+    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
+
+    @property
+    def dimension(self) -> int: ...
+
+    @dimension.setter
+    def dimension(self, arg: int, /) -> None: ...
+
+    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
+
+    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
+
+    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
+
+class PosingLoop(LiveLoop):
     """The live loop of posing: set offsets, solve from the last frame."""
 
     def __init__(self, coefficients: NDArray[numpy.float64], K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
 
-    @property
-    def q(self) -> NDArray[numpy.float64]: ...
-
-    @q.setter
-    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
-
-    @property
-    def dimension(self) -> int: ...
-
-    @dimension.setter
-    def dimension(self, arg: int, /) -> None: ...
-
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
-
-    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
-
-class BlendingLoop:
+class BlendingLoop(LiveLoop):
     """The live loop of blending: set weights, solve from the last frame."""
 
     def __init__(self, dimension: int, coefficients: NDArray[numpy.float64], *, single: bool = False) -> None: ...
 
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
-    @property
-    def q(self) -> NDArray[numpy.float64]: ...
-
-    @q.setter
-    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
-
-    @property
-    def dimension(self) -> int: ...
-
-    @dimension.setter
-    def dimension(self, arg: int, /) -> None: ...
-
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
-
-    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
-
-class Cubature:
+class Cubature(ReducedFunction):
     """Elastic energy as a weighted sum over few tets."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material) -> None: ...
 
-    @property
-    def dimension(self) -> int: ...
-
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
-        """Value, gradient and Hessian."""
-
-class CubatureLoop:
+class CubatureLoop(PosingLoop):
     """The live loop of posing with a cubature instead of a quartic."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
-    def set_offsets(self, offsets: NDArray[numpy.float64]) -> None: ...
-
-    @property
-    def q(self) -> NDArray[numpy.float64]: ...
-
-    @q.setter
-    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
-
-    @property
-    def dimension(self) -> int: ...
-
-    @dimension.setter
-    def dimension(self, arg: int, /) -> None: ...
-
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
-
-    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
-
-class BlendedCubature:
+class BlendedCubature(ReducedFunction):
     """Blended energy of several poses as a weighted sum over few tets."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
-    @property
-    def dimension(self) -> int: ...
-
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def derivatives(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64], NDArray[numpy.float64]]:
-        """Value, gradient and Hessian."""
-
-class BlendedCubatureLoop:
+class BlendedCubatureLoop(BlendingLoop):
     """The live loop of blending with a cubature instead of quartics."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
-
-    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
-
-    @property
-    def q(self) -> NDArray[numpy.float64]: ...
-
-    @q.setter
-    def q(self, arg: NDArray[numpy.float64], /) -> None: ...
-
-    @property
-    def dimension(self) -> int: ...
-
-    @dimension.setter
-    def dimension(self, arg: int, /) -> None: ...
-
-    def value_and_gradient(self, q: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]: ...
-
-    def hessian(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float64]: ...
-
-    def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
 
 class ResidualProbe:
     """The full objective's gradient at sampled vertices."""

@@ -31,16 +31,17 @@ ScalarFactor in_order(IndexVectorIn starts, IndexVectorIn rows, VectorIn values,
   return {A, Supernodes(A, given)};
 }
 
-template <class Real, int Width>
+template <Packing packing>
 DoublesOut solve(const ScalarFactor& factor, MatrixIn right_hand_sides) {
-  return solved_in_lanes<Real, Width>(factor.size(), right_hand_sides,
-                                      [&](Real* shape) { factor.solve(shape, shape); });
+  return solved_in_lanes(factor.size(), packing, right_hand_sides,
+                         [&](std::size_t count, const double* from, double* to) {
+                           solve_in_lanes(factor, packing, count, from, to);
+                         });
 }
 
 }  // namespace
 
 void bind_cholesky(nb::module_& m) {
-  constexpr int kSingle = 2 * kWideLanes;
   m.def("minimum_degree", &order<minimum_degree>, nb::arg("starts"), nb::arg("rows"),
         "Order of elimination (n,) of a symmetric pattern, given by its columns.");
   m.def("nested_dissection", &order<nested_dissection>, nb::arg("starts"), nb::arg("rows"),
@@ -57,10 +58,10 @@ void bind_cholesky(nb::module_& m) {
       .def_static("in_order", &in_order, nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
                   nb::arg("order"), "The factor for an order of elimination (n,).")
       .def_prop_ro("nonzeros", &ScalarFactor::nonzeros)
-      .def("solve", &solve<double, 1>, nb::arg("right_hand_side"), "Solution of one (1, 3n).")
-      .def("solve_lanes", &solve<Lanes<kWideLanes>, kWideLanes>, nb::arg("right_hand_sides"),
+      .def("solve", &solve<Packing::alone>, nb::arg("right_hand_side"), "Solution of one (1, 3n).")
+      .def("solve_lanes", &solve<Packing::lanes>, nb::arg("right_hand_sides"),
            "Solutions of up to lane_count (k, 3n), one per lane.")
-      .def("solve_single_lanes", &solve<SingleLanes<kSingle>, kSingle>, nb::arg("right_hand_sides"),
+      .def("solve_single_lanes", &solve<Packing::single_lanes>, nb::arg("right_hand_sides"),
            "The same in single precision, of up to twice as many.");
 }
 

@@ -1,6 +1,7 @@
 #include "bindings/arrays.h"
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
+#include "lanes/in_lanes.h"
 
 namespace snapspace {
 
@@ -30,22 +31,14 @@ std::tuple<IndicesOut, IndicesOut, DoublesOut> blocks_of(const BlockHessian& hes
           copy_to_array(hessian.blocks().data()->data(), {count, 3, 3})};
 }
 
-/// Shapes (k, 3n) as lanes of one pack; lanes without one are at rest.
-template <class Real>
-std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const MatrixIn& shapes) {
+std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const MatrixIn& shapes,
+                                           bool single) {
+  const Packing packing = single ? Packing::single_lanes : Packing::lanes;
   const std::size_t count = shapes.shape(0), n = size(self);
-  require(count <= Real::kWidth && shapes.shape(1) == n, "needs (k, 3n), and k no more than lanes");
-  std::vector<Real> u(n, Real(0)), gradient(n, Real(0));
-  for (std::size_t lane = 0; lane < count; ++lane)
-    for (std::size_t i = 0; i < n; ++i)
-      set_lane(u[i], static_cast<int>(lane), shapes.data()[lane * n + i]);
-  const Sum<Real> energies = self.value_and_gradient(u.data(), gradient.data());
+  require(count <= static_cast<std::size_t>(samples_together(packing)) && shapes.shape(1) == n,
+          "needs (k, 3n), and k no more than lanes");
   DoublesOut values = new_array<double>({count}), gradients = new_array<double>({count, n});
-  for (std::size_t lane = 0; lane < count; ++lane) {
-    values.data()[lane] = energies[static_cast<int>(lane)];
-    for (std::size_t i = 0; i < n; ++i)
-      gradients.data()[lane * n + i] = gradient[i][static_cast<int>(lane)];
-  }
+  energies_in_lanes(self, packing, count, shapes.data(), values.data(), gradients.data());
   return {values, gradients};
 }
 
@@ -133,12 +126,8 @@ void bind_energy(nb::module_& m) {
           "Hessian at u, every tet's projected, as block rows: (row_start (n+1,), columns (b,), "
           "blocks (b,3,3)). The threshold is that of Projection.stretches.")
       .def(
-          "lane_values_and_gradients",
-          [](const ElasticEnergy& self, MatrixIn shapes, bool single) {
-            return single ? in_lanes<SingleLanes<2 * kWideLanes>>(self, shapes)
-                          : in_lanes<Lanes<kWideLanes>>(self, shapes);
-          },
-          nb::arg("shapes"), nb::kw_only(), nb::arg("single") = false,
+          "lane_values_and_gradients", &in_lanes, nb::arg("shapes"), nb::kw_only(),
+          nb::arg("single") = false,
           "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), twice as "
           "many in single precision, one per lane.")
       .def(

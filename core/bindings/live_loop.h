@@ -5,20 +5,19 @@
 #include <vector>
 
 #include "bindings/arrays.h"
-#include "online/minimizer.h"
+#include "live/live_loop.h"
 
 namespace snapspace {
 
-inline const double* checked(int dimension, const VectorIn& q) {
+inline const double* checked_coordinates(int dimension, const VectorIn& q) {
   require(q.size() == static_cast<std::size_t>(dimension), "q must have one entry per dimension");
   return q.data();
 }
 
-/// Value, gradient and full Hessian of anything that has derivatives().
-template <class Function>
-auto derivatives(Function& function, const VectorIn& q) {
+/// Value, gradient and full Hessian.
+inline auto derivatives(live::ReducedFunction& function, const VectorIn& q) {
   const auto d = static_cast<std::size_t>(function.dimension());
-  const double* at = checked(function.dimension(), q);
+  const double* at = checked_coordinates(function.dimension(), q);
   DoublesOut gradient = new_array<double>({d}), hessian = new_array<double>({d, d});
   double* H = hessian.data();
   const double value = function.derivatives(at, gradient.data(), H);
@@ -27,93 +26,58 @@ auto derivatives(Function& function, const VectorIn& q) {
   return std::make_tuple(value, gradient, hessian);
 }
 
-template <class Function>
-auto value_and_gradient(Function& function, const VectorIn& q) {
-  const double* at = checked(function.dimension(), q);
+inline auto value_and_gradient(live::ReducedFunction& function, const VectorIn& q) {
+  const double* at = checked_coordinates(function.dimension(), q);
   DoublesOut gradient = new_array<double>({q.size()});
   const double value = function.value_and_gradient(at, gradient.data());
   return std::make_pair(value, gradient);
 }
 
-/// A live solver with its current coordinates, as many as the solver can take.
-template <class Solver>
-struct Loop {
-  Solver solver;
-  std::vector<double> q;
+/// A function that the core has made. Python knows the two kinds by their names only.
+struct ReducedFunction {
+  live::FunctionPointer function;
+};
+struct Quartic : ReducedFunction {};
+struct Cubature : ReducedFunction {};
+struct BlendedCubature : ReducedFunction {
+  live::BlendedFunction* blend;  // the same function
 };
 
-template <class Solver>
-void require_valid(const Solver& solver, const char* message) {
-  if (!solver.valid()) throw std::invalid_argument(message);
-}
+/// A live solver with its current coordinates, as many as the solver can take.
+struct LiveLoop {
+  live::SolverPointer solver;
+  std::vector<double> q;
 
-/// What the loops of all problems have in common.
-template <class Solver>
-void bind_loop(nb::class_<Loop<Solver>>& loop) {
-  using Self = Loop<Solver>;
-  loop.def_prop_rw(
-          "q",
-          [](const Self& self) {
-            return copy_to_array(self.q.data(),
-                                 {static_cast<std::size_t>(self.solver.dimension())});
-          },
-          [](Self& self, VectorIn q) {
-            std::copy_n(checked(self.solver.dimension(), q), q.size(), self.q.data());
-          },
-          nb::for_getter(nb::rv_policy::automatic))
-      .def_prop_rw(
-          "dimension", [](const Self& self) { return self.solver.dimension(); },
-          [](Self& self, int dimension) {
-            require(1 <= dimension && dimension <= self.solver.capacity(),
-                    "dimension must be between 1 and that of the model");
-            const auto kept = std::min(dimension, self.solver.dimension());
-            std::fill(self.q.begin() + kept, self.q.end(), 0.0);
-            self.solver.set_dimension(dimension);
-          })
-      .def(
-          "value_and_gradient",
-          [](Self& self, VectorIn q) { return value_and_gradient(self.solver, q); }, nb::arg("q"))
-      .def(
-          "hessian",
-          [](Self& self, VectorIn q) { return std::get<2>(derivatives(self.solver, q)); },
-          nb::arg("q"))
-      .def(
-          "solve",
-          [](Self& self, online::Method method, double tolerance, int max_iterations,
-             int max_evaluations, double value_scale, double coordinate_scale) {
-            return self.solver.solve(
-                self.q.data(), method,
-                {tolerance, value_scale, coordinate_scale, max_iterations, max_evaluations});
-          },
-          nb::kw_only(), nb::arg("method"), nb::arg("tolerance"), nb::arg("max_iterations"),
-          nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"));
-}
+  /// @throws std::invalid_argument  with this message if the solver is not valid
+  LiveLoop(live::SolverPointer made, const char* message) : solver(std::move(made)) {
+    require(solver->valid(), message);
+    q.assign(static_cast<std::size_t>(solver->capacity()), 0.0);
+  }
+};
 
-/// For the loops of posing: the handles' offsets.
-template <class Solver>
-void bind_offsets(nb::class_<Loop<Solver>>& loop) {
-  loop.def(
-      "set_offsets",
-      [](Loop<Solver>& self, TensorIn offsets) {
-        require(offsets.shape(0) == static_cast<std::size_t>(self.solver.handles()) &&
-                    offsets.shape(1) == 3 && offsets.shape(2) == 4,
-                "offsets must be (handles, 3, 4)");
-        self.solver.set_offsets(offsets.data());
-      },
-      nb::arg("offsets"));
-}
+/// By a quartic, or a cubature, which takes offsets alike.
+struct PosingLoop : LiveLoop {
+  using LiveLoop::LiveLoop;
+};
+struct CubatureLoop : PosingLoop {
+  using PosingLoop::PosingLoop;
+};
+/// By quartics, or a cubature, which takes weights alike.
+struct BlendingLoop : LiveLoop {
+  using LiveLoop::LiveLoop;
+};
+struct BlendedCubatureLoop : BlendingLoop {
+  using BlendingLoop::BlendingLoop;
+};
 
-/// For the loops of blending: the weights of the poses.
-template <class Solver>
-void bind_weights(nb::class_<Loop<Solver>>& loop) {
-  loop.def(
-      "set_weights",
-      [](Loop<Solver>& self, VectorIn weights) {
-        require(weights.size() == static_cast<std::size_t>(self.solver.poses()),
-                "weights must have one entry per pose");
-        self.solver.set_weights(weights.data());
-      },
-      nb::arg("weights"));
+/// The arrays of posing's handles; K tells the dimension.
+inline live::HandleArrays handle_arrays(const MatrixIn& K, const TensorIn& L, const TensorIn& S,
+                                        const char* message) {
+  const std::size_t d = K.shape(0);
+  require(K.shape(1) == d && L.shape(1) == d && L.shape(2) == 12 && S.shape(0) == L.shape(0) &&
+              S.shape(1) == 4 && S.shape(2) == 4,
+          message);
+  return {static_cast<int>(L.shape(0)), K.data(), L.data(), S.data()};
 }
 
 }  // namespace snapspace

@@ -9,19 +9,16 @@ void bind_measure(nb::module_& m) {
   m.def(
       "peak_flops",
       [](bool single, int repeats) {
-        volatile double sink = 1.0 - 1e-9;
         const nb::gil_scoped_release release;
-        return single ? peak_flops<SingleLanes<2 * kWideLanes>>(repeats, sink)
-                      : peak_flops<Lanes<kWideLanes>>(repeats, sink);
+        return peak_flops(single, repeats);
       },
       nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
       "Floating-point operations per second of one thread of this build.");
   m.def(
       "read_bandwidth",
       [](std::size_t bytes, int repeats) {
-        volatile double sink = 0.0;
         const nb::gil_scoped_release release;
-        return read_bandwidth(bytes, repeats, sink);
+        return read_bandwidth(bytes, repeats);
       },
       nb::arg("bytes"), nb::kw_only(), nb::arg("repeats") = 20,
       "Bytes per second that one thread reads from an array of this size.");
@@ -30,14 +27,11 @@ void bind_measure(nb::module_& m) {
       "time_quartic",
       [](int dimension, VectorIn coefficients, VectorIn q, bool single, int repeats) {
         require(dimension >= 1 && q.size() == static_cast<std::size_t>(dimension) &&
-                    coefficients.size() == online::quartic_count(dimension + 1),
+                    coefficients.size() == live::coefficient_count(dimension),
                 "coefficients (C(d+4,4),) and q (d,) do not match");
-        volatile double sink = 0.0;
-        const auto storage =
-            single ? online::Storage::single_precision : online::Storage::double_precision;
-        online::Quartic quartic(dimension, coefficients.data(), storage);
+        const live::FunctionPointer quartic = live::quartic(dimension, coefficients.data(), single);
         const nb::gil_scoped_release release;
-        const QuarticTimes times = time_quartic(quartic, q.data(), repeats, sink);
+        const EvaluationTimes times = time_evaluations(*quartic, q.data(), repeats);
         return std::make_pair(times.value_and_gradient, times.derivatives);
       },
       nb::arg("dimension"), nb::arg("coefficients"), nb::arg("q"), nb::kw_only(),
@@ -48,10 +42,9 @@ void bind_measure(nb::module_& m) {
       [](VectorIn tau, MatrixIn modes, VectorIn q, int repeats) {
         require(modes.shape(0) == q.size() && modes.shape(1) == tau.size(),
                 "tau (3n,), modes (d, 3n) and q (d,) do not match");
-        volatile double sink = 0.0;
         const nb::gil_scoped_release release;
         return time_reconstruct(tau.size(), static_cast<int>(q.size()), tau.data(), modes.data(),
-                                q.data(), repeats, sink);
+                                q.data(), repeats);
       },
       nb::arg("tau"), nb::arg("modes"), nb::arg("q"), nb::kw_only(), nb::arg("repeats") = 30,
       "Seconds of tau + sum of q_i modes_i, on one thread.");
@@ -68,8 +61,7 @@ void bind_measure(nb::module_& m) {
         std::vector<double> shape(u.size());
         system.numbering.to_internal(u.data(), shape.data());
         const nb::gil_scoped_release release;
-        return single ? time_parts<SingleLanes<2 * kWideLanes>>(system, shape, repeats)
-                      : time_parts<Lanes<kWideLanes>>(system, shape, repeats);
+        return time_parts(system, shape, single, repeats);
       },
       nb::arg("system"), nb::arg("u"), nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
       "Times of one thread for the widest pack, all lanes at displacement u (3n,).");

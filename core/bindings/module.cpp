@@ -1,5 +1,5 @@
 #include "bindings/arrays.h"
-#include "simd/lanes.h"
+#include "lanes/in_lanes.h"
 
 namespace snapspace {
 void bind_energy(nb::module_& m);
@@ -17,26 +17,37 @@ void bind_online(nb::module_& m);
 void bind_cubature(nb::module_& m);
 void bind_residual_probe(nb::module_& m);
 void bind_measure(nb::module_& m);
+
+namespace {
+
+void bind_all(nb::module_& m) {
+  // What outlives the interpreter is not lost memory, and users should not read about it.
+  nb::set_leak_warnings(false);
+  m.doc() = "The loops of snapspace that must be fast.";
+  m.attr("lane_count") = samples_together(Packing::lanes);
+  bind_energy(m);
+  bind_cholesky(m);
+  bind_multigrid(m);
+  bind_rows(m);
+  bind_snapshots(m);
+  bind_systems(m);
+  bind_soft_modes(m);
+  bind_linear_response(m);
+  bind_polish(m);
+  bind_fitting(m);
+  bind_reduction(m);
+  bind_online(m);
+  bind_cubature(m);
+  bind_residual_probe(m);
+  bind_measure(m);
+}
+
+}  // namespace
+
 }  // namespace snapspace
 
-NB_MODULE(SNAPSPACE_MODULE, m) {
-  // What outlives the interpreter is not lost memory, and users should not read about it.
-  nanobind::set_leak_warnings(false);
-  m.doc() = "The loops of snapspace that must be fast.";
-  m.attr("lane_count") = snapspace::kWideLanes;
-  snapspace::bind_energy(m);
-  snapspace::bind_cholesky(m);
-  snapspace::bind_multigrid(m);
-  snapspace::bind_rows(m);
-  snapspace::bind_snapshots(m);
-  snapspace::bind_systems(m);
-  snapspace::bind_soft_modes(m);
-  snapspace::bind_linear_response(m);
-  snapspace::bind_polish(m);
-  snapspace::bind_fitting(m);
-  snapspace::bind_reduction(m);
-  snapspace::bind_online(m);
-  snapspace::bind_cubature(m);
-  snapspace::bind_residual_probe(m);
-  snapspace::bind_measure(m);
-}
+// The same object is linked into the module of every level, and Python calls the function that has
+// the module's name.
+NB_MODULE(_core_baseline, m) { snapspace::bind_all(m); }
+NB_MODULE(_core_v3, m) { snapspace::bind_all(m); }
+NB_MODULE(_core_v4, m) { snapspace::bind_all(m); }

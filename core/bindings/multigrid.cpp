@@ -8,18 +8,17 @@ namespace snapspace {
 
 namespace {
 
-template <class Real, int Width>
+template <Packing packing>
 DoublesOut apply(const TwoGridCycle& cycle, MatrixIn right_hand_sides) {
-  Scratch scratch;
-  return solved_in_lanes<Real, Width>(cycle.size(), right_hand_sides, [&](Real* shape) {
-    (void)cycle.apply(shape, shape, scratch);
-  });
+  return solved_in_lanes(cycle.size(), packing, right_hand_sides,
+                         [&](std::size_t count, const double* from, double* to) {
+                           apply_in_lanes(cycle, packing, count, from, to);
+                         });
 }
 
 }  // namespace
 
 void bind_multigrid(nb::module_& m) {
-  constexpr int kSingle = 2 * kWideLanes;
   nb::enum_<InverseKind>(m, "InverseKind", "What stands for the inverse of a scalar matrix.")
       .value("automatic", InverseKind::automatic)
       .value("factor", InverseKind::factor)
@@ -42,10 +41,10 @@ void bind_multigrid(nb::module_& m) {
           },
           nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
           "Of cycle * matrix, from above, for the matrix that the cycle was made for.")
-      .def("apply", &apply<double, 1>, nb::arg("right_hand_side"), "Cycle times one (1, 3n).")
-      .def("apply_lanes", &apply<Lanes<kWideLanes>, kWideLanes>, nb::arg("right_hand_sides"),
+      .def("apply", &apply<Packing::alone>, nb::arg("right_hand_side"), "Cycle times one (1, 3n).")
+      .def("apply_lanes", &apply<Packing::lanes>, nb::arg("right_hand_sides"),
            "Cycle times up to lane_count (k, 3n), one per lane.")
-      .def("apply_single_lanes", &apply<SingleLanes<kSingle>, kSingle>, nb::arg("right_hand_sides"),
+      .def("apply_single_lanes", &apply<Packing::single_lanes>, nb::arg("right_hand_sides"),
            "The same in single precision, of up to twice as many.");
 }
 

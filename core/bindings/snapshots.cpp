@@ -86,13 +86,10 @@ void bind_system(nb::module_& m) {
             require(u.size() == static_cast<std::size_t>(self.size()) &&
                         inputs.size() == static_cast<std::size_t>(self.input_size()),
                     "needs a (3n,) vector and (input_size,) inputs");
-            const auto objective = self.objective();
-            SweepVisitor nobody;
-            objective->load(0, inputs.data());
             std::vector<double> shape(u.size()), gradient(u.size());
             self.numbering.to_internal(u.data(), shape.data());
             const double value =
-                objective->value_and_gradient(shape.data(), gradient.data(), nobody);
+                self.value_and_gradient(inputs.data(), shape.data(), gradient.data());
             DoublesOut result = new_array<double>({u.size()});
             self.numbering.to_external(gradient.data(), result.data());
             return std::make_pair(value, result);

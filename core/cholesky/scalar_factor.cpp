@@ -5,9 +5,12 @@
 #include <string>
 
 #include "cholesky/analysis.h"
+#include "cholesky/column_block.h"
 #include "cholesky/multifrontal.h"
 
 namespace snapspace {
+
+int column_block() { return kColumnBlock; }
 
 ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A) : ScalarFactor(A, analysed(A)) {}
 

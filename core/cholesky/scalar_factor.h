@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "cholesky/point.h"
 #include "cholesky/supernodes.h"
 #include "memory/streamed_vector.h"
 #include "simd/packs.h"
@@ -91,14 +90,6 @@ class ScalarFactor {
   void ask_for_columns(const Block& block, const Real* all) const {
     for (int j = 0; j < block.columns; ++j)
       ask_for(all + 3 * std::size_t(vertices_[block.vertices + j]), 3);
-  }
-
-  /// Calls visit with the number of columns as a constant.
-  template <int Most = kColumnBlock, class Visit>
-  static void with_columns(int columns, Visit visit) {
-    if constexpr (Most > 1)
-      if (columns < Most) return with_columns<Most - 1>(columns, visit);
-    visit(std::integral_constant<int, Most>{});
   }
 
   std::vector<Block> blocks_;

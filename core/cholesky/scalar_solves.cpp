@@ -1,7 +1,23 @@
 // The triangular solves, for packs of every width.
+#include <type_traits>
+
+#include "cholesky/column_block.h"
+#include "cholesky/point.h"
 #include "cholesky/scalar_factor.h"
 
 namespace snapspace {
+
+namespace {
+
+/// Calls visit with the number of columns as a constant.
+template <int Most = kColumnBlock, class Visit>
+void with_columns(int columns, Visit visit) {
+  if constexpr (Most > 1)
+    if (columns < Most) return with_columns<Most - 1>(columns, visit);
+  visit(std::integral_constant<int, Most>{});
+}
+
+}  // namespace
 
 // The loops over columns are unrolled: otherwise the unknowns are kept in memory and not in
 // registers, and small blocks take longer for their triangles than for the rows below.

@@ -113,7 +113,7 @@ std::vector<Panel> exact_panels(const Pattern& A, const Indices& order) {
 /// visits all rows below it, and each visit and each block cost something by themselves.
 double solve_cost(double columns, double rows) {
   constexpr double kVisit = 2.0, kBlock = 12.0;
-  const double blocks = std::ceil(columns / kColumnBlock);
+  const double blocks = std::ceil(columns / column_block());
   const double visits = blocks * rows + 0.5 * (blocks - 1.0) * columns;
   return columns * (0.5 * columns + rows) + kVisit * visits + kBlock * blocks;
 }

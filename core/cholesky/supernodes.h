@@ -6,13 +6,8 @@
 
 namespace snapspace {
 
-/// Columns that a solve keeps in registers while it goes through the rows below them: as many as
-/// there is room for, with x, y and z of a pack each.
-#if defined(__AVX512F__) || defined(__aarch64__)
-inline constexpr int kColumnBlock = 8;
-#else
-inline constexpr int kColumnBlock = 4;
-#endif
+/// Columns that a solve of this level takes together.
+[[nodiscard]] int column_block();
 
 /// Where the non-zeros of a Cholesky factor are: runs of columns with the same rows below them, so
 /// that each is one dense panel. Columns and rows are numbered by elimination.

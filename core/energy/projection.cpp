@@ -1,6 +1,6 @@
 #include "energy/projection.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "mesh/rest_shape.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,9 +1,10 @@
 #include "multigrid/lowest_eigenvalue.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "dense/symmetric_eigen.h"
 #include "memory/scratch.h"
 #include "multigrid/pseudo_random.h"
 
@@ -51,12 +52,13 @@ double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A, const TwoGridCycl
     norm = next;
     search = image + ratio * search;
   }
-  const auto size = static_cast<Eigen::Index>(diagonal.size());
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(Eigen::Map<const Eigen::VectorXd>(diagonal.data(), size),
-                                Eigen::Map<const Eigen::VectorXd>(beside.data(), size - 1),
-                                Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().minCoeff();
+  if (diagonal.empty()) return 0.0;  // something is not a number
+  SquareMatrix lanczos(static_cast<int>(diagonal.size()));
+  for (int i = 0; i < lanczos.size; ++i) {
+    lanczos(i, i) = diagonal[i];
+    if (i > 0) lanczos(i, i - 1) = beside[i - 1];
+  }
+  return symmetric_eigen(std::move(lanczos)).values.front();
 }
 
 }  // namespace snapspace

@@ -39,11 +39,10 @@ class TwoLevelObjective final : public LaneObjective<Real> {
   /// The other lanes hold nothing.
   Sum<Single> precondition(const Single* vector, Single* result) override {
     for (int i = 0; i < size(); ++i) vector_[i] = vector[i][0];
-    coarse_.solve(inverse_, vector_, correction_);
+    const double along = coarse_.solve(inverse_, vector_, correction_);
     Sum<Single> product = objective_->precondition(vector, result);
     for (int i = 0; i < size(); ++i) result[i].set(0, result[i][0] + correction_[i]);
-    product.set(
-        0, product[0] + vector_.template cast<double>().dot(correction_.template cast<double>()));
+    product.set(0, product[0] + along);
     return product;
   }
 

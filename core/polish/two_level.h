@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "polish/coarse_space.h"
-#include "snapshots/lane_objective.h"
+#include "snapshots/lane_objectives.h"
 
 namespace snapspace {
 

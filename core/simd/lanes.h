@@ -23,6 +23,15 @@ inline constexpr int kWideLanes = 4;
 inline constexpr int kWideLanes = 2;
 #endif
 
+/// Packs are a level's own, in their registers and their layout: what is compiled once for all
+/// levels must not use any.
+template <class T, int Width>
+#if defined(SNAPSPACE_ALL_LEVELS)
+inline constexpr bool kHasPacks = false;
+#else
+inline constexpr bool kHasPacks = true;
+#endif
+
 /// Whether a pack needs more than one register. Such packs are two halves: compilers that are given
 /// a longer vector keep it in memory, and its sums wait for stores.
 template <class T, int Width>
@@ -64,6 +73,7 @@ struct VectorOf<float, 16> {
 
 template <class T, int Width>
 struct alignas(Width * sizeof(T)) Pack {
+  static_assert(kHasPacks<T, Width>);
   static constexpr int kWidth = Width;
   using Scalar = T;
 #if defined(__GNUC__)
@@ -126,6 +136,7 @@ struct alignas(Width * sizeof(T)) Pack {
 template <class T, int Width>
   requires WiderThanRegister<T, Width>
 struct alignas(Width * sizeof(T)) Pack<T, Width> {
+  static_assert(kHasPacks<T, Width>);
   static constexpr int kWidth = Width;
   using Scalar = T;
   using Half = Pack<T, Width / 2>;

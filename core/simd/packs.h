@@ -4,7 +4,9 @@
 /// X(pack) for all packs of samples that this build solves with. What is a template over packs, and
 /// long, is defined in a source file and instantiated there for these: others only declare it.
 #define SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<2>) X(SingleLanes<4>) X(Lanes<2>)
-#if defined(__AVX512F__)
+#if defined(SNAPSPACE_ALL_LEVELS)
+#define SNAPSPACE_LANE_PACKS(X)
+#elif defined(__AVX512F__)
 #define SNAPSPACE_LANE_PACKS(X) \
   SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<8>) X(SingleLanes<16>) X(Lanes<4>) X(Lanes<8>)
 #elif defined(__AVX__)

@@ -29,7 +29,7 @@ constexpr double kStiffening = 40.0;
 /// Least root of a pivot of columns that are not dependent; products are of 1e-6.
 constexpr double kDependent = 1e-2;
 
-using Pack = ModeBlock::Pack;
+using ModePack = ModeBlock::Pack;
 
 /// Shapes with what A and H make of them, 3n blocks each.
 struct Columns {
@@ -112,8 +112,8 @@ void fill_at_random(ModeBlock& block) {
 }
 
 /// Lanes over the square roots of `squares`.
-void normalize(const Sum<Pack>& squares, std::size_t size, Pack* a, Pack* b) {
-  Pack factor;
+void normalize(const Sum<ModePack>& squares, std::size_t size, ModePack* a, ModePack* b) {
+  ModePack factor;
   for (int k = 0; k < ModeBlock::kLanes; ++k)
     set_lane(factor, k, squares[k] > 0.0 ? 1.0 / std::sqrt(squares[k]) : 0.0);
   for (std::size_t i = 0; i < size; ++i) {
@@ -126,7 +126,7 @@ void normalize(const Sum<Pack>& squares, std::size_t size, Pack* a, Pack* b) {
 void precondition(const PosingSystem& system, Columns& columns, std::vector<Scratch>& scratch) {
   parallel_for(ModeBlock::kPacks, 0, [&](int p) {
     const FlushDenormals flush;
-    Pack *shapes = columns.shapes.pack(p), *scalar = columns.scalar.pack(p);
+    ModePack *shapes = columns.shapes.pack(p), *scalar = columns.scalar.pack(p);
     normalize(system.inverse.apply(scalar, shapes, scratch[p]), columns.shapes.size(), shapes,
               scalar);
     system.rest_hessian_product(shapes, columns.forces.pack(p));
@@ -136,11 +136,11 @@ void precondition(const PosingSystem& system, Columns& columns, std::vector<Scra
 /// fresh.scalar = the residual of the pairs in x
 void set_residuals(const Columns& x, const std::vector<double>& values, Columns& fresh) {
   for (int p = 0; p < ModeBlock::kPacks; ++p) {
-    Pack shifts;
+    ModePack shifts;
     for (int k = 0; k < ModeBlock::kLanes; ++k)
       set_lane(shifts, k, values[p * ModeBlock::kLanes + k]);
-    const Pack *forces = x.forces.pack(p), *scalar = x.scalar.pack(p);
-    Pack* residual = fresh.scalar.pack(p);
+    const ModePack *forces = x.forces.pack(p), *scalar = x.scalar.pack(p);
+    ModePack* residual = fresh.scalar.pack(p);
     for (std::size_t i = 0; i < x.scalar.size(); ++i) residual[i] = forces[i] - shifts * scalar[i];
   }
 }

@@ -1,13 +1,6 @@
 #pragma once
-#include <functional>
-#include <memory>
-#include <tuple>
-#include <utility>
-#include <vector>
-
 #include "mesh/sweep.h"
 #include "simd/lanes.h"
-#include "simd/packs.h"
 
 namespace snapspace {
 
@@ -41,43 +34,6 @@ class LaneObjective {
   /// result = the seed of the inverse Hessian times vector, both 3n; they may be the same array.
   /// Returns vector . result.
   virtual Sum<Single> precondition(const Single* vector, Single* result) = 0;
-};
-
-/// Makes the objectives of one system for packs of every width: solvers get narrower towards the
-/// end of their work.
-class LaneObjectives {
- public:
-  template <class Real>
-  using Maker = std::function<std::unique_ptr<LaneObjective<Real>>(int threads)>;
-
-  /// @param masses  of the vertices, where lengths of displacements are compared
-  /// @param make    make.template operator()<Real>(threads) is a new LaneObjective<Real>; threads
-  ///                are those that it may use for itself
-  template <class Make>
-  LaneObjectives(std::vector<float> masses, const Make& make)
-      : masses_(std::move(masses)), makers_(makers(make, LanePacks())) {}
-
-  [[nodiscard]] const std::vector<float>& masses() const { return masses_; }
-
-  template <class Real>
-  [[nodiscard]] std::unique_ptr<LaneObjective<Real>> objective(int threads) const {
-    return std::get<Maker<Real>>(makers_)(threads);
-  }
-
- private:
-  template <class... Real>
-  static std::tuple<Maker<Real>...> tuple_of(PackList<Real...>);
-  using Makers = decltype(tuple_of(LanePacks()));
-
-  template <class Make, class... Real>
-  static Makers makers(const Make& make, PackList<Real...>) {
-    return {[make](int threads) -> std::unique_ptr<LaneObjective<Real>> {
-      return make.template operator()<Real>(threads);
-    }...};
-  }
-
-  std::vector<float> masses_;
-  Makers makers_;
 };
 
 }  // namespace snapspace

@@ -19,7 +19,7 @@
 #include "memory/streamed_vector.h"
 #include "simd/lanes.h"
 #include "snapshots/lane.h"
-#include "snapshots/lane_objective.h"
+#include "snapshots/lane_objectives.h"
 #include "snapshots/lbfgs_vectors.h"
 #include "snapshots/sample_exchange.h"
 #include "snapshots/solve_report.h"

@@ -12,48 +12,49 @@ namespace snapspace {
 namespace {
 
 /// Few, since most problems have six inputs, and two threads.
-constexpr int kLanes = 4;
-using Real = SingleLanes<kLanes>;
-using Total = Lanes<kLanes>;
-using Column = StreamedVector<Real>;
+constexpr int kTogether = 4;
+using ResponsePack = SingleLanes<kTogether>;
+using ResponseSums = Lanes<kTogether>;
+using ResponseColumn = StreamedVector<ResponsePack>;
 
-constexpr int kMostSteps = 200;
+constexpr int kMostResponseSteps = 200;
 /// Decrease of the energy in a step that ends the solve, as a share of that in all steps but the
 /// first, in which the handles move. On the Dragon it is 20 steps; starts from exact responses need
 /// as many evaluations.
 constexpr double kEnough = 3e-4;
 
 /// Lane by lane; nothing where there is no divisor.
-Total quotient(Total a, Total b) {
-  Total result(0.0);
-  for (int lane = 0; lane < kLanes; ++lane)
+ResponseSums quotient(ResponseSums a, ResponseSums b) {
+  ResponseSums result(0.0);
+  for (int lane = 0; lane < kTogether; ++lane)
     if (b[lane] > 0.0) result.set(lane, a[lane] / b[lane]);
   return result;
 }
 
-bool negligible(Total gain, Total all) {
-  for (int lane = 0; lane < kLanes; ++lane)
+bool negligible(ResponseSums gain, ResponseSums all) {
+  for (int lane = 0; lane < kTogether; ++lane)
     if (gain[lane] > kEnough * all[lane]) return false;
   return true;
 }
 
 /// The right-hand sides become what is left of them, and x their solutions by conjugate gradients,
 /// each by itself.
-void solve(const PosingSystem& system, Column& residual, Column& x) {
+void solve(const PosingSystem& system, ResponseColumn& residual, ResponseColumn& x) {
   const std::size_t size = x.size();
-  Column preconditioned(size, Real(0)), search(size, Real(0)), product(size, Real(0));
+  ResponseColumn preconditioned(size, ResponsePack(0)), search(size, ResponsePack(0)),
+      product(size, ResponsePack(0));
   Scratch scratch;
-  Total norm(0.0), all(0.0);
-  for (int step = 0; step < kMostSteps; ++step) {
-    const Total next = system.inverse.apply(residual.data(), preconditioned.data(), scratch);
-    const Real turn = cast<float>(quotient(next, norm));
+  ResponseSums norm(0.0), all(0.0);
+  for (int step = 0; step < kMostResponseSteps; ++step) {
+    const ResponseSums next = system.inverse.apply(residual.data(), preconditioned.data(), scratch);
+    const ResponsePack turn = cast<float>(quotient(next, norm));
     norm = next;
     for (std::size_t i = 0; i < size; ++i) search[i] = preconditioned[i] + turn * search[i];
     system.rest_hessian_product(search.data(), product.data());
-    Total curvature(0.0);
+    ResponseSums curvature(0.0);
     for (std::size_t i = 0; i < size; ++i) curvature += widened(search[i] * product[i]);
-    const Total length = quotient(norm, curvature);
-    const Real step_length = cast<float>(length);
+    const ResponseSums length = quotient(norm, curvature);
+    const ResponsePack step_length = cast<float>(length);
     for (std::size_t i = 0; i < size; ++i) {
       x[i] += step_length * search[i];
       residual[i] -= step_length * product[i];
@@ -68,10 +69,10 @@ void solve(const PosingSystem& system, Column& residual, Column& x) {
 
 LinearResponse::LinearResponse(const PosingSystem& system, const double* inputs, int count)
     : count_(count), entries_(static_cast<std::size_t>(system.size()) * count) {
-  parallel_for((count + kLanes - 1) / kLanes, 0, [&](int pack) {
+  parallel_for((count + kTogether - 1) / kTogether, 0, [&](int pack) {
     const FlushDenormals flush;
-    const int first = pack * kLanes, used = std::min(kLanes, count - first);
-    Column forces(size(), Real(0)), x(size(), Real(0));
+    const int first = pack * kTogether, used = std::min(kTogether, count - first);
+    ResponseColumn forces(size(), ResponsePack(0)), x(size(), ResponsePack(0));
     for (std::size_t k = 0; k < system.pinned.size(); ++k)
       for (int c = 0; c < 3; ++c)
         for (int lane = 0; lane < used; ++lane) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "memory/streamed_vector.h"
+#include "simd/lanes.h"
 #include "simd/memory.h"
 #include "threads/parallel.h"
 
@@ -16,8 +18,57 @@ int parts(std::size_t range, std::size_t size) {
 
 }  // namespace
 
+/// The products and their memory.
+class MassProducts::Blocks {
+ public:
+  explicit Blocks(const ScalarRows& mass) : mass_(mass) {}
+
+  void multiply(Rows rows, const double* offset, Rows others, int threads, double* products);
+
+ private:
+  using Wide = Lanes<kWideLanes>;
+  static constexpr std::size_t kTogether = 8;
+  using Together = Lanes<kTogether>;
+
+  /// Blocks of four rows and of three others are 21 KB: the first-level cache holds them.
+  static constexpr std::size_t kVertices = 128;
+  static constexpr std::size_t kPacks = 3 * kVertices / kWideLanes;
+  static constexpr std::size_t kHeight = 4, kBreadth = 3;
+  /// Vertices of one thread's part of M times the others.
+  static constexpr std::size_t kRange = 8 * kVertices;
+  /// Rows of one thread's part: for each part the others are read once more.
+  static constexpr std::size_t kPart = 8 * kHeight;
+
+  /// Some vertices' part of one row, with zeros beyond the last vertex.
+  struct Block {
+    Wide packs[kPacks];
+    double* numbers() { return reinterpret_cast<double*>(packs); }
+  };
+
+  void weigh(Rows others, int threads);
+  void interleave(Rows group, std::size_t begin, std::size_t end);
+  void weigh(std::size_t first, std::size_t count, std::size_t begin, std::size_t end);
+  static void copy(const double* row, const double* offset, std::size_t first, std::size_t last,
+                   Block& block);
+  static void add_tile(const Block* rows, const Block* others, std::size_t height,
+                       std::size_t breadth, double* products, std::size_t stride);
+
+  ScalarRows mass_;
+  std::size_t breadth_ = 0;          // of the others, with some that hold anything at the end
+  StreamedVector<Block> weighted_;   // M times the others: by vertices, then by others
+  StreamedVector<Together> points_;  // of eight of the others
+};
+
+MassProducts::MassProducts(const ScalarRows& mass) : blocks_(std::make_unique<Blocks>(mass)) {}
+MassProducts::~MassProducts() = default;
+
 void MassProducts::multiply(Rows rows, const double* offset, Rows others, int threads,
                             double* products) {
+  blocks_->multiply(rows, offset, others, threads, products);
+}
+
+void MassProducts::Blocks::multiply(Rows rows, const double* offset, Rows others, int threads,
+                                    double* products) {
   const std::size_t breadth = others.size();
   std::fill_n(products, rows.size() * breadth, 0.0);
   weigh(others, threads);
@@ -39,7 +90,7 @@ void MassProducts::multiply(Rows rows, const double* offset, Rows others, int th
 }
 
 /// Sets weighted_ to M times the others.
-void MassProducts::weigh(Rows others, int threads) {
+void MassProducts::Blocks::weigh(Rows others, int threads) {
   const std::size_t breadth = parts(others.size(), kBreadth) * kBreadth;
   if (breadth != breadth_) {  // what is beyond the last vertex stays zero from then on
     breadth_ = breadth;
@@ -61,7 +112,7 @@ void MassProducts::weigh(Rows others, int threads) {
 }
 
 /// Sets points_ at some vertices. Lanes beyond the group repeat its first row, and are not used.
-void MassProducts::interleave(Rows group, std::size_t begin, std::size_t end) {
+void MassProducts::Blocks::interleave(Rows group, std::size_t begin, std::size_t end) {
   const double* rows[kTogether];
   for (std::size_t j = 0; j < kTogether; ++j) rows[j] = group[j < group.size() ? j : 0];
   for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
@@ -72,7 +123,8 @@ void MassProducts::interleave(Rows group, std::size_t begin, std::size_t end) {
 }
 
 /// The part of some vertices, for `count` others from `first` on.
-void MassProducts::weigh(std::size_t first, std::size_t count, std::size_t begin, std::size_t end) {
+void MassProducts::Blocks::weigh(std::size_t first, std::size_t count, std::size_t begin,
+                                 std::size_t end) {
   for (std::size_t vertex = begin; vertex < end; ++vertex) {
     Together x(0.0), y(0.0), z(0.0);
     for (std::int32_t entry = mass_.starts[vertex]; entry < mass_.starts[vertex + 1]; ++entry) {
@@ -93,8 +145,8 @@ void MassProducts::weigh(std::size_t first, std::size_t count, std::size_t begin
 }
 
 /// Sets a block to that of a row plus an offset.
-void MassProducts::copy(const double* row, const double* offset, std::size_t first,
-                        std::size_t last, Block& block) {
+void MassProducts::Blocks::copy(const double* row, const double* offset, std::size_t first,
+                                std::size_t last, Block& block) {
   double* to = block.numbers();
   std::fill(std::copy(row + 3 * first, row + 3 * last, to), to + 3 * kVertices, 0.0);
   if (!offset) return;
@@ -103,8 +155,8 @@ void MassProducts::copy(const double* row, const double* offset, std::size_t fir
 
 /// products += blocks of `kHeight` rows times those of `kBreadth` others, of which only the first
 /// `height` and `breadth` are wanted.
-void MassProducts::add_tile(const Block* rows, const Block* others, std::size_t height,
-                            std::size_t breadth, double* products, std::size_t stride) {
+void MassProducts::Blocks::add_tile(const Block* rows, const Block* others, std::size_t height,
+                                    std::size_t breadth, double* products, std::size_t stride) {
   Wide sums[kHeight * kBreadth];
 #pragma GCC unroll 12
   for (Wide& sum : sums) sum = Wide(0.0);

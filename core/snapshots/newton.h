@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "snapshots/conjugate_gradients.h"
+#include "snapshots/lane_objective.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/sample_system.h"
 #include "snapshots/solve_report.h"

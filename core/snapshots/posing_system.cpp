@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "snapshots/lane_objectives.h"
+
 namespace snapspace {
 
 namespace {

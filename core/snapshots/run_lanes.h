@@ -1,5 +1,5 @@
 #pragma once
-#include "snapshots/lane_objective.h"
+#include "snapshots/lane_objectives.h"
 #include "snapshots/pair_products.h"
 #include "snapshots/sample_exchange.h"
 #include "snapshots/solve_report.h"

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "energy/block_hessian.h"
-#include "snapshots/lane_objective.h"
 #include "snapshots/numbering.h"
 #include "snapshots/pair_products.h"
 #include "snapshots/scalar_inverse.h"
@@ -16,6 +15,10 @@ struct HessianOptions {
   Projection projection = Projection::clamp;
   double threshold = 0.65;  ///< of Projection::stretches; the paper uses 0.5 to 0.8
 };
+
+template <class Real>
+class LaneObjective;
+class LaneObjectives;
 
 /// What all samples of a problem share. Only the inputs differ from sample to sample, and one
 /// inverse preconditions them all. Shapes are displacements (3n) in the internal numbering.
@@ -39,6 +42,8 @@ class SampleSystem {
   [[nodiscard]] virtual LaneObjectives lanes() const = 0;
   /// The objective of a single sample.
   [[nodiscard]] virtual std::unique_ptr<LaneObjective<double>> objective() const = 0;
+  /// The objective at u (3n) for an input; its gradient overwrites `gradient`.
+  double value_and_gradient(const double* input, const double* u, double* gradient) const;
   [[nodiscard]] virtual BlockHessian hessian_pattern() const = 0;
   /// The Hessian at u of the sample with this input.
   virtual void assemble(const double* input, const double* u, const HessianOptions& options,

@@ -1,5 +1,5 @@
 #pragma once
-#include "snapshots/lane_objective.h"
+#include "snapshots/lane_objectives.h"
 #include "snapshots/soft_modes.h"
 
 namespace snapspace {

@@ -26,7 +26,7 @@ ALLOWED: dict[str, set[str]] = {
     "online": {"element", "material", "simd"},
     "energy": {"element", "material", "memory", "mesh", "simd"},
     "cholesky": {"memory", "simd"},
-    "multigrid": {"cholesky", "memory", "simd"},
+    "multigrid": {"cholesky", "dense", "memory", "simd"},
     "snapshots": {
         "cholesky",
         "dense",
@@ -40,8 +40,12 @@ ALLOWED: dict[str, set[str]] = {
     "reduction": {"element", "energy", "material", "memory", "mesh", "online", "simd", "threads"},
     "polish": {"simd", "snapshots", "threads"},
     "fitting": {"cholesky", "element", "energy", "mesh", "snapshots", "threads"},
-    "measure": {"energy", "mesh", "online", "simd", "snapshots", "threads"},
+    "lanes": {"cholesky", "energy", "memory", "multigrid", "simd", "threads"},
+    "live": {"material", "online"},
+    "measure": {"energy", "live", "mesh", "simd", "snapshots", "threads"},
     "bindings": {
+        "lanes",
+        "live",
         "measure",
         "cholesky",
         "element",

@@ -1,0 +1,146 @@
+#include "live/live_loop.h"
+
+#include <utility>
+
+#include "online/blended_cubature.h"
+#include "online/blended_quartic.h"
+#include "online/blending_solver.h"
+#include "online/cubature.h"
+#include "online/posing_solver.h"
+#include "online/quartic.h"
+
+namespace snapspace::live {
+
+namespace {
+
+using online::BlendedCubature;
+using online::BlendedQuartic;
+using online::BlendingSolver;
+using online::Cubature;
+using online::PosingSolver;
+using online::Quartic;
+
+template <class Function, class Interface = ReducedFunction>
+class FunctionOf : public Interface {
+ public:
+  explicit FunctionOf(Function function) : function_(std::move(function)) {}
+
+  [[nodiscard]] int dimension() const override { return function_.dimension(); }
+  double value_and_gradient(const double* q, double* gradient) override {
+    return function_.value_and_gradient(q, gradient);
+  }
+  double derivatives(const double* q, double* gradient, double* hessian) override {
+    return function_.derivatives(q, gradient, hessian);
+  }
+
+ protected:
+  Function function_;
+};
+
+class BlendedOf final : public FunctionOf<BlendedCubature, BlendedFunction> {
+ public:
+  using FunctionOf::FunctionOf;
+  [[nodiscard]] int poses() const override { return function_.poses(); }
+  void set_weights(const double* weights) override { function_.set_weights(weights); }
+};
+
+template <class Elastic>
+int inputs_of(const PosingSolver<Elastic>& solver) {
+  return solver.handles();
+}
+template <class Elastic>
+int inputs_of(const BlendingSolver<Elastic>& solver) {
+  return solver.poses();
+}
+
+template <class Elastic>
+void set_inputs_of(PosingSolver<Elastic>& solver, const double* offsets) {
+  solver.set_offsets(offsets);
+}
+template <class Elastic>
+void set_inputs_of(BlendingSolver<Elastic>& solver, const double* weights) {
+  solver.set_weights(weights);
+}
+
+template <class Solver>
+class SolverOf final : public LiveSolver {
+ public:
+  template <class... Arguments>
+  explicit SolverOf(Arguments&&... arguments) : solver_(std::forward<Arguments>(arguments)...) {}
+
+  [[nodiscard]] int dimension() const override { return solver_.dimension(); }
+  double value_and_gradient(const double* q, double* gradient) override {
+    return solver_.value_and_gradient(q, gradient);
+  }
+  double derivatives(const double* q, double* gradient, double* hessian) override {
+    return solver_.derivatives(q, gradient, hessian);
+  }
+  [[nodiscard]] bool valid() const override { return solver_.valid(); }
+  [[nodiscard]] int capacity() const override { return solver_.capacity(); }
+  void set_dimension(int dimension) override { solver_.set_dimension(dimension); }
+  online::Report solve(double* q, online::Method method, const online::Termination& stop) override {
+    return solver_.solve(q, method, stop);
+  }
+  [[nodiscard]] int inputs() const override { return inputs_of(solver_); }
+  void set_inputs(const double* inputs) override { set_inputs_of(solver_, inputs); }
+
+ private:
+  Solver solver_;
+};
+
+online::Storage storage(bool single) {
+  return single ? online::Storage::single_precision : online::Storage::double_precision;
+}
+
+Cubature made(const CubatureArrays& arrays) {
+  return {arrays.dimension, arrays.tets, arrays.rows, arrays.weights, arrays.material};
+}
+
+BlendedCubature made(const CubatureArrays& arrays, const PoseArrays& poses) {
+  return {arrays.dimension, arrays.tets,     arrays.rows,
+          arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau}};
+}
+
+template <class Elastic>
+SolverPointer posing(Elastic elastic, const HandleArrays& handles) {
+  return std::make_unique<SolverOf<PosingSolver<Elastic>>>(std::move(elastic), handles.handles,
+                                                           handles.K, handles.L, handles.S);
+}
+
+}  // namespace
+
+std::size_t coefficient_count(int dimension) {
+  return online::quartic_count(static_cast<std::size_t>(dimension) + 1);
+}
+
+FunctionPointer quartic(int dimension, const double* coefficients, bool single) {
+  return std::make_unique<FunctionOf<Quartic>>(Quartic(dimension, coefficients, storage(single)));
+}
+
+FunctionPointer cubature(const CubatureArrays& arrays) {
+  return std::make_unique<FunctionOf<Cubature>>(made(arrays));
+}
+
+BlendedPointer blended_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
+  return std::make_unique<BlendedOf>(made(arrays, poses));
+}
+
+SolverPointer posing_solver(int dimension, const double* coefficients, bool single,
+                            const HandleArrays& handles) {
+  return posing(Quartic(dimension, coefficients, storage(single)), handles);
+}
+
+SolverPointer posing_solver(const CubatureArrays& arrays, const HandleArrays& handles) {
+  return posing(made(arrays), handles);
+}
+
+SolverPointer blending_solver(int dimension, int poses, const double* coefficients, bool single) {
+  return std::make_unique<SolverOf<BlendingSolver<BlendedQuartic>>>(
+      BlendedQuartic(dimension, poses, coefficients, storage(single)));
+}
+
+SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses) {
+  return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(made(arrays, poses));
+}
+
+}  // namespace snapspace::live

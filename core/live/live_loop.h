@@ -1,0 +1,88 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "material/tet_material.h"
+#include "online/minimizer.h"
+
+/// The reduced energies and live loops of core/online, whose layouts depend on the width of packs,
+/// behind interfaces that do not: who uses them need not be compiled for every level.
+namespace snapspace::live {
+
+/// A function of d reduced coordinates q.
+class ReducedFunction {
+ public:
+  virtual ~ReducedFunction() = default;
+  [[nodiscard]] virtual int dimension() const = 0;
+  /// Value at q (d); `gradient` (d) is overwritten.
+  virtual double value_and_gradient(const double* q, double* gradient) = 0;
+  /// The lower triangle of the Hessian (d x d), too.
+  virtual double derivatives(const double* q, double* gradient, double* hessian) = 0;
+};
+
+/// A live solver.
+class LiveSolver : public ReducedFunction {
+ public:
+  /// False if the Hessian at rest is not positive definite.
+  [[nodiscard]] virtual bool valid() const = 0;
+  [[nodiscard]] virtual int capacity() const = 0;
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity.
+  virtual void set_dimension(int dimension) = 0;
+  /// From q, in place.
+  virtual online::Report solve(double* q, online::Method method,
+                               const online::Termination& stop) = 0;
+  /// Offsets (12 numbers) of this many handles, or weights of poses: what a frame changes.
+  [[nodiscard]] virtual int inputs() const = 0;
+  virtual void set_inputs(const double* inputs) = 0;
+};
+
+/// Sizes and arrays of a cubature; see online::Cubature.
+struct CubatureArrays {
+  int dimension, tets;
+  const float* rows;
+  const double* weights;
+  TetMaterial material;
+};
+
+/// Some tets of a body in several poses; see online::PoseTets.
+struct PoseArrays {
+  int poses;
+  const double *corners, *tau;
+};
+
+/// A blended energy, whose weights can be set.
+class BlendedFunction : public ReducedFunction {
+ public:
+  [[nodiscard]] virtual int poses() const = 0;
+  virtual void set_weights(const double* weights) = 0;
+};
+
+/// K, L and S of some handles; see online::HandleQuadric.
+struct HandleArrays {
+  int handles;
+  const double *K, *L, *S;
+};
+
+using FunctionPointer = std::unique_ptr<ReducedFunction>;
+using BlendedPointer = std::unique_ptr<BlendedFunction>;
+using SolverPointer = std::unique_ptr<LiveSolver>;
+
+/// Coefficients of a quartic in d variables.
+[[nodiscard]] std::size_t coefficient_count(int dimension);
+
+/// @param single  whether coefficients are stored in single precision
+[[nodiscard]] FunctionPointer quartic(int dimension, const double* coefficients, bool single);
+[[nodiscard]] FunctionPointer cubature(const CubatureArrays& arrays);
+[[nodiscard]] BlendedPointer blended_cubature(const CubatureArrays& arrays,
+                                              const PoseArrays& poses);
+[[nodiscard]] SolverPointer posing_solver(int dimension, const double* coefficients, bool single,
+                                          const HandleArrays& handles);
+[[nodiscard]] SolverPointer posing_solver(const CubatureArrays& arrays,
+                                          const HandleArrays& handles);
+/// Refers to the coefficients, poses x coefficient_count(dimension).
+[[nodiscard]] SolverPointer blending_solver(int dimension, int poses, const double* coefficients,
+                                            bool single);
+[[nodiscard]] SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses);
+
+}  // namespace snapspace::live

@@ -1,0 +1,15 @@
+#include "snapshots/sample_system.h"
+
+#include "snapshots/lane_objective.h"
+
+namespace snapspace {
+
+double SampleSystem::value_and_gradient(const double* input, const double* u,
+                                        double* gradient) const {
+  const auto single = objective();
+  SweepVisitor nobody;
+  single->load(0, input);
+  return single->value_and_gradient(u, gradient, nobody);
+}
+
+}  // namespace snapspace
