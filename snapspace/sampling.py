@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, Protocol
+from typing import Literal, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
-Method = Literal["random", "sobol", "grid"]
-METHODS: tuple[Method, ...] = ("random", "sobol", "grid")
+Method = Literal["random", "sobol", "grid", "blends"]
+#: Methods for every domain, and all of them: "blends" is for weights of poses.
+ANYWHERE: tuple[Method, ...] = ("random", "sobol", "grid")
+METHODS: tuple[Method, ...] = (*ANYWHERE, "blends")
 
 
 class Domain(Protocol):
@@ -33,6 +35,15 @@ class Domain(Protocol):
         ...
 
 
+@runtime_checkable
+class BlendDomain(Domain, Protocol):
+    """A domain of weights, whose corners are blended two and three at a time."""
+
+    def blends(self, count: int, *, seed: int, scramble: bool) -> FloatArray:
+        """Weights of two and three corners, and a share of all: (count, p)."""
+        ...
+
+
 def sample(
     domain: Domain,
     count: int,
@@ -41,7 +52,7 @@ def sample(
     seed: int = 0,
     scramble: bool = True,
 ) -> FloatArray:
-    """Parameters for snapshots, spread uniformly over the domain.
+    """Parameters for snapshots, spread over the domain: uniformly, or as it is used.
 
     Parameters
     ----------
@@ -51,26 +62,28 @@ def sample(
         How many, > 0. A grid has the largest number of points up to `count` that its domain allows:
         in a box of six dimensions 300 are 3 * 3 * 3 * 2 * 2 * 2 = 216, see `HandleBox.grid`; on the
         simplex of three weights 30 are 1 + 2 + ... + 7 = 28, see `Simplex.grid`.
-    method : "random", "sobol" or "grid", default "random"
+    method : "random", "sobol", "grid" or "blends", default "random"
         Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
-        centres of equal cells.
+        centres of equal cells. "blends" is for weights of five poses or more, of which people blend
+        two or three at a time: all pairs, then triples as well, with a share of uniform points, see
+        `Simplex.blends`.
     seed : int, default 0
-        For "random" and for the scrambling of "sobol".
+        For "random", for the scrambling of "sobol", and for the order of poses in "blends".
     scramble : bool, default True
         Owen's scrambling of the Sobol sequence; without it the first point is the lower corner of
-        the box, or the last corner of the simplex.
+        the box, or the last corner of the simplex, and "blends" takes poses in their order.
 
     Returns
     -------
     ndarray, (k, p)
         One row of p parameters per sample: 6 per moving handle, or one weight per corner of the
         simplex. k = count except for a grid. The same arguments give the same points; longer
-        random and Sobol samples begin with the shorter ones.
+        samples begin with the shorter ones, except for grids.
 
     Raises
     ------
     ValueError
-        For a count below 1, a negative seed or an unknown method.
+        For a count below 1, a negative seed, an unknown method, or blends in a domain without them.
     """
     if count < 1:
         raise ValueError(f"sample: the number of samples is {count}, but must be at least 1")
@@ -79,13 +92,21 @@ def sample(
     if method == "random":
         return domain.from_unit(np.random.default_rng(seed).random((count, domain.dimension)))
     if method == "sobol":
-        return domain.from_unit(_sobol(domain.dimension, count, seed=seed, scramble=scramble))
+        return domain.from_unit(sobol_points(domain.dimension, count, seed=seed, scramble=scramble))
     if method == "grid":
         return domain.grid(count)
+    if method == "blends":
+        if not isinstance(domain, BlendDomain):
+            raise ValueError(
+                "sample: the method 'blends' is for weights of poses, but the domain is a "
+                f"{type(domain).__name__}; take sobol"
+            )
+        return domain.blends(count, seed=seed, scramble=scramble)
     raise ValueError(f"sample: unknown method '{method}'; known are {', '.join(METHODS)}")
 
 
-def _sobol(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArray:
+def sobol_points(dimension: int, count: int, *, seed: int, scramble: bool) -> FloatArray:
+    """The first points (count, dimension) of a Sobol sequence in the unit cube."""
     # imported here: scipy.stats would take a third of the time of `import snapspace`
     from scipy.stats import qmc
 

@@ -14,7 +14,7 @@ from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import ENERGIES, Energy
-from .choices import Choices, choice_options
+from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
@@ -33,7 +33,7 @@ DIMENSION = 40
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
-@choice_options(samples=300, dimension=DIMENSION, sampling="sobol")
+@choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
     "--energy",
     type=click.Choice(ENERGIES),

@@ -11,7 +11,7 @@ import click
 
 from ..greedy import CANDIDATES, check_target
 from ..problem import Projection
-from ..sampling import METHODS, Domain, Method, sample
+from ..sampling import ANYWHERE, METHODS, BlendDomain, Domain, Method, sample
 from ..snapshots import PROJECTIONS, SOLVERS, SolverOptions
 from ..snapshots.solver_options import Solver
 from .console import notice
@@ -19,7 +19,11 @@ from .recipe import Recipe
 from .samples import ChosenSamples, GivenSamples, Samples, sampling_record
 
 Sampling = Method | Literal["greedy"]
-SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
+#: Of handle motions, and of weights of poses.
+MOTION_SAMPLINGS: tuple[Sampling, ...] = (*ANYWHERE, "greedy")
+WEIGHT_SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
+# The fewest poses whose uniform blends say little about blends of two, see docs/benchmarks.md.
+_MANY_POSES = 5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,8 +74,7 @@ class Choices:
 
         `dimension` holds if neither size was given, `tolerance` as for `solver_options`.
         """
-        # in one dimension even spacing beats all other ways
-        method = self.sampling or ("grid" if domain.dimension == 1 else "sobol")
+        method = self.sampling or self._usual_sampling(domain)
         samples = self._samples(domain, method, dimension)
         neither = self.dimension is None and self.energy_fraction is None
         recipe = Recipe(
@@ -94,6 +97,13 @@ class Choices:
         if samples.count < self.samples:
             notice(f"notice: the grid has {samples.count} samples, not {self.samples}")
         return recipe
+
+    def _usual_sampling(self, domain: Domain) -> Sampling:
+        if domain.dimension == 1:
+            return "grid"  # in one dimension even spacing beats all other ways
+        many = isinstance(domain, BlendDomain) and domain.dimension + 1 >= _MANY_POSES
+        # a target ends the samples anywhere, and greedy sampling counts on uniform ones
+        return "blends" if many and self.target_error is None else "sobol"
 
     def _samples(self, domain: Domain, method: Sampling, dimension: int) -> Samples:
         check_target(self.target_error)
@@ -123,7 +133,11 @@ class Choices:
 
 
 def choice_options(
-    *, samples: int, dimension: int, sampling: Sampling | None
+    *,
+    samples: int,
+    dimension: int,
+    sampling: Sampling | None,
+    samplings: tuple[Sampling, ...],
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """The options of `Choices` with a command's defaults, passed on as the parameter `choices`."""
 
@@ -133,7 +147,7 @@ def choice_options(
             chosen = {field.name: values.pop(field.name) for field in fields(Choices)}
             return command(**values, choices=Choices(**chosen))
 
-        for option in reversed(_options(samples, dimension, sampling)):
+        for option in reversed(_options(samples, dimension, sampling, samplings)):
             collected = option(collected)
         return collected
 
@@ -141,7 +155,10 @@ def choice_options(
 
 
 def _options(
-    samples: int, dimension: int, sampling: Sampling | None
+    samples: int,
+    dimension: int,
+    sampling: Sampling | None,
+    samplings: tuple[Sampling, ...],
 ) -> list[Callable[[Callable[..., Any]], Callable[..., Any]]]:
     return [
         click.option(
@@ -163,10 +180,10 @@ def _options(
         ),
         click.option(
             "--sampling",
-            type=click.Choice(SAMPLINGS),
+            type=click.Choice(samplings),
             default=sampling,
-            show_default=sampling or "grid for two poses, else sobol",
-            help="Method. greedy: where the model so far is worst; fewer samples, more time each.",
+            show_default=sampling or "grid for two poses, blends for five and more, else sobol",
+            help=_sampling_help(samplings),
         ),
         click.option(
             "--target-error",
@@ -181,7 +198,7 @@ def _options(
             type=click.IntRange(min=0),
             default=0,
             show_default=True,
-            help="Of random and of scrambled Sobol samples.",
+            help="Of the samples, except for a grid.",
         ),
         click.option(
             "--solver",
@@ -230,3 +247,10 @@ def _options(
             "--include-unconverged", is_flag=True, help="Also use samples that stopped early."
         ),
     ]
+
+
+def _sampling_help(samplings: tuple[Sampling, ...]) -> str:
+    text = "Method. greedy: where the model so far is worst; fewer samples, more time each."
+    if "blends" in samplings:
+        text += " blends: of two and three poses first; the others: of all poses, uniformly."
+    return text

@@ -18,7 +18,7 @@ from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .build import check_output
-from .choices import Choices, choice_options
+from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
 from .dask_cluster import dask_executor
 from .files import make_folder
@@ -79,7 +79,7 @@ SAMPLES, DIMENSION = 40, 20
 )
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
-@choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None)
+@choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
 @threads_option
 @dask_option

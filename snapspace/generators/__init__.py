@@ -9,6 +9,7 @@ from snapspace.generators.creature_paint import creature_paint
 from snapspace.generators.creature_shape import CREATURE_LOWER, CREATURE_UPPER, creature_shape
 from snapspace.generators.cylinder import cylinder
 from snapspace.generators.helix import helix
+from snapspace.generators.lizard_poses import lizard_poses
 from snapspace.stuffing.isosurface_stuffing import stuff
 
 __all__ = [
@@ -22,5 +23,6 @@ __all__ = [
     "creature_shape",
     "cylinder",
     "helix",
+    "lizard_poses",
     "stuff",
 ]

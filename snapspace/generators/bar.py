@@ -58,11 +58,11 @@ def bar(
     node = np.arange(len(vertices)).reshape([c + 1 for c in counts])
     lowest = node[:-1, :-1, :-1].reshape(-1)
     steps = np.array([node[1, 0, 0], node[0, 1, 0], node[0, 0, 1]])
-    tets = np.stack([lowest[:, None] + path for path in _kuhn_paths(steps)], axis=1)
+    tets = np.stack([lowest[:, None] + path for path in kuhn_paths(steps)], axis=1)
     return TetMesh(vertices, tets.reshape(-1, 4).astype(np.int32))
 
 
-def _kuhn_paths(steps: np.ndarray) -> list[np.ndarray]:
+def kuhn_paths(steps: np.ndarray) -> list[np.ndarray]:
     """Index offsets of the corners of the six tets of a cell, positively oriented."""
     paths = []
     for order in permutations(range(3)):

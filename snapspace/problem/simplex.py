@@ -9,6 +9,9 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..sampling import sobol_points
+from .blends import blend_weights
+
 FloatArray = NDArray[np.float64]
 
 # How far a sum of weights may be from one, and a weight beyond a face of the domain.
@@ -102,6 +105,33 @@ class Simplex:
         bars = np.array(list(combinations(places, self.dimension)), dtype=np.int64)
         steps = np.diff(bars, axis=1, prepend=-1, append=level + self.dimension) - 1
         return self._enlarged((steps + 1.0 / self.corners) / (level + 1))
+
+    def blends(self, count: int, *, seed: int = 0, scramble: bool = True) -> FloatArray:
+        """Blends of two corners first, then also of three, with a share of all: (count, corners).
+
+        For many corners, where uniform points lie around the centre and say little about blends of
+        few. All pairs are blended evenly before any pair is blended again, see `blend_weights`; a
+        sample does not depend on how many follow. With extrapolation the weights of two or three
+        corners go down to `lowest` while the others are zero, and the share of all fills the whole
+        domain. Corners themselves are left out: these solutions are known.
+
+        Parameters
+        ----------
+        count : int
+            How many, > 0.
+        seed : int, default 0
+            Of the order of the corners, and of the share of all, which is a Sobol sequence.
+        scramble : bool, default True
+            Without it corners come in their own order, and the Sobol sequence is the plain one.
+        """
+        inside = self.from_unit(sobol_points(self.dimension, count, seed=seed, scramble=scramble))
+        order = np.arange(self.corners)
+        if scramble:
+            # a stream of its own: the first numbers of the other one scramble the Sobol sequence
+            order = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(2,))).permutation(
+                self.corners
+            )
+        return blend_weights(inside, lowest=self.lowest, order=order)
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
         """Coordinates in which distances between parameters compare: the weights themselves."""

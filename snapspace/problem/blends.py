@@ -1,0 +1,100 @@
+"""Blends of two and three corners of a simplex, then of all: an order for many poses."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .corner_sets import pairs_in_rounds, triples_in_circles
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+# Shares of pairs, triples and the inside, until every pair had its first point, and from then on.
+# They were chosen on three generated sets of poses and judged on others, see docs/benchmarks.md.
+_FIRST_SWEEP = (0.9, 0.0, 0.1)
+_AFTERWARDS = (0.2, 0.3, 0.5)
+_PAIR, _TRIPLE, _INSIDE = range(3)
+
+
+def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> FloatArray:
+    """Weights in an order in which every beginning is a sensible set of samples.
+
+    First the middles of all pairs, with one of ten samples inside. Then two of ten are further
+    points of pairs, three are points of triples, five are inside. A pair gets its next point after
+    all others had theirs, and so do triples: pairs at 1/2, 1/4, 3/4, 1/8, ... (van der Corput
+    1935), triples at the middle, nearer to each corner, ... (Basu & Owen 2015).
+
+    Parameters
+    ----------
+    inside : ndarray, (k, corners)
+        Points of the whole domain; as many of them as are needed come in their order.
+    lowest : float
+        Least weight of the domain, zero or negative. Pairs and triples are enlarged so that their
+        weights go down to it, while all others stay zero.
+    order : ndarray of int, (corners,)
+        A permutation of the corners: which are paired first.
+
+    Returns
+    -------
+    ndarray, (k, corners)
+        Row i depends on i and the arguments, not on k. Rows sum to one up to rounding.
+    """
+    count, corners = inside.shape
+    weights = np.zeros((count, corners))
+    triples = triples_in_circles(corners, at_most=count)
+    sets = {_PAIR: order[pairs_in_rounds(corners)], _TRIPLE: order[triples]}
+    points = {_PAIR: _on_edge, _TRIPLE: _in_triangle}
+    for row, (kind, number) in zip(weights, _kinds(count, corners), strict=True):
+        if kind == _INSIDE:
+            row[:] = inside[number]
+            continue
+        # a part of the triples is as long as the samples, so that there is one sweep of it at most
+        sweep, place = divmod(number, len(sets[kind]))
+        chosen = sets[kind][place]
+        row[chosen] = lowest + (1.0 - len(chosen) * lowest) * points[kind](sweep)
+    return weights
+
+
+def _kinds(count: int, corners: int) -> list[tuple[int, int]]:
+    """For each sample its kind, and how many of the kind came before it."""
+    pairs = corners * (corners - 1) // 2
+    before, kinds = [0, 0, 0], []
+    shares, since = np.array(_FIRST_SWEEP), np.zeros(3)
+    for _ in range(count):
+        if before[_PAIR] == pairs and shares[_TRIPLE] == 0.0 and corners > 2:
+            shares, since = np.array(_AFTERWARDS), np.zeros(3)
+        # the kind that is farthest behind its share
+        kind = int(np.argmax(shares * (since.sum() + 1.0) - since))
+        kinds.append((kind, before[kind]))
+        before[kind] += 1
+        since[kind] += 1.0
+    return kinds
+
+
+def _on_edge(number: int) -> FloatArray:
+    """Weights (2,) of a point of the van der Corput sequence in base two, without its zero."""
+    digits, share, place = number + 1, 0.0, 0.5
+    while digits:
+        digits, digit = divmod(digits, 2)
+        share += place * digit
+        place *= 0.5
+    return np.array([share, 1.0 - share])
+
+
+def _in_triangle(number: int) -> FloatArray:
+    """Weights (3,) of a point of the triangular van der Corput sequence (Basu & Owen 2015).
+
+    A triangle is cut into four by the middles of its sides. Each digit in base four chooses one,
+    the inner one or that at a corner, and the point is the middle of the last.
+    """
+    triangle = np.eye(3)
+    digits = number
+    while digits:
+        digits, digit = divmod(digits, 4)
+        if digit == 0:
+            triangle = 0.5 * (triangle.sum(axis=0) - triangle)
+        else:
+            triangle = 0.5 * (triangle + triangle[digit - 1])
+    middle: FloatArray = triangle.mean(axis=0)
+    return middle
