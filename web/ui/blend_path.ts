@@ -1,28 +1,23 @@
 const SECONDS_PER_LEG = 1.6;
 
-/** A walk through all poses and back to the first, slow at each pose. */
+/** A walk through poses and back to the first, slow at each pose. */
 export class BlendPath {
-  readonly #poses: number;
   #seconds = 0;
   playing = false;
-
-  constructor(poses: number) {
-    this.#poses = poses;
-  }
 
   /** Starts where it stopped. */
   play(playing: boolean): void {
     this.playing = playing;
   }
 
-  /** The weights so many seconds later. */
-  advance(seconds: number): number[] {
+  /** The weights of so many poses, so many seconds later. */
+  advance(seconds: number, poses: number): number[] {
     this.#seconds += Math.min(seconds, 0.1); // after a pause of the browser the path goes on, not ahead
     const way = this.#seconds / SECONDS_PER_LEG;
-    const leg = Math.floor(way) % this.#poses;
+    const leg = Math.floor(way) % poses;
     const share = eased(way - Math.floor(way));
-    return Array.from({ length: this.#poses }, (_, pose) =>
-      pose === leg ? 1 - share : pose === (leg + 1) % this.#poses ? share : 0,
+    return Array.from({ length: poses }, (_, pose) =>
+      pose === leg ? 1 - share : pose === (leg + 1) % poses ? share : 0,
     );
   }
 }

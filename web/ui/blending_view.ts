@@ -1,13 +1,14 @@
 import { Vector3 } from "three";
 
 import { BlendingSession, reconstruct, type BlendingModel } from "../engine/index.ts";
-import { withWeight } from "./barycentric.ts";
+import { blendPanel } from "./blend_panel.ts";
 import { BlendPath } from "./blend_path.ts";
-import { BlendPolygon } from "./blend_polygon.ts";
-import { h, section, slider, toggle } from "./dom.ts";
+import { listenToBlendingKeys } from "./blending_keys.ts";
+import { h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
+import { allWeights, firstChoice, inEqualParts, type PoseChoice } from "./pose_choice.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
@@ -41,26 +42,16 @@ export async function blendingView(
   hud.dimension(model.dimension, model.dimension);
   const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
-  const path = new BlendPath(model.poses.length);
-  let [wish, compared] = [[...session.weights], false];
+  const path = new BlendPath();
+  let [choice, compared] = [firstChoice(model.poses.length), false];
   let solved: number[] | null = null;
 
-  const ask = (weights: readonly number[]) => {
-    wish = [...weights];
-    stage.draw();
-  };
-  const stopAndAsk = (weights: readonly number[]) => {
+  const ask = (asked: PoseChoice) => {
     path.play(false);
     play.setAttribute("aria-pressed", "false");
-    ask(weights);
+    choice = asked;
+    stage.draw();
   };
-  const polygon = new BlendPolygon(model.poses, stopAndAsk);
-  const percent = (w: number) => `${Math.round(100 * w)} %`;
-  const sliders = model.poses.map((name, pose) =>
-    slider(name, { min: 0, max: 1, step: 0.001, value: wish[pose] }, percent, (w) =>
-      stopAndAsk(withWeight(wish, pose, w)),
-    ),
-  );
   const play = toggle("Play", "Space", false, (on) => {
     path.play(on);
     stage.draw();
@@ -69,11 +60,8 @@ export async function blendingView(
     compared = on;
     place();
   });
-  const mean = h(
-    "button",
-    { type: "button", onclick: () => stopAndAsk(model.poses.map(() => 1 / model.poses.length)) },
-    "Mean",
-  );
+  const mean = h("button", { type: "button", onclick: () => ask(inEqualParts(choice.poses)) }, "Mean");
+  const panel = blendPanel(model.poses, [play, compare, mean], ask);
 
   const place = () => {
     straight.object.visible = compared;
@@ -90,18 +78,18 @@ export async function blendingView(
     stage.root.updateMatrixWorld();
   };
   const solve = () => {
+    const wish = allWeights(choice, model.poses.length);
+    panel.show(choice);
     if (solved && solved.every((w, i) => w === wish[i])) return;
     hud.solved(session.blend(wish));
-    solved = [...wish];
+    solved = wish;
     for (const surface of [elastic, straight]) surface.weights = wish;
     elastic.show(session.q);
     straight.show(wish);
-    polygon.show(wish);
-    sliders.forEach(({ set }, pose) => set(wish[pose]));
   };
   const look = lookSection(stage, [elastic, straight], model, options.up);
   stage.beforeFrame = (seconds) => {
-    if (path.playing) wish = path.advance(seconds);
+    if (path.playing) choice = { ...choice, weights: path.advance(seconds, choice.poses.length) };
     solve();
     look.legend.look();
     hud.frame(seconds);
@@ -113,27 +101,14 @@ export async function blendingView(
     if (path.playing) stage.draw();
   };
   const stop = new AbortController();
-  document.addEventListener(
-    "keydown",
-    (event) => {
-      if (
-        event.key !== " " ||
-        event.target instanceof HTMLButtonElement ||
-        event.target instanceof HTMLInputElement
-      )
-        return;
-      event.preventDefault();
-      play.click();
-    },
-    { signal: stop.signal },
-  );
+  listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
   solve();
   const illustrate = (pose: number) => {
     if (pose === model.poses.length || stop.signal.aborted) return;
     const alone = model.poses.map((_, k) => (k === pose ? 1 : 0));
-    polygon.illustrate(pose, thumbnail(stage, straight, elastic, alone));
-    straight.show(wish);
+    panel.illustrate(pose, thumbnail(stage, straight, elastic, alone));
+    straight.show(solved!);
     stage.renderer.render(stage.scene, stage.camera);
     setTimeout(illustrate, 0, pose + 1);
   };
@@ -142,8 +117,7 @@ export async function blendingView(
   return {
     hud,
     panel: [
-      section("Blend", polygon.element, h("div", { className: "row" }, play, compare, mean)),
-      section("Poses", ...sliders.map(({ element }) => element)),
+      ...panel.sections,
       qualitySection(model.dimension, (d) => {
         session.dimension = d;
         solved = null;
