@@ -167,3 +167,79 @@ def test_strains_of_a_sparse_blend_are_relative_to_its_poses(
     pose = model.surface.vertices(model.problem.pose_shapes[2].reshape(-1, 3))
     error = np.abs(page.shown() - pose).max() / model.problem.mesh.diagonal
     assert strains.max() < 20 * error + 1e-4 < 0.1
+
+
+#: Every picture comes a thirtieth of a second after the one before; what each shows is kept.
+STEADY = """
+const next = window.requestAnimationFrame.bind(window);
+let now = performance.now();
+window.walked = [];
+window.requestAnimationFrame = (act) => next(() => {
+  act((now += 1000 / 30));
+  walked.push([[...snapspace.session.weights], [...snapspace.shown()]]);
+});
+null
+"""
+
+
+def test_a_walk_moves_the_shape_evenly_and_not_the_weights(
+    many_poses_model: InterpolationModel, many_poses_page: Path, opened: OpenPage
+) -> None:
+    """From where it is through the chosen poses, in the order of choosing."""
+    page = opened(many_poses_page.as_uri(), size=(760, 320))  # small pictures are drawn sooner
+    for name in ("rest", "arc-01", "twist_5", "look back", "arc-02"):
+        click(page, name)  # in place of the first three: twist_5, look back
+    page.page.get_by_role("slider", name="twist_5").fill("0.5")
+    start = weights_of(page)
+    page.page.locator("canvas").focus()
+    page.run(STEADY)
+    page.page.keyboard.press("Space")
+    page.wait("walked.length > 120")
+    page.page.keyboard.press("Space")
+    frames = page.run("walked")
+    weights = np.array([w for w, _ in frames])
+    shapes = np.array([shape for _, shape in frames]).reshape(len(frames), -1, 3)
+    names = many_poses_model.problem.poses.names
+    assert np.abs(weights[1] - start).max() < 0.05, "it begins where the shape is"
+    used = {names[k] for k in np.flatnonzero(weights.max(axis=0) > 0)}
+    assert used == {"twist_5", "look back"}
+    at_pose = np.flatnonzero(weights.max(axis=1) == 1)
+    assert len(at_pose) >= 2, "it comes to the poses themselves"
+
+    moved = np.linalg.norm(np.diff(shapes, axis=0), axis=2).max(axis=1)
+    steps = np.abs(np.diff(weights, axis=0)).max(axis=1)
+    # a step that ends at a pose is shorter
+    inside = (weights[:-1].max(axis=1) < 1) & (weights[1:].max(axis=1) < 1) & (steps > 0)
+    moved, steps = moved[inside][3:], steps[inside][3:]
+    assert len(moved) > 60
+    assert moved.max() < 1.3 * moved.min(), "the shape moves evenly"
+    assert steps.max() > 1.8 * steps.min(), "the weights do not"
+
+
+#: Blends that leap: beyond a half, weights of the second pose give shapes of much larger ones.
+LEAPING = """
+const blend = snapspace.session.blend;
+snapspace.session.blend = function (weights, start) {
+  if (weights[1] <= 0.5) return blend.call(this, weights, start);
+  const leapt = 0.8 + 0.2 * weights[1];
+  return blend.call(this, weights.map((w, k) => k === 1 ? leapt : k === 5 ? 1 - leapt : 0), start);
+};
+null
+"""
+
+
+def test_a_jump_on_the_walk_is_told_with_its_weight(
+    many_poses_page: Path, opened: OpenPage
+) -> None:
+    page = opened(many_poses_page.as_uri(), size=(760, 320))
+    for name in ("arc-05", "arc-02", "rest"):
+        click(page, name)  # leaves arc-01 and arc-05
+    page.page.get_by_role("slider", name="arc-05").fill("0.6")
+    page.settle()
+    page.run(LEAPING)
+    page.page.get_by_role("button", name="Play").click()
+    told = "document.querySelector('.hud p[role=status]').textContent"
+    page.wait(told)
+    assert page.run(told) == "The shape jumps on the way to arc-01, at a weight of 50.0 %."
+    page.page.get_by_role("button", name="Mean").click()
+    assert page.run(told) == "", "it was of the walk"

@@ -1,10 +1,10 @@
 import { Vector3 } from "three";
 
-import { BlendingSession, reconstruct, type BlendingModel } from "../engine/index.ts";
+import { BlendingSession, reconstruct, type BlendingModel, type FrameReport } from "../engine/index.ts";
 import { blendPanel } from "./blend_panel.ts";
-import { BlendPath } from "./blend_path.ts";
+import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
-import { h, toggle } from "./dom.ts";
+import { enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -42,18 +42,21 @@ export async function blendingView(
   hud.dimension(model.dimension, model.dimension);
   const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
-  const path = new BlendPath();
+  const path = new BlendPath(session, rests);
   let [choice, compared] = [firstChoice(model.poses.length), false];
+  let told: PoseChoice | null = null;
   let solved: number[] | null = null;
 
   const ask = (asked: PoseChoice) => {
     path.play(false);
     play.setAttribute("aria-pressed", "false");
+    hud.remark("");
     choice = asked;
     stage.draw();
   };
   const play = toggle("Play", "Space", false, (on) => {
     path.play(on);
+    hud.remark("");
     stage.draw();
   });
   const compare = toggle("Compare", "The straight blend of the poses beside it", false, (on) => {
@@ -78,19 +81,34 @@ export async function blendingView(
     stage.root.updateMatrixWorld();
   };
   const solve = () => {
+    if (choice !== told) tellChoice();
     const wish = allWeights(choice, model.poses.length);
+    if (!solved || solved.some((w, i) => w !== wish[i])) take(session.blend(wish));
+  };
+  const tellChoice = () => {
+    told = choice;
     panel.show(choice);
-    if (solved && solved.every((w, i) => w === wish[i])) return;
-    hud.solved(session.blend(wish));
-    solved = wish;
-    for (const surface of [elastic, straight]) surface.weights = wish;
+    enable(play, choice.poses.length > 1);
+  };
+  /** Shows what the session has. */
+  const take = (report: FrameReport) => {
+    solved = allWeights(choice, model.poses.length);
+    hud.solved(report);
+    for (const surface of [elastic, straight]) surface.weights = solved;
     elastic.show(session.q);
-    straight.show(wish);
+    straight.show(solved);
+  };
+  const walk = (seconds: number) => {
+    const step = path.advance(choice, seconds);
+    choice = step.choice;
+    tellChoice();
+    take(step.report);
+    if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
   const look = lookSection(stage, [elastic, straight], model, options.up);
   stage.beforeFrame = (seconds) => {
-    if (path.playing) choice = { ...choice, weights: path.advance(seconds, choice.poses.length) };
-    solve();
+    if (path.playing) walk(seconds);
+    else solve();
     look.legend.look();
     hud.frame(seconds);
     readout.ask();
@@ -121,6 +139,7 @@ export async function blendingView(
       qualitySection(model.dimension, (d) => {
         session.dimension = d;
         solved = null;
+        path.restart();
         hud.dimension(d, model.dimension);
         stage.draw();
       }),
@@ -161,6 +180,10 @@ function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
     );
     return shape;
   });
+}
+
+function jumpRemark(poses: readonly string[], { pose, weight }: Jump): string {
+  return `The shape jumps on the way to ${poses[pose]}, at a weight of ${(100 * weight).toFixed(1)} %.`;
 }
 
 /** Puts the names below their shapes. */
