@@ -103,6 +103,14 @@ def test_weights_are_typed_and_poses_taken_away(
     assert taking_part(page) == ["rest"] and "One pose must stay" in page.text("#panel")
 
 
+def test_clicks_between_two_pictures_all_count(page: Page) -> None:
+    names = ["twist_1", "twist_2", "arc-01"]
+    page.run(
+        "names => names.forEach((n) => document.querySelector(`[title='${n}']`).click())", names
+    )
+    assert taking_part(page) == ["arc-02", "twist_1", "twist_2", "rest"]
+
+
 def test_a_polygon_has_eight_corners_at_most(page: Page) -> None:
     for name in ("arc-03", "arc-04", "arc-05", "twist_1", "twist_2", "twist_3"):
         click(page, name)

@@ -1,6 +1,6 @@
 import type { BlendingSession, FrameReport } from "../engine/index.ts";
 import { EvenWalk } from "./even_walk.ts";
-import { largestDistance, MotionProbe } from "./motion_probe.ts";
+import { MotionProbe } from "./motion_probe.ts";
 import { allWeights, type PoseChoice } from "./pose_choice.ts";
 
 const SECONDS_PER_LEG = 1.6; // if the shape took the straight way
@@ -24,18 +24,14 @@ export interface Jump {
 export class BlendPath {
   playing = false;
   readonly #session: BlendingSession;
-  readonly #probe: MotionProbe;
-  readonly #rests: readonly Float32Array[];
+  #probes: { shapes: MotionProbe; poses: MotionProbe } | null = null;
   #walk: EvenWalk<Frame> | null = null;
   #goal = -1;
   #speed = 0; // a length for each second
   #isFresh = true;
 
-  /** `rests` are the poses' surfaces. */
-  constructor(session: BlendingSession, rests: readonly Float32Array[]) {
+  constructor(session: BlendingSession) {
     this.#session = session;
-    this.#probe = new MotionProbe(session.model.space);
-    this.#rests = rests;
   }
 
   /** Starts to the pose that it was on its way to. */
@@ -71,7 +67,7 @@ export class BlendPath {
   }
 
   #solve(choice: PoseChoice, start: ArrayLike<number>): FrameReport {
-    return this.#session.blend(allWeights(choice, this.#rests.length), start);
+    return this.#session.blend(allWeights(choice, this.#session.model.poses.length), start);
   }
 
   #begin(choice: PoseChoice): EvenWalk<Frame> {
@@ -80,29 +76,26 @@ export class BlendPath {
     // there already: to the next one
     const place = weights[goal] > 1 - 1e-9 ? (goal + 1) % poses.length : goal;
     this.#goal = poses[place];
-    const away = poses.map((pose) => largestDistance(this.#rests[pose], this.#rests[this.#goal]));
-    this.#speed = this.#speedOf(poses);
+    const { space, poseSpace } = this.#session.model;
+    const probes = (this.#probes ??= { shapes: new MotionProbe(space), poses: new MotionProbe(poseSpace) });
+    const alone = (pose: number) => allWeights({ poses: [pose], weights: [1] }, poseSpace.scales.length);
+    const between = (a: number, b: number) => probes.poses.between(alone(a), alone(b));
+    this.#speed = this.#speedOf(poses.map((pose, i) => between(pose, poses[(i + 1) % poses.length])));
     const way = {
       solve: (share: number, from: Frame): Frame => {
         const there = weights.map((w, i) => (i === place ? 1 - (1 - w) * (1 - share) : w * (1 - share)));
         const report = this.#solve({ poses, weights: there }, from.q);
         return { weights: there, q: this.#session.q, report };
       },
-      motion: (from: Frame, to: Frame) => this.#probe.between(from.q, to.q),
+      motion: (from: Frame, to: Frame) => probes.shapes.between(from.q, to.q),
     };
     const start = { weights, q: this.#session.q, report: null };
-    return new EvenWalk(
-      way,
-      start,
-      away.reduce((sum, length, i) => sum + weights[i] * length, 0),
-    );
+    const length = poses.reduce((sum, pose, i) => sum + weights[i] * between(pose, this.#goal), 0);
+    return new EvenWalk(way, start, length);
   }
 
   /** So that legs take SECONDS_PER_LEG in the mean; poses that are all alike are passed all the same. */
-  #speedOf(poses: readonly number[]): number {
-    const legs = poses.map((pose, i) =>
-      largestDistance(this.#rests[pose], this.#rests[poses[(i + 1) % poses.length]]),
-    );
+  #speedOf(legs: readonly number[]): number {
     const mean = legs.reduce((sum, length) => sum + length, 0) / legs.length;
     return Math.max(mean, 1e-3 * this.#session.model.diagonal) / SECONDS_PER_LEG;
   }

@@ -34,8 +34,9 @@ export class BlendPolygon {
     this.#corners.forEach(([x, y], i) => {
       const corner = svg("g", { class: "corner" });
       const [cx, cy] = [OUT * x, OUT * y];
-      const [left, above] = [cx - PICTURE / 2, cy - PICTURE / 2];
-      const picture = svg("image", { x: left, y: above, width: PICTURE, height: PICTURE });
+      const inside = 0.84 * PICTURE; // the corners of the picture are near the circle
+      const [left, above] = [cx - inside / 2, cy - inside / 2];
+      const picture = svg("image", { x: left, y: above, width: inside, height: inside });
       this.#pictures.push(picture);
       const title = svg("title", {});
       title.textContent = names[i];

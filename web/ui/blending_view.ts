@@ -42,9 +42,8 @@ export async function blendingView(
   hud.dimension(model.dimension, model.dimension);
   const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
-  const path = new BlendPath(session, rests);
+  const path = new BlendPath(session);
   let [choice, compared] = [firstChoice(model.poses.length), false];
-  let told: PoseChoice | null = null;
   let solved: number[] | null = null;
 
   const ask = (asked: PoseChoice) => {
@@ -52,6 +51,7 @@ export async function blendingView(
     play.setAttribute("aria-pressed", "false");
     hud.remark("");
     choice = asked;
+    tellChoice(); // the next click comes perhaps before the next picture
     stage.draw();
   };
   const play = toggle("Play", "Space", false, (on) => {
@@ -81,12 +81,10 @@ export async function blendingView(
     stage.root.updateMatrixWorld();
   };
   const solve = () => {
-    if (choice !== told) tellChoice();
     const wish = allWeights(choice, model.poses.length);
     if (!solved || solved.some((w, i) => w !== wish[i])) take(session.blend(wish));
   };
   const tellChoice = () => {
-    told = choice;
     panel.show(choice);
     enable(play, choice.poses.length > 1);
   };
@@ -121,6 +119,7 @@ export async function blendingView(
   const stop = new AbortController();
   listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
+  tellChoice();
   solve();
   const illustrate = (pose: number) => {
     if (pose === model.poses.length || stop.signal.aborted) return;

@@ -42,11 +42,6 @@ export class MotionProbe {
   }
 }
 
-/** The largest distance of a vertex in two shapes. */
-export function largestDistance(a: ArrayLike<number>, b: ArrayLike<number>): number {
-  return largest(Float64Array.from(a, (value, i) => value - b[i]));
-}
-
 /** The length of the longest of vectors, 3 numbers each. */
 function largest(vectors: ArrayLike<number>): number {
   return Math.sqrt(squareOf(vectors, farthest(vectors)));
