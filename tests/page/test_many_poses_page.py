@@ -114,9 +114,12 @@ def test_clicks_between_two_pictures_all_count(page: Page) -> None:
 def test_a_polygon_has_eight_corners_at_most(page: Page) -> None:
     for name in ("arc-03", "arc-04", "arc-05", "twist_1", "twist_2", "twist_3"):
         click(page, name)
+    below = "document.querySelector('.steady').offsetTop"
+    place = page.run(below)
     assert len(taking_part(page)) == 8 and "twist_3" not in taking_part(page)
     assert "8 poses at most" in page.text("#panel")
     click(page, "arc-05")
+    assert page.run(below) == place, "a text that comes and goes moves nothing below"
     click(page, "twist_3")
     assert "twist_3" in taking_part(page), "there is room again"
 

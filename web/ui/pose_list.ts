@@ -47,10 +47,10 @@ export class PoseList {
     });
     this.search = this.#field();
     const groups = h("div", { className: "poses", role: "group", "aria-label": "Poses" });
-    groups.append(...this.#groups.map(({ element }) => element));
+    groups.append(...this.#groups.map(({ element }) => element), this.#told);
     groups.addEventListener("keydown", (event) => this.#go(event));
     groups.addEventListener("focusin", ({ target }) => this.#stop(target as HTMLElement));
-    this.element = h("div", {}, this.search, groups, this.#told);
+    this.element = h("div", {}, this.search, groups);
     this.#stop(this.#buttons[this.#groups[0].poses[0]]);
   }
 
