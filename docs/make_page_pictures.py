@@ -13,9 +13,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pictures_choosing import choosing, creature_served
 from pictures_creature import creature_problem
-from pictures_poses import creature_poses
+from pictures_poses import creature_poses, many_creature_poses
 from playwright.sync_api import sync_playwright
 
 import snapspace as ss
@@ -24,6 +25,7 @@ from snapspace.generators import creature
 FOLDER = Path(__file__).parent / "pictures"
 SOFTWARE_WEBGL = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 TETS = 30_000
+FEWER = 12_000  # of each of many poses
 DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -32,6 +34,15 @@ def model_of(problem: Any, samples: int, dimension: int) -> ss.ReducedModel:
     snapshots = ss.solve_snapshots(problem, ss.sample(problem.domain, samples, method="sobol"))
     subspace = ss.snapshot_pca(snapshots, dimension=dimension)
     return ss.reduce(problem, subspace, snapshots=snapshots)
+
+
+def model_of_many(poses: ss.Poses, dimension: int) -> ss.ReducedModel:
+    """A model for blends of two poses, from the poses and the middles of some pairs."""
+    ends = np.eye(len(poses))
+    middles = [(ends + np.roll(ends, step, axis=0)) / 2 for step in (1, 4)]
+    problem = ss.InterpolationProblem(poses)
+    snapshots = ss.solve_snapshots(problem, np.concatenate([ends, *middles]))
+    return ss.reduce(problem, ss.snapshot_pca(snapshots, dimension=dimension), snapshots=snapshots)
 
 
 def drag(page: Any, handle: int, dx: float, dy: float) -> None:
@@ -64,6 +75,20 @@ def blending(page: Any) -> None:
     page.wait_for_timeout(2500)  # the small pictures of the poses
 
 
+def choosing_poses(page: Any) -> None:
+    """Three poses of three groups are chosen of many."""
+    page.wait_for_timeout(8000)  # the small pictures of the poses
+    added, removed = (
+        ("rear-up-04", "look-round-03", "sniff-04"),
+        ("rest", "rear-up-01", "rear-up-02"),
+    )
+    for name in (*added, *removed):
+        page.get_by_role("button", name=name, exact=True).click()
+    page.get_by_role("slider", name="rear-up-04").fill("0.5")
+    page.evaluate("for (const e of document.querySelectorAll('#panel, .poses')) e.scrollTop = 0")
+    page.mouse.move(0, 0)
+
+
 def take(browser: Any, address: str, theme: str, act: Callable[[Any], None], name: str) -> None:
     """A picture of a page after something was done in it."""
     page = browser.new_page(viewport={"width": 1280, "height": 720}, color_scheme=theme)
@@ -78,9 +103,11 @@ def take(browser: Any, address: str, theme: str, act: Callable[[Any], None], nam
 
 def main() -> None:
     poses = ss.InterpolationProblem(creature_poses(creature(TETS)))
+    many = model_of_many(many_creature_poses(creature(FEWER)), 20)
     plans = [
         ("page-posing", model_of(creature_problem(TETS), 200, 40), "light", posing),
         ("page-blending", model_of(poses, 30, 20), "dark", blending),
+        ("page-many-poses", many, "light", choosing_poses),
     ]
     program = shutil.which("chromium")
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as folder:

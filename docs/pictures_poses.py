@@ -76,6 +76,21 @@ def poses_picture() -> NDArray[np.uint8]:
 
 def creature_poses(mesh: ss.TetMesh) -> ss.Poses:
     """The poses of MOTIONS, full solves of a posing problem; none has an inverted tet."""
+    return ss.Poses(solved_motions(mesh)[-1], mesh.tets, names=list(MOTIONS))
+
+
+def many_creature_poses(mesh: ss.TetMesh) -> ss.Poses:
+    """At rest, and each of MOTIONS in four steps: rear-up-01, rear-up-02 ..."""
+    shapes = {"rest": mesh.vertices}
+    steps = solved_motions(mesh)
+    for k, name in enumerate(MOTIONS):
+        for number, step in enumerate(steps, start=1):
+            shapes[f"{name.replace(' ', '-')}-{number:02}"] = step[k]
+    return ss.Poses(np.stack(list(shapes.values())), mesh.tets, names=list(shapes))
+
+
+def solved_motions(mesh: ss.TetMesh) -> list[FloatArray]:
+    """Shapes (k, n, 3) of MOTIONS by a quarter, a half, three quarters and whole."""
     vertices = mesh.vertices
     handles = {
         "hind feet": hind_feet(mesh),
@@ -92,11 +107,12 @@ def creature_poses(mesh: ss.TetMesh) -> ss.Poses:
     motions = np.array([as_parameters(problem, motion)[0] for motion in MOTIONS.values()])
     # in four steps, each from the shapes of the last: at once, limbs could fold
     known: ss.Snapshots | None = None
+    shapes = []
     for share in (0.25, 0.5, 0.75, 1.0):
         step = ss.solve_snapshots(problem, share * motions, known=known)
         known = step if known is None else known.joined(step)
-    shapes = step.shapes.T.reshape(len(motions), -1, 3)
-    return ss.Poses(shapes, mesh.tets, names=list(MOTIONS))
+        shapes.append(step.shapes.T.reshape(len(motions), -1, 3))
+    return shapes
 
 
 def on_hind_feet(vertices: FloatArray, mesh: ss.TetMesh) -> FloatArray:

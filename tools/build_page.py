@@ -27,7 +27,7 @@ LOCK = WEB / "package-lock.json"
 LOCK_STAMP = WEB / "node_modules" / ".snapspace-lock"
 
 PRETTIER = ["node_modules/prettier/bin/prettier.cjs", "--log-level=warn"]
-FORMATTED = ["engine/**/*.ts", "ui/*", "vite.config.ts", "index.html"]
+FORMATTED = ["engine/**/*.ts", "ui/*", "ui/tests/*", "vite.config.ts", "index.html"]
 
 #: Page and core together, without a model.
 MOST_BYTES = 1_000_000

@@ -13,14 +13,18 @@ from numpy.typing import NDArray
 from ..mesh.input_path import writable_path
 from ..pictures import save_png
 from ..reduction import InterpolationModel
+from ..session import BlendingSession
 from .blend_path import path_weights
+from .blend_path_report import notice_jumps, path_facts, path_figures
 from .blend_picture import blend_picture
 from .blend_shape import BlendedShape, shape_at, write_blended
 from .console import notice, print_facts, print_json
+from .even_path import PathJump, even_path
 from .files import SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
 
+EVEN = ("shape", "weights")
 FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUTPUTS)
 
 
@@ -33,6 +37,12 @@ FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUT
     type=click.IntRange(min=2),
     metavar="N",
     help="Instead of --weights: N shapes from the first pose through all poses to the last.",
+)
+@click.option(
+    "--even",
+    type=click.Choice(EVEN),
+    help="What is even from frame to frame of --path: the largest motion of a vertex of the shape, "
+    "or the weights [default: shape].",
 )
 @click.option(
     "-o",
@@ -60,6 +70,7 @@ def blend(
     model_file: Path,
     weights: str | None,
     frames: int | None,
+    even: str | None,
     output: Path | None,
     kind: str | None,
     linear: bool,
@@ -75,18 +86,27 @@ def blend(
     Examples:
       snapspace blend lion.snapspace --weights 0.3,0.7 -o out.obj
       snapspace blend centaur.snapspace --path 60 -o frames/ --linear --png path.png
+
+    With --path the vertex that moves most moves as far from frame to frame, and every pose is a
+    frame if there are as many frames as poses. Where the shape jumps however small the step, the
+    frame is told.
     """
     if (weights is None) == (frames is None):
         raise ValueError("give either --weights or --path")
     if kind is not None and frames is None:
         raise ValueError("--format is for --path; the extension of -o tells the format of one file")
+    if even is not None and frames is None:
+        raise ValueError("--even is for --path; --weights has one shape")
     model = load_interpolation(model_file, dimension)
-    wanted = _wanted(model, weights, frames, extrapolate=extrapolate)
+    single = None if weights is None else _weights(model, weights, extrapolate=extrapolate)
     _check_outputs(output, png, folder=frames is not None)
     session = model.session()
-    shapes: list[BlendedShape] = []
-    for w in wanted:
-        shapes.append(shape_at(model, session, w, linear=linear, extrapolate=extrapolate))
+    jumps: list[PathJump] = []
+    if single is not None:
+        shapes = [shape_at(model, session, single, linear=linear, extrapolate=extrapolate)]
+    else:
+        assert frames is not None
+        shapes, jumps = _walked(model, session, frames, even or "shape", linear=linear)
     _check(shapes)
     begin = time.perf_counter()
     written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
@@ -94,26 +114,38 @@ def blend(
         save_png(png, blend_picture(model, shapes, up=up))
         written.append(png)
     figures = _figures(shapes, written, time.perf_counter() - begin)
+    if frames is not None:
+        figures["path"] = path_figures(shapes, jumps)
+        notice_jumps(jumps)
     _print_report(figures)
     if as_json:
         print_json({"dimension": model.dimension, **figures})
 
 
-def _wanted(
-    model: InterpolationModel, weights: str | None, frames: int | None, *, extrapolate: bool
-) -> NDArray[np.float64]:
-    """The weights of all shapes, (k, poses)."""
-    poses = len(model.problem.poses)
-    if weights is None:
-        assert frames is not None
-        return path_weights(poses, frames)
+def _weights(model: InterpolationModel, weights: str, *, extrapolate: bool) -> NDArray[np.float64]:
+    """The weights (poses,) of the one shape."""
     numbers = parse_numbers(weights)
     if not extrapolate and min(numbers) < model.problem.domain.lowest - 1e-9:
         raise ValueError(
             f"--weights {weights}: {min(numbers):g} is below {model.problem.domain.lowest:g}, the "
             "least weight that was sampled; --extrapolate takes it all the same"
         )
-    return model.problem.weights(numbers, extrapolate=extrapolate)[None, :]
+    return model.problem.weights(numbers, extrapolate=extrapolate)
+
+
+def _walked(
+    model: InterpolationModel, session: BlendingSession, frames: int, even: str, *, linear: bool
+) -> tuple[list[BlendedShape], list[PathJump]]:
+    """The shapes of a path, and where it jumps."""
+    if even == "weights":
+        rows = path_weights(len(model.problem.poses), frames)
+        return [shape_at(model, session, w, linear=linear, extrapolate=False) for w in rows], []
+    path = even_path(model, session, frames)
+    shapes = []
+    for frame in path.frames:
+        session.put(frame.start_weights, frame.start)
+        shapes.append(shape_at(model, session, frame.weights, linear=linear, extrapolate=False))
+    return shapes, path.jumps
 
 
 def _check_outputs(output: Path | None, png: Path | None, *, folder: bool) -> None:
@@ -191,6 +223,7 @@ def _print_report(figures: dict[str, Any]) -> None:
     more = f" and {len(written) - 1} more" if len(written) > 1 else ""
     facts = [
         ("shapes", f"{len(frames)}, {converged} converged"),
+        *path_facts(figures),
         ("inverted tets", f"at most {max(frame['inverted_tets'] for frame in frames)}"),
         ("solve", f"{solve:.2f} ms, with all vertices {whole:.2f} ms"),
         (

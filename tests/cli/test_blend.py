@@ -195,6 +195,10 @@ REFUSED: dict[str, tuple[list[str], str]] = {
     "nothing": (["--weights", ","], "',' is not numbers"),
     "nan": (["--weights", "nan,0,1"], "'nan,0,1' is not finite"),
     "sum when extrapolating": (["--weights", "2,0,0", "--extrapolate"], "weights sum to 2"),
+    "even of one shape": (
+        ["--weights", TEXT, "--even", "shape"],
+        "--even is for --path; ",
+    ),
     "one frame": (["--path", "1"], "'--path': 1 is not in the range x>=2"),
     "format": (["--path", "3", "--format", "jpg"], "'--format': 'jpg' is not one of"),
     "extension": (["--weights", TEXT, "-o", "out.xyz"], "unknown extension '.xyz'; known are .obj"),

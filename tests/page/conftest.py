@@ -11,7 +11,10 @@ import pytest
 from snapspace import InterpolationModel, PosingModel
 from snapspace.page import export_html
 
+from .many_poses import many_poses_model
 from .pages import OpenPage, open_page
+
+__all__ = ["many_poses_model"]  # a fixture
 
 
 @pytest.fixture
@@ -40,3 +43,10 @@ def blending_page(
     blending_model: InterpolationModel, tmp_path_factory: pytest.TempPathFactory
 ) -> Path:
     return export_html(blending_model, tmp_path_factory.mktemp("pages") / "poses.html")
+
+
+@pytest.fixture(scope="session")
+def many_poses_page(
+    many_poses_model: InterpolationModel, tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    return export_html(many_poses_model, tmp_path_factory.mktemp("pages") / "many.html")

@@ -44,14 +44,16 @@ export class BlendingSession {
     return this.#weights;
   }
 
-  /** Sets weights that sum to one, and solves. A blend without a minimum leaves shape and weights as they were. */
-  blend(weights: readonly number[]): FrameReport {
+  /** Sets weights that sum to one, and solves, from the present shape or from other coordinates. A blend without a
+   * minimum leaves shape and weights as they were. */
+  blend(weights: readonly number[], start?: ArrayLike<number>): FrameReport {
     const total = weights.reduce((sum, w) => sum + w, 0);
     if (weights.length !== this.model.poses.length || !(Math.abs(total - 1) <= 1e-9))
       throw new RangeError(`${this.model.poses.length} poses need as many weights, and a sum of one`);
     const before = this.#weights;
     const shape = this.q;
     this.#set(weights);
+    if (start) this.#core.q = start;
     this.#startBest();
     const report = this.solve();
     if (Math.hypot(...this.q) > FARTHEST * this.model.coordinateScale) report.status = "unbounded";

@@ -2,8 +2,10 @@ import { clampedInto, meanValueCoordinates, regularPolygon } from "./barycentric
 
 const SVG = "http://www.w3.org/2000/svg";
 const RADIUS = 70;
+const OUT = RADIUS + 16; // where the pictures are
+const PICTURE = 38;
 
-/** The poses as corners of a polygon, and a point in it that is dragged: its coordinates are the weights. */
+/** Two or more poses as corners of a polygon, and a point in it that is dragged: its coordinates are the weights. */
 export class BlendPolygon {
   readonly element: SVGSVGElement;
   readonly #corners: [number, number][];
@@ -15,17 +17,10 @@ export class BlendPolygon {
   constructor(names: readonly string[], act: (weights: number[]) => void) {
     this.#corners = regularPolygon(names.length);
     this.#act = act;
-    const [top, bottom] = [
-      Math.min(...this.#corners.map(([, y]) => y)),
-      Math.max(...this.#corners.map(([, y]) => y)),
-    ];
-    const reach = RADIUS + 38;
-    const box = [
-      -reach - 4,
-      reach * top - (top === 0 ? 24 : 0),
-      2 * reach + 8,
-      reach * (bottom - top) + (top === 0 ? 48 : 0),
-    ];
+    const heights = this.#corners.map(([, y]) => OUT * y);
+    const [top, bottom] = [Math.min(...heights), Math.max(...heights)];
+    const margin = PICTURE / 2 + 4;
+    const box = [-OUT - margin, top - margin, 2 * (OUT + margin), bottom - top + 2 * margin];
     this.element = svg("svg", {
       viewBox: box.join(" "),
       class: "polygon",
@@ -37,14 +32,15 @@ export class BlendPolygon {
     const outline = this.#corners.map(([x, y]) => `${RADIUS * x},${RADIUS * y}`).join(" ");
     this.element.append(svg("polygon", { points: outline, class: "outline" }));
     this.#corners.forEach(([x, y], i) => {
-      const size = names.length > 8 ? 26 : 38;
       const corner = svg("g", { class: "corner" });
-      const [cx, cy] = [(RADIUS + 16) * x, (RADIUS + 16) * y];
-      const picture = svg("image", { x: cx - size / 2, y: cy - size / 2, width: size, height: size });
+      const [cx, cy] = [OUT * x, OUT * y];
+      const inside = 0.84 * PICTURE; // the corners of the picture are near the circle
+      const [left, above] = [cx - inside / 2, cy - inside / 2];
+      const picture = svg("image", { x: left, y: above, width: inside, height: inside });
       this.#pictures.push(picture);
       const title = svg("title", {});
       title.textContent = names[i];
-      corner.append(svg("circle", { cx, cy, r: size / 2 }), picture, title);
+      corner.append(svg("circle", { cx, cy, r: PICTURE / 2 }), picture, title);
       corner.addEventListener("click", () => act(names.map((_, k) => (k === i ? 1 : 0))));
       this.element.append(corner);
     });

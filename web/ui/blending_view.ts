@@ -1,13 +1,14 @@
 import { Vector3 } from "three";
 
-import { BlendingSession, reconstruct, type BlendingModel } from "../engine/index.ts";
-import { withWeight } from "./barycentric.ts";
-import { BlendPath } from "./blend_path.ts";
-import { BlendPolygon } from "./blend_polygon.ts";
-import { h, section, slider, toggle } from "./dom.ts";
+import { BlendingSession, reconstruct, type BlendingModel, type FrameReport } from "../engine/index.ts";
+import { blendPanel } from "./blend_panel.ts";
+import { BlendPath, type Jump } from "./blend_path.ts";
+import { listenToBlendingKeys } from "./blending_keys.ts";
+import { enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
+import { allWeights, firstChoice, inEqualParts, type PoseChoice } from "./pose_choice.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
@@ -41,39 +42,29 @@ export async function blendingView(
   hud.dimension(model.dimension, model.dimension);
   const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
-  const path = new BlendPath(model.poses.length);
-  let [wish, compared] = [[...session.weights], false];
+  const path = new BlendPath(session);
+  let [choice, compared] = [firstChoice(model.poses.length), false];
   let solved: number[] | null = null;
 
-  const ask = (weights: readonly number[]) => {
-    wish = [...weights];
-    stage.draw();
-  };
-  const stopAndAsk = (weights: readonly number[]) => {
+  const ask = (asked: PoseChoice) => {
     path.play(false);
     play.setAttribute("aria-pressed", "false");
-    ask(weights);
+    hud.remark("");
+    choice = asked;
+    tellChoice(); // the next click comes perhaps before the next picture
+    stage.draw();
   };
-  const polygon = new BlendPolygon(model.poses, stopAndAsk);
-  const percent = (w: number) => `${Math.round(100 * w)} %`;
-  const sliders = model.poses.map((name, pose) =>
-    slider(name, { min: 0, max: 1, step: 0.001, value: wish[pose] }, percent, (w) =>
-      stopAndAsk(withWeight(wish, pose, w)),
-    ),
-  );
   const play = toggle("Play", "Space", false, (on) => {
     path.play(on);
+    hud.remark("");
     stage.draw();
   });
   const compare = toggle("Compare", "The straight blend of the poses beside it", false, (on) => {
     compared = on;
     place();
   });
-  const mean = h(
-    "button",
-    { type: "button", onclick: () => stopAndAsk(model.poses.map(() => 1 / model.poses.length)) },
-    "Mean",
-  );
+  const mean = h("button", { type: "button", onclick: () => ask(inEqualParts(choice.poses)) }, "Mean");
+  const panel = blendPanel(model.poses, [play, compare, mean], ask);
 
   const place = () => {
     straight.object.visible = compared;
@@ -90,19 +81,32 @@ export async function blendingView(
     stage.root.updateMatrixWorld();
   };
   const solve = () => {
-    if (solved && solved.every((w, i) => w === wish[i])) return;
-    hud.solved(session.blend(wish));
-    solved = [...wish];
-    for (const surface of [elastic, straight]) surface.weights = wish;
+    const wish = allWeights(choice, model.poses.length);
+    if (!solved || solved.some((w, i) => w !== wish[i])) take(session.blend(wish));
+  };
+  const tellChoice = () => {
+    panel.show(choice);
+    enable(play, choice.poses.length > 1);
+  };
+  /** Shows what the session has. */
+  const take = (report: FrameReport) => {
+    solved = allWeights(choice, model.poses.length);
+    hud.solved(report);
+    for (const surface of [elastic, straight]) surface.weights = solved;
     elastic.show(session.q);
-    straight.show(wish);
-    polygon.show(wish);
-    sliders.forEach(({ set }, pose) => set(wish[pose]));
+    straight.show(solved);
+  };
+  const walk = (seconds: number) => {
+    const step = path.advance(choice, seconds);
+    choice = step.choice;
+    tellChoice();
+    take(step.report);
+    if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
   const look = lookSection(stage, [elastic, straight], model, options.up);
   stage.beforeFrame = (seconds) => {
-    if (path.playing) wish = path.advance(seconds);
-    solve();
+    if (path.playing) walk(seconds);
+    else solve();
     look.legend.look();
     hud.frame(seconds);
     readout.ask();
@@ -113,27 +117,15 @@ export async function blendingView(
     if (path.playing) stage.draw();
   };
   const stop = new AbortController();
-  document.addEventListener(
-    "keydown",
-    (event) => {
-      if (
-        event.key !== " " ||
-        event.target instanceof HTMLButtonElement ||
-        event.target instanceof HTMLInputElement
-      )
-        return;
-      event.preventDefault();
-      play.click();
-    },
-    { signal: stop.signal },
-  );
+  listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
+  tellChoice();
   solve();
   const illustrate = (pose: number) => {
     if (pose === model.poses.length || stop.signal.aborted) return;
     const alone = model.poses.map((_, k) => (k === pose ? 1 : 0));
-    polygon.illustrate(pose, thumbnail(stage, straight, elastic, alone));
-    straight.show(wish);
+    panel.illustrate(pose, thumbnail(stage, straight, elastic, alone));
+    straight.show(solved!);
     stage.renderer.render(stage.scene, stage.camera);
     setTimeout(illustrate, 0, pose + 1);
   };
@@ -142,11 +134,11 @@ export async function blendingView(
   return {
     hud,
     panel: [
-      section("Blend", polygon.element, h("div", { className: "row" }, play, compare, mean)),
-      section("Poses", ...sliders.map(({ element }) => element)),
+      ...panel.sections,
       qualitySection(model.dimension, (d) => {
         session.dimension = d;
         solved = null;
+        path.restart();
         hud.dimension(d, model.dimension);
         stage.draw();
       }),
@@ -187,6 +179,10 @@ function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
     );
     return shape;
   });
+}
+
+function jumpRemark(poses: readonly string[], { pose, weight }: Jump): string {
+  return `The shape jumps on the way to ${poses[pose]}, at a weight of ${(100 * weight).toFixed(1)} %.`;
 }
 
 /** Puts the names below their shapes. */

@@ -39,6 +39,7 @@ void main() {
     ivec2 b = cell(pair.x), c = cell(pair.y);
     vec3 p = texelFetch(positions, b, 0).xyz - own, q = texelFetch(positions, c, 0).xyz - own;
     for (int k = 0; k < count; k++) {
+      if (weights[k] == 0.0) continue; // most of many poses
       vec3 o = texelFetch(rests, ivec3(at, k), 0).xyz;
       vec3 u = texelFetch(rests, ivec3(b, k), 0).xyz - o, v = texelFetch(rests, ivec3(c, k), 0).xyz - o;
       float uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), determinant = uu * vv - uv * uv;

@@ -9,6 +9,7 @@ import { fromFile, ownModel, type Source } from "./source.ts";
 import { Workspace } from "./workspace.ts";
 import "./panel.css";
 import "./style.css";
+import "./blending.css";
 import "./workspace.css";
 import "./choosing.css";
 

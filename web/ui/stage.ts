@@ -19,6 +19,9 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 export type Axis = "x" | "y" | "z";
 
+/** Around a shape in a small picture, of its size. */
+const MARGIN = 0.05;
+
 /** From the middle to the camera. */
 const VIEW = new Vector3(0.62, 0.36, 0.8).normalize();
 
@@ -109,7 +112,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Looks at a shape that stands in the root; the ground is hidden. For small pictures. */
+  /** Looks at a shape that stands in the root, which fills the square picture; the ground is hidden. For small pictures. */
   lookAt(shape: Float32Array): void {
     const sphere = boxOf(shape).getBoundingSphere(new Sphere()).applyMatrix4(this.root.matrixWorld);
     this.#ground.visible = false;
@@ -119,12 +122,30 @@ export class Stage {
       .multiplyScalar(sphere.radius / Math.sin((this.camera.fov * Math.PI) / 360))
       .add(sphere.center);
     this.camera.lookAt(sphere.center);
+    this.camera.aspect = 1;
+    this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
+    this.#fill(shape);
+  }
+
+  /** Takes the square of the picture that a shape is in: most shapes are far from filling their sphere. */
+  #fill(shape: Float32Array): void {
+    const seen = new Box3();
+    const point = new Vector3();
+    for (let i = 0; i < shape.length; i += 3)
+      seen.expandByPoint(point.fromArray(shape, i).applyMatrix4(this.root.matrixWorld).project(this.camera));
+    const size = seen.getSize(new Vector3());
+    const half = (1 + 2 * MARGIN) * 0.5 * Math.max(size.x, size.y);
+    const middle = seen.getCenter(new Vector3());
+    this.camera.setViewOffset(1, 1, (1 + middle.x - half) / 2, (1 - middle.y - half) / 2, half, half);
   }
 
   /** Back from `lookAt`. */
   lookBack(): void {
     this.#ground.visible = true;
+    this.camera.clearViewOffset();
+    this.camera.aspect = this.#before.aspect;
+    this.camera.updateProjectionMatrix();
     this.camera.position.copy(this.#before.position);
     this.camera.quaternion.copy(this.#before.quaternion);
     this.camera.updateMatrixWorld();

@@ -11,14 +11,12 @@ export function thumbnail(stage: Stage, poses: Surface, hidden: Surface, weights
   const ratio = renderer.getPixelRatio();
   const copy = document.createElement("canvas");
   copy.width = copy.height = PIXELS;
-  const before = { visible: poses.object.visible, aspect: camera.aspect, background: hidden.object.visible };
+  const before = { visible: poses.object.visible, background: hidden.object.visible };
   [poses.object.visible, hidden.object.visible, poses.shadowed] = [true, false, false];
   const place = poses.object.matrix.clone();
   poses.object.matrix.identity();
   poses.object.updateMatrixWorld(true);
   renderer.shadowMap.autoUpdate = false;
-  camera.aspect = 1;
-  camera.updateProjectionMatrix();
   poses.show(weights);
   stage.lookAt(poses.positions());
   renderer.setViewport(0, 0, PIXELS / ratio, PIXELS / ratio);
@@ -31,8 +29,6 @@ export function thumbnail(stage: Stage, poses: Surface, hidden: Surface, weights
   poses.object.matrix.copy(place);
   poses.object.matrixWorldNeedsUpdate = true;
   [poses.object.visible, hidden.object.visible, poses.shadowed] = [before.visible, before.background, true];
-  camera.aspect = before.aspect;
-  camera.updateProjectionMatrix();
   stage.lookBack();
   return copy.toDataURL();
 }

@@ -1,0 +1,163 @@
+"""The path of `snapspace blend --path` by even motion of the shape: traced finely, then divided."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..reduction import InterpolationModel
+from ..session import BlendingSession
+from .even_walk import EvenWalk, Jump, Place, Way
+
+FloatArray = NDArray[np.float64]
+
+#: Steps of the trace for each frame: lengths between its places are interpolated.
+FINER = 2
+#: Even steps of frames: what no step of the weights divides, and is farther, is a jump.
+JUMP = 4
+
+
+@dataclass(frozen=True)
+class PathFrame:
+    """Weights (poses,) of a frame, and of the traced shape before it, with its coordinates (d,)."""
+
+    weights: FloatArray
+    start_weights: FloatArray
+    start: FloatArray
+
+
+@dataclass(frozen=True)
+class PathJump:
+    """The shape jumps by `motion`, a length, at `weights`, before frame number `frame`."""
+
+    frame: int
+    weights: FloatArray
+    motion: float
+
+
+@dataclass(frozen=True)
+class EvenPath:
+    """Frames of even motion, and where the shape jumps all the same."""
+
+    frames: list[PathFrame]
+    jumps: list[PathJump]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """The way from a pose to the next one: places, how far the shape has moved there, jumps.
+
+    A jump does not count: no frame is in its middle.
+    """
+
+    places: list[Place]
+    lengths: FloatArray
+    jumps: list[Jump]
+
+
+def even_path(model: InterpolationModel, session: BlendingSession, frames: int) -> EvenPath:
+    """`frames` shapes from the first pose through all poses to the last, evenly in their motion.
+
+    The vertex that moves most moves as far from frame to frame. With as many frames as poses every
+    pose is a frame, so steps of different legs differ by what rounding to whole steps needs.
+    """
+    legs = _traced(model, session, frames)
+    poses = len(legs) + 1
+    places = [(k, *_place_at(legs[k], way)) for k, way in _divided(legs, frames)]
+    places.append((len(legs) - 1, 1.0, legs[-1].places[-1]))
+    shown = [
+        PathFrame(_weights(poses, k, share), _weights(poses, k, near.share), near.q)
+        for k, share, near in places
+    ]
+    jumps = []
+    for k, leg in enumerate(legs):
+        for jump in leg.jumps:
+            share = jump.after.share
+            frame = next(n for n, place in enumerate(places) if place[:2] >= (k, share))
+            jumps.append(PathJump(frame, _weights(poses, k, share), jump.motion))
+    return EvenPath(shown, jumps)
+
+
+def _divided(legs: list[Leg], frames: int) -> list[tuple[int, float]]:
+    """The leg of each frame except the last one, and how far the shape has moved on it."""
+    lengths = np.array([leg.lengths[-1] for leg in legs])
+    if frames > len(legs):
+        counts = whole_steps(lengths, frames - 1)
+        return [
+            (k, length * step / count)
+            for k, (length, count) in enumerate(zip(lengths.tolist(), counts.tolist(), strict=True))
+            for step in range(count)
+        ]
+    ends = np.cumsum(lengths)
+    ways = np.linspace(0, ends[-1], frames)[:-1]
+    numbers = np.minimum(np.searchsorted(ends, ways, side="right"), len(legs) - 1)
+    return list(zip(numbers.tolist(), (ways - (ends - lengths)[numbers]).tolist(), strict=True))
+
+
+def whole_steps(lengths: FloatArray, steps: int) -> NDArray[np.int64]:
+    """Steps of each leg, one at least, in proportion to their lengths; `steps` in all."""
+    counts = np.ones(len(lengths), dtype=np.int64)
+    for _ in range(steps - len(lengths)):
+        counts[np.argmax(lengths / counts)] += 1  # where steps are longest
+    return counts
+
+
+def _traced(model: InterpolationModel, session: BlendingSession, frames: int) -> list[Leg]:
+    poses = len(model.problem.poses)
+    shapes = model.problem.pose_shapes.reshape(poses, -1, 3)
+    # no path is shorter than these straight ways
+    straight = np.linalg.norm(np.diff(shapes, axis=0), axis=2).max(axis=1)
+    even = max(float(straight.sum()), 1e-9 * model.problem.mesh.diagonal) / (frames - 1)
+    basis = model.subspace.basis
+
+    def motion(first: FloatArray, second: FloatArray) -> float:
+        moved = (basis[:, : len(first)] @ (second - first)).reshape(-1, 3)
+        return float(np.linalg.norm(moved, axis=1).max())
+
+    session.blend(_weights(poses, 0, 0.0))
+    q, legs = session.q, []
+    for k in range(poses - 1):
+
+        def solve(share: float, near: FloatArray, k: int = k) -> FloatArray:
+            session.put(_weights(poses, k, share), near)
+            session.blend(session.weights)
+            return session.q
+
+        walk = EvenWalk(
+            Way(solve, motion), q, length=float(straight[k]), even=even / FINER, jump=JUMP * even
+        )
+        places, lengths, jumps = [walk.at], [0.0], []
+        while walk.at.share < 1:
+            before, jump = walk.at, walk.step()
+            if jump is not None:
+                jumps.append(jump)
+                places.append(jump.before)
+                lengths.append(lengths[-1] + motion(before.q, jump.before.q))
+            places.append(walk.at)
+            moved = 0.0 if jump is not None else motion(before.q, walk.at.q)
+            lengths.append(lengths[-1] + moved)
+        legs.append(Leg(places, np.array(lengths), jumps))
+        q = walk.at.q
+    return legs
+
+
+def _place_at(leg: Leg, way: float) -> tuple[float, Place]:
+    """The share of a leg where the shape has moved so far, and the place before it."""
+    if way <= 0:
+        return 0.0, leg.places[0]  # a pose exactly, also if the shape rests there
+    after = int(np.searchsorted(leg.lengths[1:], way, side="right")) + 1
+    if after >= len(leg.places):
+        return leg.places[-1].share, leg.places[-1]
+    first, last = leg.places[after - 1], leg.places[after]
+    part = (way - leg.lengths[after - 1]) / (leg.lengths[after] - leg.lengths[after - 1])
+    return first.share + part * (last.share - first.share), first
+
+
+def _weights(poses: int, leg: int, share: float) -> FloatArray:
+    weights = np.zeros(poses)
+    weights[leg] = 1.0 - share
+    if share > 0:
+        weights[leg + 1] = share
+    return weights

@@ -1,0 +1,144 @@
+import { BlendPolygon } from "./blend_polygon.ts";
+import { h, section, slider } from "./dom.ts";
+import {
+  inEqualParts,
+  MOST_CHOSEN,
+  reweighted,
+  withoutPose,
+  withPose,
+  type PoseChoice,
+} from "./pose_choice.ts";
+import { PoseList } from "./pose_list.ts";
+import { WeightRows } from "./weight_rows.ts";
+
+/** The controls of a blend: polygon and sliders of the poses that take part; of many poses a list that they are chosen in. */
+export interface BlendPanel {
+  readonly sections: HTMLElement[];
+  /** Where a search for poses is typed; null for few poses. */
+  readonly search: HTMLInputElement | null;
+  show(choice: PoseChoice): void;
+  /** Shows a picture of a pose wherever it stands. */
+  illustrate(pose: number, address: string): void;
+}
+
+/** `act` gets what the user asks for. Few poses all take part, many are chosen. */
+export function blendPanel(
+  names: readonly string[],
+  buttons: readonly HTMLElement[],
+  act: (choice: PoseChoice) => void,
+): BlendPanel {
+  const row = h("div", { className: "row" }, ...buttons);
+  const place = new PolygonPlace(names, act);
+  return names.length > MOST_CHOSEN ? choosing(names, place, row, act) : whole(names, place, row, act);
+}
+
+/** All poses take part. */
+function whole(
+  names: readonly string[],
+  place: PolygonPlace,
+  row: HTMLElement,
+  act: (choice: PoseChoice) => void,
+): BlendPanel {
+  let shown = inEqualParts(names.map((_, pose) => pose));
+  const percent = (w: number) => `${Math.round(100 * w)} %`;
+  const sliders = names.map((name, pose) =>
+    slider(name, { min: 0, max: 1, step: 0.001, value: shown.weights[pose] }, percent, (w) =>
+      act(reweighted(shown, pose, w)),
+    ),
+  );
+  return {
+    sections: [
+      section("Blend", place.element, row),
+      section("Poses", ...sliders.map(({ element }) => element)),
+    ],
+    search: null,
+    show: (choice) => {
+      shown = choice;
+      place.show(choice);
+      sliders.forEach(({ set }, pose) => set(choice.weights[pose]));
+    },
+    illustrate: (pose, address) => place.illustrate(pose, address),
+  };
+}
+
+/** Some poses take part. The list comes first, and keeps its height: nothing moves away while one chooses. */
+function choosing(
+  names: readonly string[],
+  place: PolygonPlace,
+  row: HTMLElement,
+  act: (choice: PoseChoice) => void,
+): BlendPanel {
+  let shown = inEqualParts([0]);
+  const list = new PoseList(names, (pose) =>
+    act(shown.poses.includes(pose) ? withoutPose(shown, pose) : withPose(shown, pose)),
+  );
+  const rows = new WeightRows(names, {
+    weigh: (at, weight) => act(reweighted(shown, at, weight)),
+    remove: (pose) => act(withoutPose(shown, pose)),
+  });
+  place.element.classList.add("steady");
+  return {
+    sections: [section("Poses", list.element), section("Blend", place.element, row, rows.element)],
+    search: list.search,
+    show: (choice) => {
+      if (choice.poses !== shown.poses) list.show(choice.poses);
+      shown = choice;
+      place.show(choice);
+      rows.show(choice, place.pictures);
+    },
+    illustrate: (pose, address) => {
+      place.illustrate(pose, address);
+      list.illustrate(pose, address);
+      rows.show(shown, place.pictures);
+    },
+  };
+}
+
+/** Where the polygon of the chosen poses stands: another one for each choice. */
+class PolygonPlace {
+  readonly element = h("div");
+  /** Addresses of pictures by pose. */
+  readonly pictures: (string | undefined)[];
+  readonly #names: readonly string[];
+  readonly #act: (choice: PoseChoice) => void;
+  #polygon: BlendPolygon | null = null;
+  #poses: readonly number[] = [];
+
+  constructor(names: readonly string[], act: (choice: PoseChoice) => void) {
+    this.#names = names;
+    this.#act = act;
+    this.pictures = names.map(() => undefined);
+  }
+
+  show({ poses, weights }: PoseChoice): void {
+    if (!sameNumbers(poses, this.#poses)) this.#make(poses);
+    this.#polygon?.show(weights);
+  }
+
+  illustrate(pose: number, address: string): void {
+    this.pictures[pose] = address;
+    const corner = this.#poses.indexOf(pose);
+    if (corner >= 0) this.#polygon?.illustrate(corner, address);
+  }
+
+  #make(poses: readonly number[]): void {
+    this.#poses = poses;
+    if (poses.length < 2) {
+      this.#polygon = null;
+      const hint = h("p", { className: "hint" }, "Choose another pose to blend with.");
+      this.element.replaceChildren(hint);
+      return;
+    }
+    const names = poses.map((pose) => this.#names[pose]);
+    this.#polygon = new BlendPolygon(names, (weights) => this.#act({ poses, weights }));
+    this.element.replaceChildren(this.#polygon.element);
+    poses.forEach((pose) => {
+      const address = this.pictures[pose];
+      if (address) this.illustrate(pose, address);
+    });
+  }
+}
+
+function sameNumbers(a: readonly number[], b: readonly number[]): boolean {
+  return a.length === b.length && a.every((value, i) => value === b[i]);
+}

@@ -1,0 +1,91 @@
+/** A way from share 0 to share 1 with a shape at each share. */
+export interface Way<Shape> {
+  /** The shape at a share, solved for from the shape at one before it. */
+  solve(share: number, from: Shape): Shape;
+  /** The largest motion of a vertex between two shapes. */
+  motion(from: Shape, to: Shape): number;
+}
+
+/** A step that moves the shape too far all the same, although it is no longer than this. */
+export const LEAST_STEP = 1e-4;
+const MOST_STEP = 0.25; // where the shape rests: a frame is no more of the way
+const JUMP = 4; // even steps
+const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: so much is not seen
+const GROWTHS = 3; // of one step: a pace that is too slow is found over a few frames
+
+interface Place<Shape> {
+  readonly share: number;
+  readonly shape: Shape;
+}
+
+/** Walks a way by even motions of the shape: where it moves fast, shares grow slowly.
+ *
+ * A step solves once or twice where the shape moves smoothly. One that moves it too far is halved down to LEAST_STEP,
+ * so that no step solves more than 18 times. What still moves it farther than JUMP even steps is a jump: the energy has
+ * no minimum between. */
+export class EvenWalk<Shape> {
+  readonly #way: Way<Shape>;
+  #at: Place<Shape>;
+  #pace: number; // shares for a motion
+
+  /** `length` is about how far the shape will move on the whole way. */
+  constructor(way: Way<Shape>, start: Shape, length: number) {
+    this.#way = way;
+    this.#at = { share: 0, shape: start };
+    this.#pace = length > 0 ? 1 / length : Infinity;
+  }
+
+  get share(): number {
+    return this.#at.share;
+  }
+
+  get shape(): Shape {
+    return this.#at.shape;
+  }
+
+  /** Takes a step that moves the shape by about `even`, or less at the end of the way. How far it jumped, else zero. */
+  step(even: number): number {
+    const from = this.#at;
+    const last = Math.min(from.share + MOST_STEP, 1);
+    const within = (step: number) => Math.min(from.share + Math.max(step, LEAST_STEP), last);
+    let [near, moved, growths] = [from, 0, 0];
+    let far: Place<Shape> | null = null;
+    let share = within(this.#pace * even);
+    for (;;) {
+      const tried = { share, shape: this.#way.solve(share, near.shape) };
+      const motion = this.#way.motion(from.shape, tried.shape);
+      const isFirst = far === null;
+      if (motion > LARGE * even) far = tried;
+      else [near, moved] = [tried, motion];
+      if (moved >= SMALL * even) break;
+      if (far) {
+        if (far.share - near.share <= 1.001 * LEAST_STEP) return this.#cross(from, near, far, even);
+        const middle = (near.share + far.share) / 2;
+        // the first time as if it moved evenly; what jumps does not, and is bracketed by halves
+        share = isFirst && motion > 0 ? within(((share - from.share) * even) / motion) : middle;
+        if (share <= near.share || share >= far.share) share = middle;
+      } else {
+        if (share === last || growths++ === GROWTHS) break;
+        share = within((share - from.share) * Math.min((even / motion) * 0.98, 4));
+      }
+    }
+    this.#go(from, near, moved);
+    return 0;
+  }
+
+  /** Between `near` and `far` there is no smaller step. */
+  #cross(from: Place<Shape>, near: Place<Shape>, far: Place<Shape>, even: number): number {
+    const gap = this.#way.motion(near.shape, far.shape);
+    const isJump = gap > JUMP * even;
+    const reached = isJump ? near : far; // a jump tells nothing of the pace
+    this.#go(from, reached, this.#way.motion(from.shape, reached.shape));
+    this.#at = far;
+    return isJump ? gap : 0;
+  }
+
+  #go(from: Place<Shape>, to: Place<Shape>, moved: number): void {
+    const step = to.share - from.share;
+    if (step > 0) this.#pace = Math.min(step / moved, 4 * this.#pace);
+    this.#at = to;
+  }
+}

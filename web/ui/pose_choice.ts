@@ -1,0 +1,51 @@
+import { normalised, withWeight } from "./barycentric.ts";
+
+/** So many poses take part at most: more corners of a polygon lie too close together to be told apart. */
+export const MOST_CHOSEN = 8;
+const AT_FIRST = 3;
+
+/** The few poses that take part in a blend, in the order in which they were chosen, and a weight for each. All others
+ * have weight zero, and keep it: whatever is changed here changes no weight but those of the chosen. */
+export interface PoseChoice {
+  readonly poses: readonly number[];
+  /** Their sum is one. */
+  readonly weights: readonly number[];
+}
+
+/** All of them if they are few, else the first ones; in equal parts. */
+export function firstChoice(count: number): PoseChoice {
+  const taken = count > MOST_CHOSEN ? AT_FIRST : count;
+  return inEqualParts(Array.from({ length: taken }, (_, pose) => pose));
+}
+
+export function inEqualParts(poses: readonly number[]): PoseChoice {
+  return { poses, weights: poses.map(() => 1 / poses.length) };
+}
+
+/** Adds a pose, the last one, with weight zero: the shape stays. The same choice if it is full or has the pose. */
+export function withPose(choice: PoseChoice, pose: number): PoseChoice {
+  if (choice.poses.includes(pose) || choice.poses.length >= MOST_CHOSEN) return choice;
+  return { poses: [...choice.poses, pose], weights: [...choice.weights, 0] };
+}
+
+/** Takes a pose away; the others share its weight in their proportions. The same choice if it is the only one. */
+export function withoutPose(choice: PoseChoice, pose: number): PoseChoice {
+  const place = choice.poses.indexOf(pose);
+  if (place < 0 || choice.poses.length === 1) return choice;
+  const { weights } = reweighted(choice, place, 0);
+  const others = <T>(values: readonly T[]) => values.filter((_, i) => i !== place);
+  return { poses: others(choice.poses), weights: normalised(others(weights)) };
+}
+
+/** Sets the weight of the pose at a place of the choice; the others share the rest in their proportions. */
+export function reweighted(choice: PoseChoice, place: number, weight: number): PoseChoice {
+  if (choice.poses.length === 1) return { ...choice, weights: [1] };
+  return { ...choice, weights: withWeight(choice.weights, place, weight) };
+}
+
+/** One weight for each of `count` poses. */
+export function allWeights(choice: PoseChoice, count: number): number[] {
+  const all = Array<number>(count).fill(0);
+  choice.poses.forEach((pose, place) => (all[pose] = choice.weights[place]));
+  return all;
+}

@@ -1,0 +1,87 @@
+import { h, mark } from "./dom.ts";
+import { MOST_CHOSEN, type PoseChoice } from "./pose_choice.ts";
+
+export interface WeightActs {
+  /** A weight between 0 and 1 for the pose at a place of the choice. */
+  weigh(place: number, weight: number): void;
+  remove(pose: number): void;
+}
+
+/** The weights of the chosen poses: a slider and a number for each, and a button that takes it away.
+ *
+ * There are always as many rows; the last ones are hidden. So the focus stays in its row when others come and go. */
+export class WeightRows {
+  readonly element: HTMLElement;
+  readonly #names: readonly string[];
+  readonly #rows: ReturnType<typeof weightRow>[];
+  #choice: PoseChoice = { poses: [], weights: [] };
+
+  constructor(names: readonly string[], acts: WeightActs) {
+    this.#names = names;
+    this.#rows = Array.from({ length: MOST_CHOSEN }, (_, place) =>
+      weightRow(
+        (weight) => acts.weigh(place, weight),
+        () => acts.remove(this.#choice.poses[place]),
+      ),
+    );
+    this.element = h("div", {}, ...this.#rows.map(({ element }) => element));
+  }
+
+  /** `pictures` are addresses by pose; those that are not made yet are missing. */
+  show(choice: PoseChoice, pictures: readonly (string | undefined)[]): void {
+    this.#choice = choice;
+    const last = choice.poses.length - 1;
+    this.#rows.forEach(({ element, remove, show }, place) => {
+      const hadFocus = element.contains(document.activeElement);
+      element.hidden = place > last;
+      if (place <= last) {
+        const pose = choice.poses[place];
+        show(this.#names[pose], pictures[pose], choice.weights[place]);
+        remove.disabled = last === 0;
+      }
+      if (!hadFocus || (place <= last && !remove.disabled)) return;
+      // what had the focus has gone
+      const { input, remove: button } = this.#rows[Math.min(place, last)];
+      (last === 0 ? input : button).focus();
+    });
+  }
+}
+
+function weightRow(weigh: (weight: number) => void, remove: () => void) {
+  const picture = h("img", { alt: "", width: 26, height: 26 });
+  const name = h("span");
+  const number = h("input", { type: "number", min: 0, max: 100, step: "any", required: true });
+  const input = h("input", { type: "range", min: 0, max: 1, step: 0.001 });
+  const button = h("button", { type: "button", className: "small bare", onclick: remove }, "✕");
+  let isTyped = false; // what is being typed stays until it is done
+  input.addEventListener("input", () => weigh(input.valueAsNumber));
+  number.addEventListener("input", () => (isTyped = true));
+  number.addEventListener("change", () => {
+    isTyped = false;
+    if (number.reportValidity()) weigh(number.valueAsNumber / 100);
+  });
+  number.addEventListener("blur", () => (isTyped = false));
+  const element = h(
+    "div",
+    { className: "weight" },
+    picture,
+    name,
+    h("label", {}, number, "%"),
+    button,
+    input,
+  );
+  const show = (pose: string, address: string | undefined, weight: number) => {
+    if (name.textContent !== pose) {
+      name.textContent = name.title = pose;
+      mark(input, "aria-label", pose);
+      mark(number, "aria-label", `Weight of ${pose} in percent`);
+      mark(button, "aria-label", `Take ${pose} away`);
+      button.title = "Take away";
+    }
+    if (address && picture.getAttribute("src") !== address) picture.src = address;
+    picture.style.visibility = address ? "" : "hidden";
+    input.value = String(weight);
+    if (!isTyped) number.value = String(Math.round(1000 * weight) / 10);
+  };
+  return { element, input, remove: button, show };
+}
