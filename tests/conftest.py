@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 from hypothesis import settings
 
@@ -15,6 +16,7 @@ from snapspace import (
     PosingModel,
     ReducedModel,
     Snapshots,
+    StableNeoHookean,
     reduce,
     sample,
     snapshot_pca,
@@ -23,7 +25,7 @@ from snapspace import (
 from snapspace.generators import cylinder, helix
 
 from .browser import chromium
-from .shapes import bar_problem, interpolation_problem, surface_around
+from .shapes import bar_poses, bar_problem, interpolation_problem, surface_around
 
 __all__ = ["chromium"]  # a fixture
 
@@ -76,6 +78,15 @@ def interpolation_model(
 def blending_model() -> InterpolationModel:
     """Three poses of a bar in the best 12 dimensions for 30 random blends."""
     return interpolation_model(interpolation_problem(), 30, 12)
+
+
+@pytest.fixture(scope="session")
+def blended_cubature_model() -> InterpolationModel:
+    """Three poses of a bar, of a material that collapses and differs from tet to tet."""
+    poses = bar_poses()
+    mu = np.linspace(0.5, 2.0, len(poses.tets))
+    problem = InterpolationProblem(poses, material=StableNeoHookean(lam=1.5, mu=mu))
+    return interpolation_model(problem, 30, 12)
 
 
 @pytest.fixture(scope="session")

@@ -78,7 +78,10 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
     return widened(Density::Blend::value_and_stress(numbers, G, P));
   } else {
     const std::size_t first = static_cast<std::size_t>(tet) * poses() * Blend::numbers();
-    return sum_over_poses<Density>(poses(), blend, numbers_.data() + first, G, P);
+    return sum_over_poses(poses(), Density::kModuli, blend, numbers_.data() + first, G, P,
+                          [](const Real* moduli, const Real at[3][3], Real stress[3][3]) {
+                            return Density::value_and_stress(moduli, at, stress);
+                          });
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "material/matrix3.h"
+#include "material/materials.h"
 #include "simd/lanes.h"
 
 namespace snapspace {
@@ -37,21 +37,23 @@ struct PoseBlend {
 /// The sum over poses of a density that does not collapse, and P = sum_k w_k P_k A_k^T, at the
 /// displacement gradient G against pose 0.
 /// @param numbers  pose by pose, see PoseBlend: numbers, or packs with one tet per lane
-template <class Density, class Number, class Real>
-inline Sum<Real> sum_over_poses(int poses, const Real* weights, const Number* numbers,
-                                const Real G[3][3], Real P[3][3]) {
+/// @param density  (moduli, G, P) -> value of the density, with its stress in P
+template <class Number, class Real, class Density>
+inline Sum<Real> sum_over_poses(int poses, int moduli_count, const Real* weights,
+                                const Number* numbers, const Real G[3][3], Real P[3][3],
+                                Density density) {
   Sum<Real> value(0.0);
   for (int e = 0; e < 9; ++e) P[e / 3][e % 3] = Real(0.0);
-  for (int k = 0; k < poses; ++k, numbers += 9 + Density::kModuli) {
-    Real map[3][3], there[3][3], stress[3][3], moduli[Density::kModuli];
+  for (int k = 0; k < poses; ++k, numbers += 9 + moduli_count) {
+    Real map[3][3], there[3][3], stress[3][3], moduli[kMostModuli];
     for (int e = 0; e < 9; ++e) map[e / 3][e % 3] = Real(numbers[e]);
-    for (int i = 0; i < Density::kModuli; ++i) moduli[i] = weights[k] * Real(numbers[9 + i]);
+    for (int i = 0; i < moduli_count; ++i) moduli[i] = weights[k] * Real(numbers[9 + i]);
     // F A - I = map + G + G map
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
         there[r][c] =
             map[r][c] + G[r][c] + (G[r][0] * map[0][c] + G[r][1] * map[1][c] + G[r][2] * map[2][c]);
-    value += widened(Density::value_and_stress(moduli, there, stress));
+    value += widened(density(moduli, there, stress));
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
         P[r][c] += stress[r][c] +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "online/minimizer.h"
+#include "online/objective.h"
 #include "simd/vectors.h"
 
 namespace snapspace::online {
@@ -27,7 +28,6 @@ class Bfgs {
   /// Minimises objective.value_and_gradient(q, g) over q (d), in place; q never gets a worse or
   /// non-finite value.
   /// @param initial_inverse  d x d, symmetric positive definite
-  template <class Objective>
   Report minimize(Objective& objective, int d, double* q, const double* initial_inverse,
                   const Termination& stop);
 
@@ -38,10 +38,8 @@ class Bfgs {
   static constexpr int kMaxTrials = 40;
   static constexpr int kMaxIdleSteps = 4;
 
-  template <class Objective>
   bool line_search(Objective& objective, const double* q, Report& report, double slope,
                    const Termination& stop);
-  template <class Objective>
   double evaluate(Objective& objective, const double* q, double step, Report& report);
   void set_direction();
   void update();
@@ -52,9 +50,8 @@ class Bfgs {
   double trial_value_ = 0.0;
 };
 
-template <class Objective>
-Report Bfgs::minimize(Objective& objective, int d, double* q, const double* initial_inverse,
-                      const Termination& stop) {
+inline Report Bfgs::minimize(Objective& objective, int d, double* q, const double* initial_inverse,
+                             const Termination& stop) {
   d_ = d;
   Report report{Status::max_iterations, 0, 1, 0.0, 0.0};
   report.value = objective.value_and_gradient(q, gradient_.data());
@@ -116,8 +113,7 @@ Report Bfgs::minimize(Objective& objective, int d, double* q, const double* init
   return report;
 }
 
-template <class Objective>
-double Bfgs::evaluate(Objective& objective, const double* q, double step, Report& report) {
+inline double Bfgs::evaluate(Objective& objective, const double* q, double step, Report& report) {
   for (int i = 0; i < d_; ++i) trial_[i] = q[i] + step * direction_[i];
   trial_value_ = objective.value_and_gradient(trial_.data(), trial_gradient_.data());
   ++report.evaluations;
@@ -126,9 +122,8 @@ double Bfgs::evaluate(Objective& objective, const double* q, double step, Report
 
 /// Bisection with expansion between a point that is too near (still steep) and one that is too far
 /// (too high). On success trial_ holds the accepted point.
-template <class Objective>
-bool Bfgs::line_search(Objective& objective, const double* q, Report& report, double slope,
-                       const Termination& stop) {
+inline bool Bfgs::line_search(Objective& objective, const double* q, Report& report, double slope,
+                              const Termination& stop) {
   constexpr double kDecrease = 1e-4;
   constexpr double kCurvature = 0.9;
   double near = 0.0;

@@ -8,6 +8,7 @@
 #include "element/tet.h"
 #include "material/pose_blend.h"
 #include "material/principal_hessian.h"
+#include "online/tet_density.h"
 
 namespace snapspace::online {
 
@@ -33,8 +34,10 @@ BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, con
       moduli_count_(material_moduli(material.kind)),
       weights_(poses.poses, 0.0),
       offsets_(9 * static_cast<std::size_t>(rows_.blocks()), Tets(0.0)) {
-  numbers_count_ =
-      Densities::with(kind_, []<class Density>() { return PoseBlend<Density>::numbers(); });
+  Densities::with(kind_, [&]<class Density>() {
+    numbers_count_ = PoseBlend<Density>::numbers();
+    collapses_ = PoseBlend<Density>::kCollapses;
+  });
   const std::size_t pairs = static_cast<std::size_t>(tets) * poses_;
   maps_.resize(9 * pairs);
   moduli_.resize(moduli_count_ * pairs);
@@ -73,7 +76,7 @@ void BlendedCubature::set_tet(int tet, double weight, const double* moduli, cons
 
 void BlendedCubature::set_weights(const double* weights) {
   std::copy_n(weights, poses_, weights_.data());
-  if (!Densities::with(kind_, []<class Density>() { return PoseBlend<Density>::kCollapses; })) {
+  if (!collapses_) {
     for (int k = 0; k < poses_; ++k) blend_[k] = Tets(weights[k]);
     return;
   }
@@ -93,25 +96,31 @@ void BlendedCubature::gradients(int block, Tets G[3][3]) const {
 
 double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
-  const double value = Densities::with(kind_, [&]<class Density>() {
-    using Blend = PoseBlend<Density>;
-    double sum = 0.0;
-    for (int b = 0; b < rows_.blocks(); ++b) {
-      Tets G[3][3], P[3][3];
-      gradients(b, G);
-      if constexpr (Blend::kCollapses) {
-        sum +=
-            lane_sum(Density::Blend::value_and_stress(blend_.data() + b * Blend::numbers(), G, P));
-      } else {
-        const Tets* numbers = numbers_.data() + b * poses_ * Blend::numbers();
-        sum += lane_sum(sum_over_poses<Density>(poses_, blend_.data(), numbers, G, P));
-      }
-      rows_.add_stresses(b, P);
-    }
-    return sum;
-  });
+  double value = 0.0;
+  for (int b = 0; b < rows_.blocks(); ++b) {
+    Tets G[3][3], P[3][3];
+    gradients(b, G);
+    value += lane_sum(block_value_and_stress(b, G, P));
+    rows_.add_stresses(b, P);
+  }
   rows_.end(gradient);
   return value;
+}
+
+BlendedCubature::Tets BlendedCubature::block_value_and_stress(int block, const Tets G[3][3],
+                                                              Tets P[3][3]) const {
+  if (collapses_)
+    return Densities::with(kind_, [&]<class Density>() {
+      if constexpr (PoseBlend<Density>::kCollapses)
+        return Density::Blend::value_and_stress(blend_.data() + block * numbers_count_, G, P);
+      else
+        return Tets(0.0);  // never comes here
+    });
+  const Tets* numbers = numbers_.data() + static_cast<std::size_t>(block) * poses_ * numbers_count_;
+  return sum_over_poses(poses_, moduli_count_, blend_.data(), numbers, G, P,
+                        [this](const Tets* moduli, const Tets at[3][3], Tets stress[3][3]) {
+                          return online::value_and_stress(kind_, moduli, at, stress);
+                        });
 }
 
 /// Adds the Hessian of a tet's energy against a pose, by its displacement gradient against pose 0,

@@ -51,10 +51,12 @@ class BlendedCubature {
   void set_tet(int tet, double weight, const double* moduli, const PoseTets& poses);
   /// Displacement gradients against pose 0.
   void gradients(int block, Tets G[3][3]) const;
+  [[nodiscard]] Tets block_value_and_stress(int block, const Tets G[3][3], Tets P[3][3]) const;
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
 
   TetRows rows_;
   int kind_, poses_;
+  bool collapses_;
   int numbers_count_, moduli_count_;   // of a tet and pose
   std::vector<double> weights_;        // of the poses
   std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "online/minimizers.h"
+#include "online/objective.h"
 
 namespace snapspace::online {
 
@@ -10,7 +11,7 @@ namespace snapspace::online {
 /// after construction.
 /// @tparam Elastic  BlendedQuartic or BlendedCubature
 template <class Elastic>
-class BlendingSolver {
+class BlendingSolver final : public Objective {
  public:
   /// The weights are equal at first.
   explicit BlendingSolver(Elastic elastic)
@@ -44,12 +45,12 @@ class BlendingSolver {
     elastic_.set_weights(weights);
   }
 
-  double value_and_gradient(const double* q, double* gradient) {
+  double value_and_gradient(const double* q, double* gradient) override {
     return elastic_.value_and_gradient(q, gradient);
   }
 
   /// The lower triangle of the Hessian, too.
-  double derivatives(const double* q, double* gradient, double* hessian) {
+  double derivatives(const double* q, double* gradient, double* hessian) override {
     return elastic_.derivatives(q, gradient, hessian);
   }
 

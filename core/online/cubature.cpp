@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "material/principal_hessian.h"
+#include "online/tet_density.h"
 
 namespace snapspace::online {
 
@@ -20,16 +21,13 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
 
 double Cubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
-  const double value = Densities::with(kind_, [&]<class Density>() {
-    double sum = 0.0;
-    for (int b = 0; b < rows_.blocks(); ++b) {
-      Tets G[3][3], P[3][3];
-      rows_.gradients(b, G);
-      sum += lane_sum(Density::value_and_stress(&moduli_[b * Density::kModuli], G, P));
-      rows_.add_stresses(b, P);
-    }
-    return sum;
-  });
+  double value = 0.0;
+  for (int b = 0; b < rows_.blocks(); ++b) {
+    Tets G[3][3], P[3][3];
+    rows_.gradients(b, G);
+    value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
+    rows_.add_stresses(b, P);
+  }
   rows_.end(gradient);
   return value;
 }

@@ -6,6 +6,7 @@
 #include "online/bfgs.h"
 #include "online/minimizer.h"
 #include "online/newton.h"
+#include "online/objective.h"
 #include "online/spd_inverse.h"
 
 namespace snapspace::online {
@@ -26,7 +27,6 @@ class Minimizers {
 
   /// Takes the Hessian at tau from objective.derivatives in d dimensions. False if it is not
   /// positive definite: there is then nothing to start from.
-  template <class Objective>
   bool prepare(Objective& objective, int d) {
     d_ = d;
     objective.derivatives(origin_.data(), gradient_.data(), hessian_.data());
@@ -38,7 +38,6 @@ class Minimizers {
 
   /// From q (d), in place: Newton, shifted along the Hessian at tau, or BFGS with its inverse as
   /// the first approximation (paper, sec. 6.2).
-  template <class Objective>
   Report minimize(Objective& objective, Method method, double* q, const Termination& stop) {
     if (method == Method::newton) return newton_.minimize(objective, d_, q, hessian_.data(), stop);
     return bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
@@ -46,7 +45,6 @@ class Minimizers {
 
   /// BFGS from q (d), in place, that goes on with the approximation of the last frame, if that
   /// converged. Where it leads nowhere, once more from the inverse at tau; the report counts both.
-  template <class Objective>
   Report minimize_onwards(Objective& objective, double* q, const Termination& stop) {
     Report report = bfgs_.minimize(objective, d_, q, last_.data(), stop);
     if (report.status == Status::line_search_failed) {

@@ -7,6 +7,7 @@
 #include "online/dense_cholesky.h"
 #include "online/line_quartic.h"
 #include "online/minimizer.h"
+#include "online/objective.h"
 #include "simd/vectors.h"
 
 namespace snapspace::online {
@@ -38,7 +39,6 @@ class Newton {
   /// The termination tests are asked about the coming step, with its predicted decrease: it need
   /// not be taken to know that it is too short.
   /// @param metric  d x d, symmetric positive definite; lower triangle read
-  template <class Objective>
   Report minimize(Objective& objective, int d, double* q, const double* metric,
                   const Termination& stop) {
     d_ = d;
@@ -141,7 +141,6 @@ class Newton {
   }
 
   /// Finds a trial_ with enough decrease. False if there is none among the trials.
-  template <class Objective>
   bool search(Objective& objective, const double* q, Report& report, double slope,
               const Termination& stop) {
     double step = 1.0;
@@ -176,7 +175,6 @@ class Newton {
   }
 
   /// From an acceptable step to a longer one, if that is still better.
-  template <class Objective>
   bool extend(Objective& objective, const double* q, Report& report, double step,
               const Termination& stop) {
     if (report.evaluations + 1 >= stop.max_evaluations) return true;
@@ -197,7 +195,6 @@ class Newton {
     return sum;
   }
 
-  template <class Objective>
   double evaluate(Objective& objective, const double* q, double step, Report& report) {
     for (int i = 0; i < d_; ++i) trial_[i] = q[i] + step * direction_[i];
     trial_value_ =

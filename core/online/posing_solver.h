@@ -3,6 +3,7 @@
 
 #include "online/handle_quadric.h"
 #include "online/minimizers.h"
+#include "online/objective.h"
 
 namespace snapspace::online {
 
@@ -12,7 +13,7 @@ namespace snapspace::online {
 /// construction.
 /// @tparam Elastic  Quartic or Cubature
 template <class Elastic>
-class PosingSolver {
+class PosingSolver final : public Objective {
  public:
   /// Copies K, L and S, which are as HandleQuadric takes them.
   PosingSolver(Elastic elastic, int handles, const double* K, const double* L, const double* S)
@@ -39,13 +40,13 @@ class PosingSolver {
   /// Takes new offsets of the handles (handles x 12): O(capacity * handles).
   void set_offsets(const double* offsets) { handles_.set_offsets(offsets); }
 
-  double value_and_gradient(const double* q, double* gradient) {
+  double value_and_gradient(const double* q, double* gradient) override {
     const double elastic = elastic_.value_and_gradient(q, gradient);
     return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
   /// The lower triangle of the Hessian, too.
-  double derivatives(const double* q, double* gradient, double* hessian) {
+  double derivatives(const double* q, double* gradient, double* hessian) override {
     const double elastic = elastic_.derivatives(q, gradient, hessian);
     handles_.add_hessian(hessian);
     return elastic + handles_.add_value_and_gradient(q, gradient);

@@ -168,9 +168,9 @@ def _fit(states: States, compliance: FloatArray, *, tets: int | None, seed: int)
             f"on, it takes {FEWEST_SNAPSHOTS}; solve more samples"
         )
     held = np.arange(len(states)) % FEWEST_SNAPSHOTS == FEWEST_SNAPSHOTS // 2
-    trained = _spread_out(chosen(states, _spread(np.flatnonzero(~held), TRAINED)))
-    unseen = _spread_out(chosen(states, _spread(np.flatnonzero(held), HELD_OUT)))
-    candidates = candidate_tets(trained, CANDIDATES * count)
+    trained = chosen(states, _spread(np.flatnonzero(~held), TRAINED)).with_forces()
+    unseen = chosen(states, _spread(np.flatnonzero(held), HELD_OUT)).with_forces()
+    candidates = candidate_tets(trained, CANDIDATES * count, seed=seed)
     directions = min(dimension, -(-ROWS * count // len(trained)))
     rows = training_rows(trained, candidates, compliance, directions=directions, seed=seed)
     picks, factors = nonnegative_fit(rows.columns, rows.target, count)
@@ -200,20 +200,15 @@ def _spread(which: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     return some
 
 
-import os
-T = float(os.environ.get("BT", "0.5"))
-def _spread_out(states):
-    if isinstance(states, PosingStates) or T == 0:
-        return states
-    w = states.weights
-    away = (1 - T) * w + T * np.roll(w, 1, axis=0)
-    return replace(states, coordinates=np.repeat(states.coordinates, 2, axis=0), weights=np.stack([w, away], axis=1).reshape(-1, w.shape[1]))
-
 @single_threaded_blas
 def _stiffness(hessian: csr_array, subspace: AffineSubspace) -> FloatArray:
     """The exact reduced Hessian of a full one (3n, 3n), symmetric."""
     stiffness = subspace.basis.T @ (hessian @ subspace.basis)
-    symmetric: FloatArray = (stiffness + stiffness.T) / 2
+    return _symmetric(stiffness)
+
+
+def _symmetric(matrix: FloatArray) -> FloatArray:
+    symmetric: FloatArray = 0.5 * (matrix + matrix.T)
     return symmetric
 
 
@@ -233,9 +228,7 @@ def _mean_stiffness(states: BlendingStates) -> FloatArray:
             problem.system.value_and_gradient(mean + h * mode, center)[1] for h in (-step, step)
         ]
         columns.append((forces[1] - forces[0]) @ basis / (2.0 * step))
-    matrix = np.array(columns)
-    symmetric: FloatArray = (matrix + matrix.T) / 2
-    return symmetric
+    return _symmetric(np.array(columns))
 
 
 @single_threaded_blas

@@ -153,7 +153,7 @@ def test_bad_input_is_named(
         cubature(subspace, few)
     with pytest.raises(ValueError, match="snapshots, but there are 0; give"):
         reduce(problem, subspace, energy="cubature")
-    with pytest.raises(ValueError, match="interpolation has exact energies only"):
+    with pytest.raises(ValueError, match="snapshots, but there are 0; give"):
         reduce(blending_model.problem, blending_model.subspace, energy="cubature")
     with pytest.raises(ValueError, match="not attached"):
         cubature(posing_model.subspace, snapshots)

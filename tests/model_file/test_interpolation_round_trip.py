@@ -25,6 +25,7 @@ from snapspace import (
     validate,
 )
 from snapspace.mesh import boundary_surface
+from snapspace.reduction import PoseQuartics
 
 from ..shapes import bar_poses, bent, irregular_bar
 from .test_bad_files import Change, refused, rewrite
@@ -65,8 +66,12 @@ def assert_same_model(a: InterpolationModel, b: InterpolationModel) -> None:
     assert (a.subspace.mass != b.subspace.mass).nnz == 0
     for attribute in ("faces", "corners", "weights"):
         np.testing.assert_array_equal(getattr(a.surface, attribute), getattr(b.surface, attribute))
-    for attribute in ("coefficients", "training_parameters", "training_coordinates"):
+    for attribute in ("training_parameters", "training_coordinates"):
         np.testing.assert_array_equal(getattr(a, attribute), getattr(b, attribute))
+    assert type(a.blends) is type(b.blends)
+    names = ("coefficients",) if isinstance(a.blends, PoseQuartics) else ("tets", "weights", "rows")
+    for attribute in names:
+        np.testing.assert_array_equal(getattr(a.blends, attribute), getattr(b.blends, attribute))
     assert a.provenance == b.provenance
 
 
@@ -78,6 +83,21 @@ def loaded(path: Path) -> InterpolationModel:
 
 def test_nothing_is_lost(blending_model: InterpolationModel, saved: Path) -> None:
     assert_same_model(loaded(saved), blending_model)
+
+
+def test_nothing_of_a_cubature_is_lost(
+    blended_cubature_model: InterpolationModel, tmp_path: Path
+) -> None:
+    path = blended_cubature_model.save(tmp_path / "bar.snapspace")
+    again = loaded(path)
+    assert_same_model(again, blended_cubature_model)
+    weights = [0.2, 0.5, 0.3]
+    shapes = []
+    for model in (again, blended_cubature_model):
+        session = model.session()
+        assert session.blend(weights).converged
+        shapes.append(session.vertices)
+    np.testing.assert_array_equal(*shapes)
 
 
 def test_a_loaded_session_gives_the_same_shapes(

@@ -167,6 +167,7 @@ def expected(
     own_surface_model: PosingModel,
     cubature_model: PosingModel,
     blending_model: InterpolationModel,
+    blended_cubature_model: InterpolationModel,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
@@ -176,6 +177,7 @@ def expected(
         "own_surface": own_surface_model,
         "cubature": cubature_model,
         "blending": calibrated(blending_model, samples=12, threads=1),
+        "blending-cubature": calibrated(blended_cubature_model, samples=12, threads=1),
         "own_boxes": own_boxes,
     }
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
@@ -188,6 +190,7 @@ def expected(
         "own_surface": posing_frames(models["own_surface"]),
         "cubature": posing_frames(models["cubature"]),
         "blending": blending_frames(models["blending"]),
+        "blending-cubature": blending_frames(models["blending-cubature"]),
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
         "materials": list(materials),

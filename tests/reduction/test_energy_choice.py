@@ -9,6 +9,7 @@ from snapspace import (
     ARAP,
     MATERIALS,
     Cubature,
+    InterpolationProblem,
     Material,
     PosingProblem,
     Quartic,
@@ -22,7 +23,7 @@ from snapspace import (
 )
 from snapspace.reduction import chosen_energy, fewest_snapshots, training_tolerance
 
-from ..shapes import interpolation_problem, random_subspace
+from ..shapes import bar_poses, interpolation_problem, random_subspace
 from ..snapshots.bars import posing_bar
 
 
@@ -58,8 +59,15 @@ def test_interpolation_is_exact_at_any_dimension() -> None:
     problem = interpolation_problem()
     assert chosen_energy(problem, 200) == "exact"
     assert training_tolerance(problem, 200) is None
-    with pytest.raises(ValueError, match="interpolation has exact energies only"):
-        chosen_energy(problem, 5, "cubature")
+    assert chosen_energy(problem, 5, "cubature") == "cubature"
+
+
+@pytest.mark.parametrize("kind", sorted(set(MATERIALS) - {"stvk"}))
+def test_blends_of_other_materials_are_cubatures(kind: str) -> None:
+    problem = InterpolationProblem(bar_poses(), material=MATERIALS[kind]())
+    assert chosen_energy(problem, 5) == "cubature"
+    with pytest.raises(ValueError, match="is no polynomial of degree four"):
+        chosen_energy(problem, 5, "exact")
 
 
 def test_what_trains_a_cubature_is_tight() -> None:

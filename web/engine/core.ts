@@ -60,7 +60,8 @@ export class Core {
     this.#session = createSession(exports, model);
     this.valueScale = valueScaleOf(exports, model.valueScale);
     // a Hessian of a cubature costs d / 4 times its gradient
-    this.#method = model.kind === "posing" && model.elastic.kind === "cubature" ? METHOD.BFGS : METHOD.NEWTON;
+    const energy = model.kind === "posing" ? model.elastic : model.blends;
+    this.#method = energy.kind === "cubature" ? METHOD.BFGS : METHOD.NEWTON;
     const inputs = model.kind === "posing" ? 12 * model.handles.length : model.poses.length;
     this.#memory = new CoreMemory(exports);
     this.#numbers = this.#memory.take(8 * Math.max(inputs, model.dimension));

@@ -13,13 +13,7 @@ export function createSession(exports: CoreExports, model: PosingModel | Blendin
   const session =
     model.kind === "posing"
       ? createPosing(exports, memory, model, basis, error)
-      : exports.snapspace_create_blending(
-          model.dimension,
-          model.poses.length,
-          new CoreMemory(exports).numbers(model.quartics), // read in place: stays
-          basis,
-          error,
-        );
+      : createBlending(exports, memory, model, basis, error);
   const code = new Int32Array(exports.memory.buffer, error, 1)[0];
   if (session === 0)
     throw new UnreadableModel(
@@ -44,13 +38,44 @@ function createPosing(
     const quartic = memory.numbers(elastic.coefficients);
     return exports.snapspace_create_posing(dimension, handles.length, quartic, K, L, S, basis, error);
   }
-  const cubature = memory.struct(CUBATURE, {
+  const cubature = cubatureOf(exports, memory, elastic, dimension);
+  return exports.snapspace_create_posing_cubature(dimension, handles.length, cubature, K, L, S, basis, error);
+}
+
+function createBlending(
+  exports: CoreExports,
+  memory: CoreMemory,
+  { dimension, poses, blends }: BlendingModel,
+  basis: number,
+  error: number,
+): number {
+  if (blends.kind === "quartics") {
+    const quartics = new CoreMemory(exports).numbers(blends.coefficients); // read in place: stays
+    return exports.snapspace_create_blending(dimension, poses.length, quartics, basis, error);
+  }
+  const cubature = cubatureOf(exports, memory, blends, dimension);
+  const ofTau = 12 * blends.weights.length * poses.length;
+  const [corners, tau] = [blends.corners.subarray(0, ofTau), blends.corners.subarray(ofTau)].map((array) =>
+    memory.numbers(array),
+  );
+  return exports.snapspace_create_blending_cubature(
+    dimension,
+    poses.length,
+    cubature,
+    corners,
+    tau,
+    basis,
+    error,
+  );
+}
+
+function cubatureOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature, dimension: number): number {
+  return memory.struct(CUBATURE, {
     tets: elastic.weights.length,
     rows: rowsOf(exports, memory, elastic, dimension),
     weights: memory.numbers(elastic.weights),
     ...materialOf(exports, memory, elastic.material),
   });
-  return exports.snapspace_create_posing_cubature(dimension, handles.length, cubature, K, L, S, basis, error);
 }
 
 function rowsOf(exports: CoreExports, memory: CoreMemory, { rows }: Cubature, dimension: number): number {

@@ -43,6 +43,15 @@ export interface CoreExports {
     basis: number,
     error: number,
   ): number;
+  snapspace_create_blending_cubature(
+    dimension: number,
+    poses: number,
+    cubature: number,
+    corners: number,
+    tau: number,
+    basis: number,
+    error: number,
+  ): number;
   snapspace_destroy(session: number): void;
   snapspace_set_offsets(session: number, offsets: number): number;
   snapspace_set_weights(session: number, weights: number): number;

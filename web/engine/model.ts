@@ -71,6 +71,19 @@ export interface Cubature {
   readonly material: Material;
 }
 
+/** The exact reduced energies of all poses, polynomials. */
+export interface PoseQuartics {
+  readonly kind: "quartics";
+  /** One pose after the other. */
+  readonly coefficients: Float64Array<ArrayBuffer>;
+}
+
+/** The blended energy as a sum over the same few tets of all poses; rows and weights are those of the first. */
+export interface BlendedCubature extends Cubature {
+  /** Corners of the tets in every pose, and at last in the mean shape: (poses + 1) x tets x 4 x 3. */
+  readonly corners: Float64Array<ArrayBuffer>;
+}
+
 /** Positions of the tets' corners at rest, tets x 4 x 3, and the modes there, tets x 4 x 3 x dimension. */
 export interface CornerModes {
   readonly points: Float64Array<ArrayBuffer>;
@@ -91,8 +104,7 @@ export interface BlendingModel extends Common {
   readonly poseSpace: ShapeSpace;
   /** The least weight that was sampled. */
   readonly lowestWeight: number;
-  /** One after the other. */
-  readonly quartics: Float64Array<ArrayBuffer>;
+  readonly blends: PoseQuartics | BlendedCubature;
   /** Weights and coordinates of the samples that the model was trained with. */
   readonly sampleWeights: Float64Array<ArrayBuffer>;
   readonly sampleCoordinates: Float64Array<ArrayBuffer>;

@@ -4,11 +4,14 @@
 #include <cstdlib>
 #include <new>
 
+#include "online/blended_cubature.cpp"
 #include "online/cubature.cpp"
 #include "online/probe_entry.cpp"
 #include "online/quartic.cpp"
 #include "online/residual_probe.cpp"
 #include "online/snapspace_online.cpp"
+#include "online/tet_density.cpp"
+#include "online/tet_rows.cpp"
 
 namespace std {
 inline namespace __1 {

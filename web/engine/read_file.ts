@@ -4,11 +4,13 @@ import { NO_PINS } from "./estimator.ts";
 import { estimatorOf, pinsOf } from "./read_estimator.ts";
 import {
   coefficientCount,
+  type BlendedCubature,
   type CornerModes,
   type Cubature,
   type Handle,
   type Material,
   type Model,
+  type PoseQuartics,
   type Quartic,
 } from "./model.ts";
 import { fileMaterial, materialOfTets } from "./read_material.ts";
@@ -22,7 +24,8 @@ import { diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
 export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
   if (kind === "posing" || kind === "posing-cubature") return readPosing(container, name);
-  if (kind === "interpolation") return readInterpolation(container, name);
+  if (kind === "interpolation" || kind === "interpolation-cubature")
+    return readInterpolation(container, name);
   throw new UnreadableModel(
     `This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`,
   );
@@ -103,7 +106,8 @@ function readInterpolation(container: Container, name: string): Model {
     );
   }
 
-  const first = shapes.subarray(0, 3 * vertices);
+  const pose = (k: number) => shapes.subarray(3 * vertices * k, 3 * vertices * (k + 1));
+  const first = pose(0);
   const basis = container.doubles("basis", dimension, 3 * vertices);
   const registeredPoses = poses.map((_, pose) => mean.map((x, i) => x + offsets[3 * vertices * pose + i]));
   const base = embedded(mean);
@@ -124,7 +128,7 @@ function readInterpolation(container: Container, name: string): Model {
     poses,
     poseSpace: quantised(base, embedded(offsets)),
     lowestWeight: -about.extrapolation / poses.length,
-    quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
+    blends: readBlends(container, [...poses.map((_, k) => pose(k)), mean], tets, basis, material),
     sampleWeights: container.doubles("training_parameters", samples, poses.length),
     sampleCoordinates: container.doubles("training_coordinates", samples, dimension),
   };
@@ -147,12 +151,42 @@ function readElastic(
   basis: Float64Array,
   material: Material,
 ): Quartic | Cubature {
+  if (container.has("cubature_tets")) return readCubature(container, rest, tets, basis, material);
   const dimension = basis.length / rest.length;
-  if (!container.has("cubature_tets"))
-    return {
-      kind: "quartic",
-      coefficients: container.doubles("quartic", coefficientCount(dimension)),
-    };
+  return {
+    kind: "quartic",
+    coefficients: container.doubles("quartic", coefficientCount(dimension)),
+  };
+}
+
+/** Of the poses and, at last, the mean shape. */
+function readBlends(
+  container: Container,
+  shapes: readonly Float64Array[],
+  tets: Int32Array,
+  basis: Float64Array,
+  material: Material,
+): PoseQuartics | BlendedCubature {
+  if (!container.has("cubature_tets")) {
+    const dimension = basis.length / shapes[0].length;
+    const coefficients = container.doubles("quartics", shapes.length - 1, coefficientCount(dimension));
+    return { kind: "quartics", coefficients };
+  }
+  const cubature = readCubature(container, shapes[0], tets, basis, material);
+  const [count] = container.shape("cubature_tets", 1);
+  const chosen = container.indices("cubature_tets", tets.length / 4, [count]);
+  const corners = new Float64Array(12 * count * shapes.length);
+  shapes.forEach((shape, k) => corners.set(cornersOf(shape, tets, chosen), 12 * count * k));
+  return { ...cubature, corners };
+}
+
+function readCubature(
+  container: Container,
+  rest: Float64Array,
+  tets: Int32Array,
+  basis: Float64Array,
+  material: Material,
+): Cubature {
   const [count] = container.shape("cubature_tets", 1);
   const chosen = container.indices("cubature_tets", tets.length / 4, [count]);
   return {
@@ -170,16 +204,23 @@ function cornerModes(
   chosen: Int32Array,
 ): CornerModes {
   const dimension = basis.length / rest.length;
-  const points = new Float64Array(12 * chosen.length);
+  const points = cornersOf(rest, tets, chosen);
   const modes = new Float64Array(points.length * dimension);
-  for (let i = 0; i < points.length; i++) {
-    const corner = Math.floor(i / 3);
-    const from = 3 * tets[4 * chosen[corner >> 2] + (corner & 3)] + (i % 3);
-    points[i] = rest[from];
-    for (let mode = 0; mode < dimension; mode++)
-      modes[i * dimension + mode] = basis[mode * rest.length + from];
+  for (let mode = 0; mode < dimension; mode++) {
+    const shape = basis.subarray(mode * rest.length, (mode + 1) * rest.length);
+    cornersOf(shape, tets, chosen).forEach((x, i) => (modes[i * dimension + mode] = x));
   }
   return { points, modes };
+}
+
+/** Of a shape (3n) what is at the corners of some tets, tets x 4 x 3. */
+function cornersOf(shape: Float64Array, tets: Int32Array, chosen: Int32Array): Float64Array<ArrayBuffer> {
+  const corners = new Float64Array(12 * chosen.length);
+  for (let i = 0; i < corners.length; i++) {
+    const corner = Math.floor(i / 3);
+    corners[i] = shape[3 * tets[4 * chosen[corner >> 2] + (corner & 3)] + (i % 3)];
+  }
+  return corners;
 }
 
 function centroid(members: Int32Array, rest: Float64Array, masses: Float64Array): [number, number, number] {

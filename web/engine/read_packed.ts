@@ -2,7 +2,15 @@ import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
 import { readMaterial } from "./read_material.ts";
-import { coefficientCount, type Cubature, type Handle, type Model, type Quartic } from "./model.ts";
+import {
+  coefficientCount,
+  type BlendedCubature,
+  type Cubature,
+  type Handle,
+  type Model,
+  type PoseQuartics,
+  type Quartic,
+} from "./model.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** Reads the model of an exported page (snapspace/page/pack.py). */
@@ -48,7 +56,7 @@ export function readPacked(container: Container): Model {
     poses,
     poseSpace: readSpace(container, "poses"),
     lowestWeight: Number(about.lowest_weight),
-    quartics: container.doubles("quartics", poses.length, coefficientCount(dimension)),
+    blends: readBlends(container, common, poses.length),
     sampleWeights: container.doubles("sample_weights", samples, poses.length),
     sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
   };
@@ -60,12 +68,15 @@ interface Known {
   readonly material: string;
 }
 
-function readElastic(container: Container, { dimension, material }: Known): Quartic | Cubature {
-  if (!container.has("cubature_rows"))
-    return {
-      kind: "quartic",
-      coefficients: container.doubles("quartic", coefficientCount(dimension)),
-    };
+function readElastic(container: Container, known: Known): Quartic | Cubature {
+  if (container.has("cubature_rows")) return readCubature(container, known);
+  return {
+    kind: "quartic",
+    coefficients: container.doubles("quartic", coefficientCount(known.dimension)),
+  };
+}
+
+function readCubature(container: Container, { dimension, material }: Known): Cubature {
   const [tets] = container.shape("cubature_weights", 1);
   return {
     kind: "cubature",
@@ -73,6 +84,16 @@ function readElastic(container: Container, { dimension, material }: Known): Quar
     weights: container.doubles("cubature_weights", tets),
     material: readMaterial(container, "cubature_moduli", material),
   };
+}
+
+function readBlends(container: Container, known: Known, poses: number): PoseQuartics | BlendedCubature {
+  if (!container.has("cubature_rows")) {
+    const coefficients = container.doubles("quartics", poses, coefficientCount(known.dimension));
+    return { kind: "quartics", coefficients };
+  }
+  const cubature = readCubature(container, known);
+  const corners = container.doubles("cubature_corners", poses + 1, cubature.weights.length, 12);
+  return { ...cubature, corners };
 }
 
 function readEstimator(

@@ -17,11 +17,16 @@ interface Frame {
   outside: string[];
 }
 
-const { frames, diagonal } = expected<{ frames: Frame[]; diagonal: number }>("blending.json");
-
-for (const file of ["blending.snapspace", "blending.packed"])
-  test(`blends are those of Session: ${file}`, async () => {
-    const model = readModel(bytes(file), "poses") as BlendingModel;
+for (const [name, ending] of [
+  ["blending", "snapspace"],
+  ["blending", "packed"],
+  ["blending-cubature", "snapspace"],
+  ["blending-cubature", "packed"],
+])
+  test(`blends are those of Session: ${name}.${ending}`, async () => {
+    const { frames, diagonal } = expected<{ frames: Frame[]; diagonal: number }>(`${name}.json`);
+    const model = readModel(bytes(`${name}.${ending}`), "poses") as BlendingModel;
+    assert.equal(model.blends.kind, name === "blending" ? "quartics" : "cubature");
     const session = await BlendingSession.create(core, model);
     const { valueScale } = await Core.create(core, model);
     const shape = new Float32Array(3 * model.space.vertices);

@@ -60,7 +60,8 @@ for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packe
       assert.equal(report.status, "converged");
       assert.ok(Math.abs(report.value - frame.value) <= exact * Math.abs(frame.value) + 1e-12 * valueScale);
       assert.ok(distance(session.q, frame.q) < 10 * exact * model.coordinateScale);
-      assert.ok(distance(surface(session), frame.surface) < 3e-5 * diagonal);
+      // modes are quantised; the barrier of symmetric Dirichlet leaves the solve fewer digits
+      assert.ok(distance(surface(session), frame.surface) < 5e-5 * diagonal);
       isCertificate(session.certificate(), frame.certificate, 1e3 * exact);
       assert.deepEqual(
         session.outside.map(({ handle }) => handle),

@@ -1,0 +1,13 @@
+#pragma once
+#include "material/tet_material.h"
+#include "online/tet_rows.h"
+
+namespace snapspace::online {
+
+/// Energies and stresses of tets, one per lane, of the density at an index of Densities. The switch
+/// takes no time beside the rows of the tets, and all who need a density share its code.
+/// @param moduli  times the volumes that the tets stand for
+[[nodiscard]] TetRows::Tets value_and_stress(int kind, const TetRows::Tets* moduli,
+                                             const TetRows::Tets G[3][3], TetRows::Tets P[3][3]);
+
+}  // namespace snapspace::online
