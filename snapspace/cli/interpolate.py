@@ -12,8 +12,9 @@ import click
 from rich import box
 from rich.table import Table
 
+from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
-from ..material import StVK
+from ..material import MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
@@ -28,7 +29,7 @@ from .pipeline import build_model
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .summary import print_summary
 
-SAMPLES, DIMENSION = 40, 20
+SAMPLES, DIMENSION = 40, 30
 
 
 @click.command(short_help="Make a model that blends poses.")
@@ -77,6 +78,14 @@ SAMPLES, DIMENSION = 40, 20
     show_default=True,
     help="Also sample outside of the simplex, enlarged by this share.",
 )
+@click.option(
+    "--material",
+    "kind",
+    type=click.Choice(sorted(MATERIALS)),
+    default=StableNeoHookean.kind,
+    show_default=True,
+    help="What the body is made of; stvk is the paper's.",
+)
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
@@ -94,6 +103,7 @@ def interpolate(
     accept_inverted: bool,
     save_poses: Path | None,
     extrapolation: float,
+    kind: str,
     lam: float,
     mu: float,
     choices: Choices,
@@ -123,9 +133,14 @@ def interpolate(
     if tets is not None and edge_length is not None:
         raise ValueError("--edge-length is for tets that are made here; leave it or --tets out")
     # what is wrong with an option is said before the work begins
-    material = StVK(lam=lam, mu=mu)
+    material = material_class(kind).from_lame(lam=lam, mu=mu)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
+    if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
+        raise ValueError(
+            f"the energy is a cubature, which is trained on {FEWEST_BLENDS} samples or more, but "
+            f"there is {choices.samples}; raise --samples, or take --material stvk"
+        )
     check_deviation(deviation)
     if save_poses is not None:
         make_folder(save_poses, option="--save-poses")

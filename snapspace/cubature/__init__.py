@@ -3,9 +3,16 @@
 from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature
 from .held_out_errors import CubatureErrors
-from .train import FEWEST_SNAPSHOTS, default_tets, train_blended_cubature, train_cubature
+from .train import (
+    FEWEST_BLENDS,
+    FEWEST_SNAPSHOTS,
+    default_tets,
+    train_blended_cubature,
+    train_cubature,
+)
 
 __all__ = [
+    "FEWEST_BLENDS",
     "FEWEST_SNAPSHOTS",
     "BlendedCubature",
     "Cubature",

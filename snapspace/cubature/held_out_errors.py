@@ -46,14 +46,16 @@ def held_out_errors(
 ) -> CubatureErrors:
     """Errors at one state or more, where `cubature` gives value and gradient (d,) of a state."""
     basis = states.subspace.basis
+    sizes = np.linalg.norm(states.coordinates, axis=1)
+    sizes = np.maximum(sizes, 1e-3 * sizes.max())  # a blend may be the mean shape itself
     errors = np.empty((len(states), 3))
-    for k, (target, q) in enumerate(zip(errors, states.coordinates, strict=True)):
+    for k, (target, q, size) in enumerate(zip(errors, states.coordinates, sizes, strict=True)):
         exact = states.forces(k, basis @ q)
         force = basis.T @ exact.gradient
         value, gradient = cubature(k)
         target[0] = abs(value - exact.energy) / exact.unit
         target[1] = np.linalg.norm(gradient - force) / np.linalg.norm(force)
-        target[2] = np.linalg.norm(compliance @ (gradient - force)) / np.linalg.norm(q)
+        target[2] = np.linalg.norm(compliance @ (gradient - force)) / max(size, 1e-300)
     median, worst = np.median(errors, axis=0).tolist(), errors.max(axis=0).tolist()
     return CubatureErrors(
         len(states), median[0], worst[0], median[1], worst[1], median[2], worst[2]

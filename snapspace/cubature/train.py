@@ -34,6 +34,8 @@ CANDIDATES, ROWS = 20, 3
 TRAINED, HELD_OUT = 200, 20
 #: One snapshot in so many is held out, which takes as many at least.
 FEWEST_SNAPSHOTS = 10
+#: Fewest blends that a cubature is trained on: one, and one to judge by.
+FEWEST_BLENDS = 2
 #: One blended state in so many says how large energies are.
 PILOT_STEP = 8
 
@@ -41,6 +43,15 @@ PILOT_STEP = 8
 def default_tets(dimension: int) -> int:
     """How many tets a cubature has by default: 8 d, but at most 1000, where the mesh has them."""
     return min(TETS_PER_DIMENSION * dimension, MOST_TETS)
+
+
+def default_blended_tets(dimension: int) -> int:
+    """How many tets a blended cubature has by default: 30 d, but at most 1000.
+
+    Blends have few dimensions and no handles that hold the shape. On the Lion (four poses, d = 20)
+    160 tets leave errors of 0.05, 600 leave 0.013, which are those of the exact energy.
+    """
+    return min(30 * dimension, MOST_TETS)
 
 
 def train_cubature(
@@ -89,7 +100,8 @@ def train_cubature(
     compliance = _inverse(
         _stiffness(problem.energy.hessian(problem.base), subspace) + handle_hessian
     )
-    fit = _fit(states, compliance, tets=tets, seed=seed)
+    most = default_tets(subspace.dimension)
+    fit = _fit(states, compliance, tets=tets, most=most, fewest=FEWEST_SNAPSHOTS, seed=seed)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     errors = held_out_errors(
         fit.unseen,
@@ -111,10 +123,10 @@ def train_blended_cubature(
     """The same for blended poses: one set of tets for all of them.
 
     Arguments, result and errors as for `train_cubature`, but every state has its weights (k,
-    poses), and the subspace is attached to the mean shape. The poses themselves, where all tets are
-    at rest, do not count.
+    poses), the default of `tets` is `default_blended_tets`, and the subspace is attached to the
+    mean shape. The poses themselves, where all tets are at rest, do not count.
     """
-    own = _moved(coordinates) & (weights.max(axis=1, initial=0.0) < 1.0 - 1e-9)
+    own = weights.max(axis=1, initial=0.0) < 1.0 - 1e-9
     states = BlendingStates(problem, subspace, coordinates[own], weights[own])
     system, mean = problem.system, subspace.tau - problem.base
     energies = [
@@ -123,7 +135,8 @@ def train_blended_cubature(
     ]
     states = replace(states, floor=0.01 * max(energies, default=0.0))
     compliance = _inverse(_mean_stiffness(states))
-    fit = _fit(states, compliance, tets=tets, seed=seed)
+    most = default_blended_tets(subspace.dimension)
+    fit = _fit(states, compliance, tets=tets, most=most, fewest=FEWEST_BLENDS, seed=seed)
     cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     unseen = fit.unseen
     errors = held_out_errors(
@@ -158,29 +171,43 @@ class _Fit(Generic[States]):
         }
 
 
-def _fit(states: States, compliance: FloatArray, *, tets: int | None, seed: int) -> _Fit[States]:
+def _fit(
+    states: States,
+    compliance: FloatArray,
+    *,
+    tets: int | None,
+    most: int,
+    fewest: int,
+    seed: int,
+) -> _Fit[States]:
     begin = time.perf_counter()
     mesh, dimension = states.problem.mesh, states.subspace.dimension
-    count = _checked_count(len(mesh.tets), dimension, tets)
-    if len(states) < FEWEST_SNAPSHOTS:
+    count = _checked_count(len(mesh.tets), most, tets)
+    if len(states) < fewest:
         raise ValueError(
             f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
-            f"on, it takes {FEWEST_SNAPSHOTS}; solve more samples"
+            f"on, it takes {fewest}; solve more samples"
         )
-    held = np.arange(len(states)) % FEWEST_SNAPSHOTS == FEWEST_SNAPSHOTS // 2
+    period = min(FEWEST_SNAPSHOTS, len(states))
+    held = np.arange(len(states)) % period == period // 2
     trained = chosen(states, _spread(np.flatnonzero(~held), TRAINED)).with_forces()
     unseen = chosen(states, _spread(np.flatnonzero(held), HELD_OUT)).with_forces()
     candidates = candidate_tets(trained, CANDIDATES * count, seed=seed)
     directions = min(dimension, -(-ROWS * count // len(trained)))
     rows = training_rows(trained, candidates, compliance, directions=directions, seed=seed)
     picks, factors = nonnegative_fit(rows.columns, rows.target, count)
+    if not len(picks):
+        raise ValueError(
+            f"reduce: no tet carries a force at the {len(states)} snapshots that a cubature is "
+            "trained on; solve more samples"
+        )
     picked = candidates[picks]
     volumes = factors * mesh.volumes[picked]
     return _Fit(picked, volumes, unseen, len(trained), len(rows.target), seed, begin)
 
 
-def _checked_count(available: int, dimension: int, tets: int | None) -> int:
-    count = min(default_tets(dimension), available) if tets is None else tets
+def _checked_count(available: int, most: int, tets: int | None) -> int:
+    count = min(most, available) if tets is None else tets
     if not 1 <= count <= available:
         raise ValueError(
             f"reduce: tets is {count}, but must be between 1 and the mesh's {available}"
@@ -208,7 +235,7 @@ def _stiffness(hessian: csr_array, subspace: AffineSubspace) -> FloatArray:
 
 
 def _symmetric(matrix: FloatArray) -> FloatArray:
-    symmetric: FloatArray = 0.5 * (matrix + matrix.T)
+    symmetric: FloatArray = (matrix + matrix.T) / 2
     return symmetric
 
 
@@ -221,7 +248,7 @@ def _mean_stiffness(states: BlendingStates) -> FloatArray:
     """
     problem, basis = states.problem, states.subspace.basis
     mean, center = states.subspace.tau - problem.base, problem.domain.center
-    step = 1e-3 * float(np.sqrt(np.mean(states.coordinates**2)))
+    step = 1e-4 * problem.mesh.diagonal * float(np.sqrt(problem.mesh.volume))
     columns = []
     for mode in basis.T:
         forces = [
@@ -233,5 +260,5 @@ def _mean_stiffness(states: BlendingStates) -> FloatArray:
 
 @single_threaded_blas
 def _inverse(matrix: FloatArray) -> FloatArray:
-    inverse: FloatArray = np.linalg.inv(matrix)
+    inverse: FloatArray = np.asarray(np.linalg.inv(matrix), np.float64)
     return inverse

@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..interruptible import run_abandonable
-from ..material import Material, StVK
+from ..material import Material, StableNeoHookean
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
 from .mean_shape import mean_displacement
@@ -37,8 +37,8 @@ class InterpolationProblem:
     ----------
     poses : Poses, or a sequence of TetMesh
         Two or more; each may be in a frame of its own.
-    material : StVK, default StVK(lam=1, mu=1)
-        Moduli are numbers, or arrays with one number per tet.
+    material : Material, default StableNeoHookean(lam=1, mu=1)
+        Any of `MATERIALS`. Moduli are numbers, or arrays with one number per tet.
     extrapolation : float, default 0
         Samples also come from outside of the simplex, which is enlarged by this share about its
         centre. Negative weights may have no minimum; such samples are reported as not converged.
@@ -48,8 +48,8 @@ class InterpolationProblem:
     Raises
     ------
     ValueError
-        As `Poses.of`, for another material, moduli for another number of tets, a negative
-        extrapolation, or a mean shape of another size.
+        As `Poses.of`, for moduli for another number of tets, a negative extrapolation, or a mean
+        shape of another size.
 
     Notes
     -----
@@ -65,7 +65,7 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = poses if isinstance(poses, Poses) else Poses.of(poses)
-        self.material = self._checked_material(StVK() if material is None else material)
+        self.material = self._checked_material(StableNeoHookean() if material is None else material)
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
             self.mean_shape = self._checked_shape(mean_shape)

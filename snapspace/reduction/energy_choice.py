@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ..cubature import FEWEST_SNAPSHOTS, default_tets
+from ..cubature import FEWEST_BLENDS, FEWEST_SNAPSHOTS, default_tets
 from ..problem import InterpolationProblem, PosingProblem
 
 Energy = Literal["auto", "exact", "cubature"]
@@ -54,8 +54,13 @@ def chosen_energy(
 def fewest_snapshots(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> int:
-    """How many snapshots `reduce` takes at least: ten for a cubature, which is trained on them."""
-    return FEWEST_SNAPSHOTS if chosen_energy(problem, dimension, energy) == "cubature" else 0
+    """How many snapshots `reduce` takes at least: a cubature is trained on them.
+
+    Ten for posing and two for blending, whose states are few and between known poses.
+    """
+    if chosen_energy(problem, dimension, energy) == "exact":
+        return 0
+    return FEWEST_BLENDS if isinstance(problem, InterpolationProblem) else FEWEST_SNAPSHOTS
 
 
 def training_tolerance(

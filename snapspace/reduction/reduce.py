@@ -85,11 +85,11 @@ def reduce(
         the default r, which the exact energy is worth.
     snapshots : Snapshots, optional
         Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
-        needs ten at least that are not at rest. Its quality is that of their forces: those of
-        settled snapshots are far from equilibrium, see `SolverOptions`.
+        needs ten at least that are not at rest, two for blending. Its quality is that of their
+        forces: those of settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
-        The most that a cubature may choose. Default: 8 d, but at most 1000, or all tets if there
-        are fewer.
+        The most that a cubature may choose. Default: 8 d for posing, 30 d for blending, but at
+        most 1000, or all tets if there are fewer.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from snapspace import InterpolationProblem, load, reduce, snapshot_pca, solve_snapshots
+from snapspace import InterpolationProblem, StVK, load, reduce, snapshot_pca, solve_snapshots
 from snapspace.cli.even_path import whole_steps
 from snapspace.generators import bar
 from snapspace.problem import Poses
@@ -72,7 +72,7 @@ def snapping_model(tmp_path: Path) -> Path:
     """A bar bent almost to a ring, to both sides: between them the energy has several minima."""
     mesh = bar(10, 1, 1, width=0.6, height=0.6)
     poses = Poses(np.stack([bent(mesh, 5.5), bent(mesh, -5.5)]), mesh.tets, names=["left", "right"])
-    problem = InterpolationProblem(poses)
+    problem = InterpolationProblem(poses, material=StVK())
     weights = np.linspace([1.0, 0.0], [0.0, 1.0], 13)
     snapshots = solve_snapshots(problem, weights, threads=1)
     subspace = snapshot_pca(snapshots, dimension=8)

@@ -208,7 +208,9 @@ def test_a_fit_that_misses_its_surface_is_pointed_out(run: Run, tmp_path: Path) 
     vertices, faces = bar_surfaces()["twisted"]
     write_surface(twisted, vertices * [1, 1, -1], faces)
     words = (rest, twisted, "--tets", tmp_path / "tets.mesh", "--samples", 2, "--dimension", 2)
-    result = run("interpolate", *words, "-o", tmp_path / "m.snapspace", "--json")
+    result = run(
+        "interpolate", *words, "--material", "stvk", "-o", tmp_path / "m.snapspace", "--json"
+    )
     (fit,) = result.json["fits"]
     assert fit["status"] != "converged"
     assert fit["inverted_tets"] == 0

@@ -177,7 +177,7 @@ def test_bad_arrays_are_named() -> None:
     few = some_tets(one, subspace(one), 5)
     with pytest.raises(ValueError, match=r"corners must be \(poses \+ 1, 5, 4, 3\), got"):
         BlendedCubature(few.tets, few.weights, few.rows, few.material, few.corners[:, :4])
-    with pytest.raises(ValueError, match="the weight of tet .* must be positive"):
+    with pytest.raises(ValueError, match=r"the weight of tet .* must be positive"):
         BlendedCubature(few.tets, -few.weights, few.rows, few.material, few.corners)
     with pytest.raises(ValueError, match="weights must have one entry per pose"):
         few.value_and_gradient(np.zeros(D), np.ones(2))

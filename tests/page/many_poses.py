@@ -8,6 +8,7 @@ import pytest
 from snapspace import (
     InterpolationModel,
     InterpolationProblem,
+    StVK,
     reduce,
     snapshot_pca,
     solve_snapshots,
@@ -27,7 +28,7 @@ def many_poses_model() -> InterpolationModel:
     shapes |= {f"twist_{k}": bent(mesh, -0.2 * k, twist=0.45 * k) for k in range(1, 6)}
     shapes["look back"] = bent(mesh, -2.2)
     poses = Poses(np.stack(list(shapes.values())), mesh.tets, names=list(shapes))
-    problem = InterpolationProblem(poses)
+    problem = InterpolationProblem(poses, material=StVK())
     # the poses themselves, and halves of each two that follow each other
     ends = np.eye(len(poses))
     weights = np.concatenate([ends, (ends + np.roll(ends, 1, axis=0)) / 2])

@@ -79,8 +79,10 @@ def test_taylor(kind: str) -> None:
     value, gradient = one.value_and_gradient(x, WEIGHTS)
 
     def remainder(h: float) -> float:
-        return one.value_and_gradient(x + h * direction, WEIGHTS)[0] - value - h * (
-            gradient @ direction
+        return (
+            one.value_and_gradient(x + h * direction, WEIGHTS)[0]
+            - value
+            - h * (gradient @ direction)
         )
 
     assert observed_order(remainder) == pytest.approx(2, abs=0.15)

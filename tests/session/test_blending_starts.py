@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from snapspace import InterpolationModel, InterpolationProblem, TetMesh
+from snapspace import InterpolationModel, InterpolationProblem, StVK, TetMesh
 from snapspace.generators import cylinder, helix
 
 from ..conftest import interpolation_model
@@ -24,7 +24,9 @@ TIGHT = 1e-12
 def twisted_helix() -> InterpolationModel:
     """A cylinder and a helix that is twisted once about its line: from afar there are two ways."""
     coil = helix(2, 26, twist=2.0 * np.pi)
-    return interpolation_model(InterpolationProblem([cylinder(2, 26), coil]), 30, 20)
+    return interpolation_model(
+        InterpolationProblem([cylinder(2, 26), coil], material=StVK()), 30, 20
+    )
 
 
 def untrained(model: InterpolationModel) -> InterpolationModel:
@@ -178,7 +180,9 @@ def test_an_energy_without_minimum_is_reported_and_the_shape_stays() -> None:
     """A pose of half the size resists growth twice as much: 3 - 2 * 2 is less than nothing."""
     rest = irregular_bar()
     half = TetMesh(0.5 * rest.vertices, rest.tets)
-    model = interpolation_model(InterpolationProblem([rest, half]), samples=6, dimension=1)
+    model = interpolation_model(
+        InterpolationProblem([rest, half], material=StVK()), samples=6, dimension=1
+    )
     session = model.session()
     session.blend([0.6, 0.4])
     before = session.vertices

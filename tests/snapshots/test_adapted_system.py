@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from snapspace import ElasticEnergy, InterpolationProblem, Poses, TetMesh
+from snapspace import ElasticEnergy, InterpolationProblem, Poses, StVK, TetMesh
 from snapspace import _core as core
 
 from ..shapes import deformed, interpolation_problem, irregular_bar
@@ -142,7 +142,7 @@ def pressed_bar() -> InterpolationProblem:
     x, z = pose[:, 0], pose[:, 2]
     middle = (x > 0.3 * x.max()) & (x < 0.7 * x.max())
     pose[middle, 2] = z.mean() + 0.2 * (z[middle] - z.mean())
-    return InterpolationProblem(Poses(np.stack([mesh.vertices, pose]), mesh.tets))
+    return InterpolationProblem(Poses(np.stack([mesh.vertices, pose]), mesh.tets), material=StVK())
 
 
 def test_a_factor_for_the_mean_shape_needs_far_fewer_iterations() -> None:
