@@ -32,7 +32,7 @@ def main() -> None:
     args = parser.parse_args()
 
     poses = ss.Poses.of(lizard_poses(args.poses, args.tets, seed=args.seed))
-    problem = ss.InterpolationProblem(poses)
+    problem = ss.InterpolationProblem(poses, material=ss.StVK())
     gram = ss.SnapshotGram.of(problem)
     gram.add(list(solutions_beyond_tau(problem)[1] - problem.base))
     known = np.arange(len(gram))

@@ -102,6 +102,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--set", default="helix", choices=SETS)
     parser.add_argument("--poses", help="names instead of the usual ones, with commas")
+    parser.add_argument("--material", default="stvk", help="default: the paper's")
     parser.add_argument("--validate", type=int, default=20, help="held-out samples")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
@@ -110,7 +111,7 @@ def main() -> None:
     poses, fits, fitting = read_poses(chosen, names)
 
     laps = [time.perf_counter()]
-    problem = ss.InterpolationProblem(poses)
+    problem = ss.InterpolationProblem(poses, material=ss.MATERIALS[args.material]())
     _ = problem.mean_shape
     laps.append(time.perf_counter())
     parameters = ss.sample(problem.domain, chosen.samples, method=chosen.sampling)

@@ -303,9 +303,9 @@ class InterpolationSystem(SampleSystem):
         The same problem with an inverse for solutions near displacements (k, 3n).
         """
 
-    def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+    def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), and its energy (m,).
+        First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), its energy (m,), and the gradient of their sum (3n,).
         """
 
 class SoftModes:

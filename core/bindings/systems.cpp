@@ -84,19 +84,21 @@ void bind_systems(nb::module_& m) {
                 "needs a (3n,) vector and (input_size,) weights");
         const auto tets = static_cast<std::size_t>(self.energy->tets());
         DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
-        std::vector<double> shape(u.size()), P(9 * tets), psi(tets);
+        DoublesOut gradient = new_array<double>({u.size()});
+        std::vector<double> shape(u.size()), slope(u.size()), P(9 * tets), psi(tets);
         self.numbering.to_internal(u.data(), shape.data());
-        self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data());
+        self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data(), slope.data());
+        self.numbering.to_external(slope.data(), gradient.data());
         for (std::size_t t = 0; t < tets; ++t) {
           const auto external = static_cast<std::size_t>(self.tet_order[t]);
           std::copy_n(P.data() + 9 * t, 9, stresses.data() + 9 * external);
           energies.data()[external] = psi[t];
         }
-        return std::make_pair(stresses, energies);
+        return std::make_tuple(stresses, energies, gradient);
       },
       nb::arg("u"), nb::arg("weights"),
-      "First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), and its "
-      "energy (m,).");
+      "First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), its "
+      "energy (m,), and the gradient of their sum (3n,).");
 }
 
 }  // namespace snapspace

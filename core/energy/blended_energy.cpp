@@ -103,7 +103,8 @@ Sum<Real> BlendedEnergy::value_and_gradient(const Real* blend, const Real* u, Re
 }
 
 void BlendedEnergy::tet_stresses(const double* weights, const double* u, double* stresses,
-                                 double* energies) const {
+                                 double* energies, double* gradient) const {
+  std::fill_n(gradient, size(), 0.0);
   std::vector<double> blend(blend_size());
   set_weights(0, weights, blend.data());
   Densities::with(kind(), [&]<class Density>() {
@@ -111,6 +112,7 @@ void BlendedEnergy::tet_stresses(const double* weights, const double* u, double*
       double G[3][3], P[3][3];
       displacement_gradient(energies_[0].rest.tets[t], u, G);
       *energies++ = tet_value_and_stress<Density>(t, blend.data(), G, P);
+      scatter_stress(energies_[0].rest.tets[t], P, gradient);
       for (const auto& row : P)
         for (const double entry : row) *stresses++ = entry;
     }

@@ -41,10 +41,10 @@ class BlendedEnergy {
   [[nodiscard]] Sum<Real> value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                              int begin, int end) const;
 
-  /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row), and
-  /// energies (tets), at u for these weights.
-  void tet_stresses(const double* weights, const double* u, double* stresses,
-                    double* energies) const;
+  /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row),
+  /// energies (tets) and the gradient (3n) that they make, at u for these weights.
+  void tet_stresses(const double* weights, const double* u, double* stresses, double* energies,
+                    double* gradient) const;
 
  private:
   [[nodiscard]] int kind() const { return energies_[0].material.view().kind; }

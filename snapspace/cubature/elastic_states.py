@@ -128,8 +128,8 @@ class BlendingStates:
         """See `ElasticStates`."""
         u = self.subspace.tau - self.problem.base + displacement
         weights = self.weights[state]
-        stresses, energies = self.problem.system.tet_stresses(u, weights)
-        energy, gradient = self.problem.system.value_and_gradient(u, weights)
+        stresses, energies, gradient = self.problem.system.tet_stresses(u, weights)
+        energy = float(energies.sum())
         return TetForces(stresses, energies, energy, gradient, max(energy, self.floor))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import cho_factor, cho_solve, solve
 
 from ..blas import single_threaded_blas
 
@@ -78,28 +78,47 @@ def nonnegative_weights(gram: FloatArray, moments: FloatArray, start: FloatArray
 
     The inner loop of Lawson & Hanson 1974, ch. 23: columns that would become negative leave at the
     boundary, and do not come back. New columns start at zero.
+
+    The matrix is factored once. With the columns R gone the minimum is that of all less
+    A_R (A_RR)^-1 x_R, where A is the inverse: a column that leaves takes one solve.
     """
     scale = 1.0 / np.sqrt(np.diag(gram))
     matrix = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
     moments, x = moments * scale, start / scale
-    inside = np.ones(len(gram), bool)
+    factor = cho_factor(matrix, check_finite=False)
+    unbound = cho_solve(factor, moments, check_finite=False)
+    solution, inside = unbound, np.ones(len(gram), bool)
+    gone: IndexArray = np.zeros(0, np.intp)
+    inverse: FloatArray = np.zeros((len(gram), 0))
     while inside.any():
-        free = np.flatnonzero(inside)
-        solution = np.zeros(len(gram))
-        factor = cho_factor(matrix[np.ix_(free, free)], overwrite_a=True, check_finite=False)
-        solution[free] = cho_solve(factor, moments[free], check_finite=False)
         negative = inside & (solution <= 0)
         if not negative.any():
-            return solution * scale
+            return _settled(matrix, moments, solution, inside) * scale
         at_zero = negative & (x <= 0)
         if not at_zero.any():
             step = np.min(x[negative] / (x[negative] - solution[negative]))
-            x += step * (solution - x)
+            x += step * (np.where(inside, solution, 0.0) - x)
             at_zero = negative & (x <= 1e-12 * x.max())
             x[at_zero] = 0.0
-        inside &= ~at_zero
-        x[~inside] = 0.0
+        leaving = np.flatnonzero(at_zero)
+        inside[leaving] = False
+        units = np.zeros((len(gram), len(leaving)))
+        units[leaving, np.arange(len(leaving))] = 1.0
+        inverse = np.hstack([inverse, cho_solve(factor, units, check_finite=False)])
+        gone = np.concatenate([gone, leaving])
+        solution = unbound - inverse @ solve(inverse[gone], unbound[gone], assume_a="pos")
     return np.zeros(len(gram))
+
+
+def _settled(
+    matrix: FloatArray, moments: FloatArray, solution: FloatArray, inside: NDArray[np.bool_]
+) -> FloatArray:
+    """The minimum among the columns inside, free of the rounding of those that have left."""
+    free = np.flatnonzero(inside)
+    factor = cho_factor(matrix[np.ix_(free, free)], overwrite_a=True, check_finite=False)
+    settled = np.zeros(len(matrix))
+    settled[free] = cho_solve(factor, moments[free], check_finite=False)
+    return settled if (settled[free] > 0).all() else np.where(inside, solution, 0.0)
 
 
 def _largest(products: NDArray[np.float32], count: int) -> IndexArray:

@@ -60,7 +60,8 @@ def test_stresses_of_tets_make_the_gradient(kind: str) -> None:
     one = problem(kind)
     u = deformed(MESH, 0.05) - one.base
     value, gradient = one.system.value_and_gradient(u, WEIGHTS)
-    stresses, energies = one.system.tet_stresses(u, WEIGHTS)
+    stresses, energies, same = one.system.tet_stresses(u, WEIGHTS)
+    assert same == pytest.approx(gradient, abs=1e-12 * np.abs(gradient).max())
     assert energies.sum() == pytest.approx(value, rel=1e-12)
     along = np.random.default_rng(1).normal(size=u.size)
     edges = MESH.vertices[MESH.tets[:, 1:]] - MESH.vertices[MESH.tets[:, :1]]

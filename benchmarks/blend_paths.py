@@ -1,0 +1,135 @@
+"""Paths between poses: are they smooth, the same forth and back, and where a jump ends?
+
+    python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
+    python benchmarks/blend_paths.py --set lizard-8 lion   # some of them
+
+A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
+the largest of a vertex, relative to the diagonal of the first pose.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Any
+
+import common
+import interpolation
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+import snapspace as ss
+from snapspace.generators import lizard_poses
+
+STEPS = 100
+#: Sets of the meshes' folder: the poses beside the first one.
+REAL = {
+    "lion": ("lion", ("lion-02", "lion-05", "lion-08")),
+    "dog": ("dog", ("dog1", "dog2")),
+    "centaur": ("centaur", tuple(f"centaur{k}" for k in range(1, 6))),
+    "lions": ("lion", tuple(f"lion-{k:02d}" for k in range(1, 10))),
+}
+GENERATED = {"lizard-4": 4, "lizard-11": 11, "lizard-20": 20}
+SETS = (*GENERATED, *REAL)
+
+
+def read(name: str) -> ss.Poses:
+    if name in GENERATED:
+        count = GENERATED[name]
+        return ss.Poses.of(lizard_poses(count, 8_000, seed=count))
+    base, names = REAL[name]
+    poses, _, _ = interpolation.read_poses(interpolation.SETS[base], names)
+    return poses
+
+
+def walk(session: Any, ends: tuple[int, int], poses: int) -> tuple[np.ndarray, list[float]]:
+    """Shapes (101, n, 3) from one pose to another, and the milliseconds of the solves."""
+    shapes, milliseconds = [], []
+    for share in np.linspace(0.0, 1.0, STEPS + 1):
+        weights = np.zeros(poses)
+        weights[ends[0]], weights[ends[1]] = 1.0 - share, share
+        milliseconds.append(1e3 * session.blend(weights).seconds)
+        shapes.append(session.vertices)
+    return np.array(shapes), milliseconds
+
+
+def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
+    poses = read(name)
+    material = ss.MATERIALS[kind]()
+    begin = time.perf_counter()
+    problem = ss.InterpolationProblem(poses, material=material)
+    parameters = ss.sample(problem.domain, args.samples, method="sobol")
+    snapshots = ss.solve_snapshots(problem, parameters, progress=common.progress)
+    sampled = time.perf_counter() - begin
+    dimension = min(args.dimension, len(snapshots))
+    model = ss.reduce(problem, ss.snapshot_pca(snapshots, dimension=dimension), snapshots=snapshots)
+    built = time.perf_counter() - begin
+    validation = ss.validate(model, samples=args.validate, progress=common.progress)
+    session, diagonal = model.session(), problem.mesh.diagonal
+    steps, forth_back, jump_drag, milliseconds = [], 0.0, 0.0, []
+    pairs = list(combinations(range(len(poses)), 2))
+    for pair in [pairs[k] for k in np.linspace(0, len(pairs) - 1, args.pairs).astype(int)]:
+        forth, times = walk(session, pair, len(poses))
+        back, _ = walk(session, pair[::-1], len(poses))
+        milliseconds += times
+        moved = np.linalg.norm(np.diff(forth, axis=0), axis=2).max(axis=1)
+        steps.append(moved.max() / np.median(moved))
+        apart = np.linalg.norm(forth - back[::-1], axis=2).max() / diagonal
+        forth_back = max(forth_back, float(apart))
+        for k in range(10, STEPS, 20):
+            weights = np.zeros(len(poses))
+            weights[pair[0]], weights[pair[1]] = 1.0 - k / STEPS, k / STEPS
+            session.reset()
+            session.blend(weights)
+            apart = np.linalg.norm(session.vertices - forth[k], axis=1).max() / diagonal
+            jump_drag = max(jump_drag, float(apart))
+    yield {
+        "set": name,
+        "material": kind,
+        "poses": len(poses),
+        "longest over median step": float(max(steps)),
+        "forth against back": forth_back,
+        "jump against drag": jump_drag,
+        "held-out error, mean": float(np.mean(validation.error)),
+        "projection, mean": float(np.mean(validation.projection_error)),
+        "inverted tets of a sample": max(r.inverted_tets for r in snapshots.reports),
+        "ms a solve": float(np.median(milliseconds)),
+        "samples, s": sampled,
+        "built, s": built,
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
+    parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
+    parser.add_argument("--samples", type=int, default=40)
+    parser.add_argument("--dimension", type=int, default=30)
+    parser.add_argument("--pairs", type=int, default=3, help="paths of a set")
+    parser.add_argument("--validate", type=int, default=12, help="unseen blends")
+    parser.add_argument("--json", action="store_true", help="one line per row, as they come")
+    args = parser.parse_args()
+    table = None
+    for name in args.set:
+        for kind in args.material:
+            for row in figures(name, kind, args):
+                if args.json:
+                    print(json.dumps(row), flush=True)
+                    continue
+                if table is None:
+                    table = Table(*row, title="paths; goals: 4, 1e-3, 1e-3, 0.005")
+                table.add_row(
+                    *(f"{x:.3g}" if isinstance(x, float) else str(x) for x in row.values())
+                )
+    if table is not None:
+        Console().print(table)
+
+
+if __name__ == "__main__":
+    main()
