@@ -18,7 +18,8 @@ namespace snapspace {
 ///                                      for a number or a pack
 ///   curvature(moduli, s)               PrincipalCurvature at signed singular values
 /// It is isotropic, stress-free at rest and linear in its moduli: moduli times a volume give the
-/// energy of that volume.
+/// energy of that volume. One whose sum over several poses collapses may say so by a nested Blend,
+/// see PoseBlend; without it every pose is evaluated.
 template <class... Density>
 struct DensityList {
   static constexpr int kCount = sizeof...(Density);
