@@ -9,7 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model_file import load
-from ..reduction import Cubature, PosingModel, ReducedModel
+from ..reduction import (
+    BlendedCubature,
+    Cubature,
+    InterpolationModel,
+    PosingModel,
+    ReducedModel,
+)
 from .mesh_info import Info, mesh_facts, mesh_figures
 from .poses_info import poses_facts, poses_figures
 from .problem_info import problem_facts, problem_figures
@@ -58,6 +64,10 @@ def energy_text(model: ReducedModel) -> str:
     """What the reduced energy is."""
     if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
         return f"cubature of {len(model.elastic.tets)} tets"
+    if isinstance(model, InterpolationModel):
+        if isinstance(model.blends, BlendedCubature):
+            return f"cubature of {len(model.blends.tets)} tets"
+        return f"exact quartics of {len(model.problem.poses)} poses"
     return "exact quartic"
 
 

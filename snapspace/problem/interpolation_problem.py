@@ -79,7 +79,7 @@ class InterpolationProblem:
     def solving(self) -> SolverTraits:
         """What it asks of the solvers."""
         # made anew each time: kept here, it and the problem would keep each other in memory
-        return interpolation_traits(system_near=self._system_near)
+        return interpolation_traits(self.material, system_near=self._system_near)
 
     @property
     def parameter_count(self) -> int:

@@ -84,17 +84,21 @@ def posing_traits(
     unlimited patience. Interpolated starts were never worse than the nearest sample on the Dragon.
     """
     settles = material.exact_degree == 4
-    papers: Projection = "stretches" if isinstance(material, StVK) else "clamp"
     return SolverTraits(
         tolerance=1e-5 if settles else 1e-7 * _shear_share(material),
         loose_tolerance=1e-2,
         settling=1e-2 if settles else 0.0,
         patience=None,
-        projection=papers,
+        projection=_projection(material),
         far_apart=material.barrier,
         soft_modes=soft_modes,
         system_near=system_near,
     )
+
+
+def _projection(material: Material) -> Projection:
+    """The paper's where the material is the paper's."""
+    return "stretches" if isinstance(material, StVK) else "clamp"
 
 
 def _shear_share(material: Material) -> float:
@@ -102,7 +106,9 @@ def _shear_share(material: Material) -> float:
     return min(1.0, 3.0 * float(np.min(np.divide(material.mu, material.stiffness))))
 
 
-def interpolation_traits(*, system_near: Callable[[FloatArray], Any]) -> SolverTraits:
+def interpolation_traits(
+    material: Material, *, system_near: Callable[[FloatArray], Any]
+) -> SolverTraits:
     """Those of interpolation.
 
     Nothing holds the shape, and poses differ in what is soft: no soft modes are known, and they
@@ -114,7 +120,7 @@ def interpolation_traits(*, system_near: Callable[[FloatArray], Any]) -> SolverT
         loose_tolerance=1e-6,
         settling=0.0,
         patience=PATIENCE,
-        projection="stretches",
+        projection=_projection(material),
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,
