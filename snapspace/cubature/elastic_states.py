@@ -53,6 +53,10 @@ class ElasticStates(Protocol):
 
     def __len__(self) -> int: ...
 
+    def chosen(self: States, which: NDArray[np.intp]) -> States:
+        """Some of the states."""
+        ...
+
     def with_forces(self: States) -> States:
         """States that tell how large forces are, these among them."""
         ...
@@ -78,6 +82,10 @@ class PosingStates:
 
     def __len__(self) -> int:
         return len(self.coordinates)
+
+    def chosen(self, which: NDArray[np.intp]) -> PosingStates:
+        """See `ElasticStates`."""
+        return replace(self, coordinates=self.coordinates[which])
 
     def with_forces(self) -> PosingStates:
         """Themselves: elastic forces hold those of the handles."""
@@ -110,6 +118,10 @@ class BlendingStates:
     def __len__(self) -> int:
         return len(self.coordinates)
 
+    def chosen(self, which: NDArray[np.intp]) -> BlendingStates:
+        """See `ElasticStates`."""
+        return replace(self, coordinates=self.coordinates[which], weights=self.weights[which])
+
     def with_forces(self) -> BlendingStates:
         """Each state, and the same shape with weights halfway to those of the state before.
 
@@ -131,11 +143,3 @@ class BlendingStates:
         stresses, energies, gradient = self.problem.system.tet_stresses(u, weights)
         energy = float(energies.sum())
         return TetForces(stresses, energies, energy, gradient, max(energy, self.floor))
-
-
-def chosen(states: States, which: NDArray[np.intp]) -> States:
-    """Some of the states."""
-    picked = {"coordinates": states.coordinates[which]}
-    if isinstance(states, BlendingStates):
-        picked["weights"] = states.weights[which]
-    return replace(states, **picked)  # type: ignore[type-var]

@@ -16,7 +16,7 @@ from ..subspace import AffineSubspace
 from .blended_cubature import BlendedCubature
 from .candidates import candidate_tets
 from .cubature import Cubature
-from .elastic_states import BlendingStates, PosingStates, States, chosen
+from .elastic_states import BlendingStates, PosingStates, States
 from .held_out_errors import CubatureErrors, held_out_errors
 from .nonnegative_fit import nonnegative_fit
 from .training_rows import training_rows
@@ -190,8 +190,8 @@ def _fit(
         )
     period = min(FEWEST_SNAPSHOTS, len(states))
     held = np.arange(len(states)) % period == period // 2
-    trained = chosen(states, _spread(np.flatnonzero(~held), TRAINED)).with_forces()
-    unseen = chosen(states, _spread(np.flatnonzero(held), HELD_OUT)).with_forces()
+    trained = states.chosen(_spread(np.flatnonzero(~held), TRAINED)).with_forces()
+    unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT)).with_forces()
     candidates = candidate_tets(trained, CANDIDATES * count, seed=seed)
     directions = min(dimension, -(-ROWS * count // len(trained)))
     rows = training_rows(trained, candidates, compliance, directions=directions, seed=seed)
