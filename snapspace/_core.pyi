@@ -392,17 +392,17 @@ class FittingSystem:
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], corners: NDArray[numpy.int32], weights: NDArray[numpy.float64], areas: NDArray[numpy.float64]) -> None: ...
 
-    def energy(self, u: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
+    def energy(self, u: NDArray[numpy.float64], *, stretch: float) -> tuple[float, NDArray[numpy.float64]]:
         """
-        Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted, and its gradient (3n,).
+        Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted or stretched by more, and its gradient (3n,).
         """
 
-    def projected_hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    def projected_hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64], *, stretch: float) -> NDArray[numpy.float64]:
         """
         Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).
         """
 
-    def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
+    def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, stretch: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
         """
         Displacements (3n,) that bring the surface to displacements (s, 3), and a report.
         """

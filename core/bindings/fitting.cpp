@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "bindings/arrays.h"
+#include "element/tet.h"
 #include "fitting/pose_fitter.h"
 
 namespace snapspace {
@@ -37,25 +38,32 @@ DoublesOut external(const FittingSystem& system, const std::vector<double>& u) {
   return result;
 }
 
-/// The symmetric Dirichlet energy, without limits.
-std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u) {
-  const std::vector<double> shape = internal(self, u);
-  std::vector<double> gradient(shape.size());
-  const double value = self.energy.value_and_gradient(shape.data(), gradient.data());
+/// The energy of fits, without limits to its growth in a step.
+std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u, double stretch) {
+  std::vector<double> energies, stresses, gradient(self.size());
+  FitEnergy(self.energy, stretch).evaluate(internal(self, u).data(), energies, stresses);
+  double value = 0.0;
+  for (std::size_t t = 0; t < energies.size(); ++t) {
+    value += energies[t];
+    double P[3][3];
+    std::copy_n(&stresses[9 * t], 9, &P[0][0]);
+    scatter_stress(self.energy.rest.tets[t], P, gradient.data());
+  }
   return {value, external(self, gradient)};
 }
 
-DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const VectorIn& v) {
+DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const VectorIn& v,
+                           double stretch) {
   BlockHessian hessian = self.pattern;
-  hessian.add(self.energy, internal(self, u).data(), Projection::clamp);
+  FitEnergy(self.energy, stretch).add_hessian(internal(self, u).data(), hessian);
   std::vector<double> product(self.size());
   hessian.multiply(internal(self, v).data(), product.data());
   return external(self, product);
 }
 
 std::pair<DoublesOut, FitReport> fit(const FittingSystem& self, const MatrixIn& targets,
-                                     double deviation, double first_stiffness, int max_iterations,
-                                     const SolveControl& control) {
+                                     double deviation, double first_stiffness, double stretch,
+                                     int max_iterations, const SolveControl& control) {
   require(
       targets.shape(0) == static_cast<std::size_t>(self.springs.size()) && targets.shape(1) == 3,
       "targets must be (points, 3)");
@@ -63,7 +71,7 @@ std::pair<DoublesOut, FitReport> fit(const FittingSystem& self, const MatrixIn& 
   std::vector<double> shape;
   {
     nb::gil_scoped_release release;
-    PoseFitter fitter(self, {deviation, first_stiffness, max_iterations});
+    PoseFitter fitter(self, {deviation, first_stiffness, stretch, max_iterations});
     report = fitter.fit(targets.data(), control);
     shape = fitter.shape();
   }
@@ -94,13 +102,15 @@ void bind_fitting(nb::module_& m) {
   nb::class_<FittingSystem>(m, "FittingSystem", "What all poses of a mesh and surface share.")
       .def("__init__", &construct, nb::arg("vertices"), nb::arg("tets").noconvert(),
            nb::arg("corners").noconvert(), nb::arg("weights"), nb::arg("areas"))
-      .def("energy", &energy, nb::arg("u"),
-           "Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted, "
-           "and its gradient (3n,).")
-      .def("projected_hessian_product", &hessian_product, nb::arg("u"), nb::arg("v"),
+      .def("energy", &energy, nb::arg("u"), nb::kw_only(), nb::arg("stretch"),
+           "Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted "
+           "or stretched by more, and its gradient (3n,).")
+      .def("projected_hessian_product", &hessian_product, nb::arg("u"), nb::arg("v"), nb::kw_only(),
+           nb::arg("stretch"),
            "Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).")
       .def("fit", &fit, nb::arg("targets"), nb::kw_only(), nb::arg("deviation"),
-           nb::arg("first_stiffness"), nb::arg("max_iterations"), nb::arg("control"),
+           nb::arg("first_stiffness"), nb::arg("stretch"), nb::arg("max_iterations"),
+           nb::arg("control"),
            "Displacements (3n,) that bring the surface to displacements (s, 3), and a report.");
 }
 

@@ -69,25 +69,42 @@ void BlockHessian::clear() { std::fill(blocks_.begin(), blocks_.end(), std::arra
 
 void BlockHessian::add(const ElasticEnergy& energy, const double* u, Projection projection,
                        double threshold, double weight) {
-  const TetMaterial material = energy.material.view();
-  for (int t = 0; t < energy.tets(); ++t) {
-    const RestTet& tet = energy.rest.tets[t];
-    double F[3][3];
-    displacement_gradient(tet, u, F);
-    for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
-    const SignedSvd svd(F);
-    const PrincipalCurvature H = curvature_of(material, t, svd.s, projection, threshold);
-    double b[4][3] = {};  // gradients of the hat functions, in the frame of V
-    for (int k = 0; k < 3; ++k)
-      for (int c = 0; c < 3; ++c) {
-        const double* edge = tet.inverse_edges[k];
-        b[k + 1][c] = edge[0] * svd.V[0][c] + edge[1] * svd.V[1][c] + edge[2] * svd.V[2][c];
-        b[0][c] -= b[k + 1][c];
-      }
-    for (int j = 0; j < 4; ++j)
-      for (int k = 0; k < 4; ++k)
-        add_block(H, svd.U, b[j], b[k], weight * tet.volume, blocks_[slots_[t][4 * j + k]].data());
-  }
+  for (int t = 0; t < energy.tets(); ++t) add_tet(energy, t, u, projection, threshold, weight);
+}
+
+void BlockHessian::add(const ElasticEnergy& energy, const double* u, Projection projection,
+                       double threshold, const double* weights) {
+  for (int t = 0; t < energy.tets(); ++t) add_tet(energy, t, u, projection, threshold, weights[t]);
+}
+
+void BlockHessian::add_tet(const ElasticEnergy& energy, int t, const double* u,
+                           Projection projection, double threshold, double weight) {
+  const RestTet& tet = energy.rest.tets[t];
+  double F[3][3];
+  displacement_gradient(tet, u, F);
+  for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
+  const SignedSvd svd(F);
+  const PrincipalCurvature H =
+      curvature_of(energy.material.view(), t, svd.s, projection, threshold);
+  double b[4][3] = {};  // gradients of the hat functions, in the frame of V
+  for (int k = 0; k < 3; ++k)
+    for (int c = 0; c < 3; ++c) {
+      const double* edge = tet.inverse_edges[k];
+      b[k + 1][c] = edge[0] * svd.V[0][c] + edge[1] * svd.V[1][c] + edge[2] * svd.V[2][c];
+      b[0][c] -= b[k + 1][c];
+    }
+  for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 4; ++k)
+      add_block(H, svd.U, b[j], b[k], weight * tet.volume, blocks_[slots_[t][4 * j + k]].data());
+}
+
+void BlockHessian::add_outer_product(int tet, const double (&forces)[4][3], double weight) {
+  for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 4; ++k) {
+      double* block = blocks_[slots_[tet][4 * j + k]].data();
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) block[3 * r + c] += weight * forces[j][r] * forces[k][c];
+    }
 }
 
 void BlockHessian::add_to_diagonal(int vertex, double value) {

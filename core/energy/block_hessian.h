@@ -23,6 +23,13 @@ class BlockHessian {
   void add(const ElasticEnergy& energy, const double* u, Projection projection,
            double threshold = 0.0, double weight = 1.0);
 
+  /// The same with a weight for each tet.
+  void add(const ElasticEnergy& energy, const double* u, Projection projection, double threshold,
+           const double* weights);
+
+  /// Adds weight * force (x) force, for forces at the vertices of a tet.
+  void add_outer_product(int tet, const double (&forces)[4][3], double weight);
+
   /// Adds `value` to the three diagonal entries of a vertex.
   void add_to_diagonal(int vertex, double value);
 
@@ -34,6 +41,9 @@ class BlockHessian {
   [[nodiscard]] const std::vector<std::array<double, 9>>& blocks() const { return blocks_; }
 
  private:
+  void add_tet(const ElasticEnergy& energy, int tet, const double* u, Projection projection,
+               double threshold, double weight);
+
   std::vector<std::int32_t> row_start_;        // n + 1
   std::vector<std::int32_t> columns_;          // one per block, ascending within a row
   std::vector<std::array<double, 9>> blocks_;  // row-major 3 x 3

@@ -33,6 +33,7 @@ constexpr double kMostDistortionGrowth = 3.0;
 PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
     : system_(system),
       options_(options),
+      energy_(system.energy, options.stretch),
       hessian_(system.pattern),
       conjugate_gradients_(system.size()),
       supernodes_(analysed(scalar_matrix())) {
@@ -40,7 +41,6 @@ PoseFitter::PoseFitter(const FittingSystem& system, const FitOptions& options)
     v->resize(system.size());
   limits_.resize(system.energy.tets());
   energies_.resize(system.energy.tets());
-  stresses_.resize(9 * system.energy.rest.tets.size());
 }
 
 FitReport PoseFitter::fit(const double* targets, const SolveControl& control) {
@@ -74,7 +74,7 @@ void PoseFitter::take_step(const SolveControl& control) {
     done_ = true;
   };
   hessian_.clear();
-  hessian_.add(system_.energy, u_.data(), Projection::clamp);
+  energy_.add_hessian(u_.data(), hessian_);
   const double decrement = find_direction(control);
   if (control.cancelled) return;  // the direction may be half done
   decrement_ = decrement;
@@ -105,7 +105,7 @@ bool PoseFitter::raise_stiffness() {
 
 /// Infinite as well where a tet exceeds its limit.
 double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
-  system_.energy.tet_stresses(u.data(), stresses_.data(), energies_.data());
+  energy_.evaluate(u.data(), energies_, stresses_);
   std::fill(gradient.begin(), gradient.end(), 0.0);
   double value = 0.0;
   for (std::size_t t = 0; t < energies_.size(); ++t) {

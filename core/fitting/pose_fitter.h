@@ -3,6 +3,7 @@
 
 #include "cholesky/scalar_factor.h"
 #include "cholesky/supernodes.h"
+#include "fitting/fit_energy.h"
 #include "fitting/fitting_system.h"
 #include "snapshots/conjugate_gradients.h"
 #include "snapshots/solve_report.h"
@@ -20,6 +21,7 @@ enum class FitStatus : int {
 struct FitOptions {
   double deviation = 0.0;        ///< goal: root mean square distance of surface and target
   double first_stiffness = 0.0;  ///< of the surface; see PoseFitter
+  double stretch = 0.0;          ///< that no tet reaches; see BoundedStretch
   int max_iterations = 300;      ///< Newton steps of all stages together
 };
 
@@ -36,10 +38,10 @@ struct FitReport {
 
 /// Displacements of a tet mesh that bring its surface to a target, without inverted tets.
 ///
-/// Minimises F(u) = symmetric Dirichlet energy + springs of a stiffness that is raised in stages
-/// until the surface is near enough. The first stage must be so soft that the shape bends towards
-/// its pose and does not stretch: limbs pulled hard through the body get caught in folds that no
-/// later stage undoes.
+/// Minimises F(u) = symmetric Dirichlet energy, bounded in stretch, + springs of a stiffness that
+/// is raised in stages until the surface is near enough. The first stage must be so soft that the
+/// shape bends towards its pose and does not stretch: limbs pulled hard through the body get caught
+/// in folds that no later stage undoes.
 ///
 /// Each stage by Newton's method on the projected Hessian. The systems are solved by conjugate
 /// gradients on a scalar matrix: the mean of the diagonal of each 3 x 3 block. It follows the
@@ -67,6 +69,7 @@ class PoseFitter {
 
   const FittingSystem& system_;
   FitOptions options_;
+  FitEnergy energy_;
   BlockHessian hessian_;
   ConjugateGradients conjugate_gradients_;
   const double* targets_ = nullptr;

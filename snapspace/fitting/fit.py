@@ -30,6 +30,8 @@ SHARE_OF_MOTION = 0.05
 #: Stiffness of the first stage, in units of 1 / diagonal (the material's mu is one). The body is
 #: bent, but hardly stretched: poses whose limbs turn by half a turn find their way.
 FIRST_STIFFNESS = 0.01
+#: Stretch that tets stay below, and the same for surfaces that cannot be reached so.
+STRETCHES = 10.0, 100.0
 
 
 @single_threaded_blas
@@ -90,6 +92,11 @@ def fit_poses(
     Minimises the symmetric Dirichlet energy (Smith & Schaefer 2015), which resists inversion, plus
     stiffness * sum_i area_i |surface_i - target_i|^2. The stiffness is raised in stages, and no
     further once the goal is met: tets as little distorted as the goal allows make good rest shapes.
+
+    The energy of a tet grows without end towards |F|^2 + |F^-1|^2 - 6 = 100: no stretch is beyond
+    10, nor below 0.1. Where folds of a surface would stretch single tets forty times, the surface
+    is left by a little instead. If the goal cannot be met so, the pose is fitted with bounds of 100
+    and 0.01.
     """
     surfaces, labels = checked_targets(mesh, surface, targets, names)
     _check_options(deviation, max_iterations, threads)
@@ -152,13 +159,17 @@ class _Fitting:
         moved = float(np.sqrt(self.areas @ (wanted**2).sum(axis=1) / self.areas.sum()))
         # a target that is the rest shape up to rounding has no motion to speak of
         share = max(SHARE_OF_MOTION * moved, 1e-6 * goal)
-        u, report = self.system.fit(
-            wanted,
-            deviation=min(goal, share),
-            first_stiffness=FIRST_STIFFNESS / self.mesh.diagonal,
-            max_iterations=self.max_iterations,
-            control=control,
-        )
+        for stretch in STRETCHES:
+            u, report = self.system.fit(
+                wanted,
+                deviation=min(goal, share),
+                first_stiffness=FIRST_STIFFNESS / self.mesh.diagonal,
+                stretch=stretch,
+                max_iterations=self.max_iterations,
+                control=control,
+            )
+            if report.status.name in ("converged", "cancelled"):
+                break
         shape: FloatArray = self.mesh.vertices + u.reshape(-1, 3)
         return shape, self._report(name, shape, wanted, report)
 

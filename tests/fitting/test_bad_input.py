@@ -88,12 +88,13 @@ def test_the_core_reads_nothing_that_is_not_there() -> None:
         core.FittingSystem(MESH.vertices, MESH.tets, SURFACE.corners, SURFACE.weights, areas[1:])
     system = core.FittingSystem(MESH.vertices, MESH.tets, SURFACE.corners, SURFACE.weights, areas)
     with pytest.raises(ValueError, match=r"needs a \(3n,\) vector"):
-        system.energy(np.zeros(7))
+        system.energy(np.zeros(7), stretch=10.0)
     with pytest.raises(ValueError, match=r"targets must be \(points, 3\)"):
         system.fit(
             REST[1:],
             deviation=1e-3,
             first_stiffness=1e-2,
+            stretch=10.0,
             max_iterations=5,
             control=core.SolveControl(),
         )

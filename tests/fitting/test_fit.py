@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from snapspace import TetMesh
+from snapspace import _core as core
 from snapspace.fitting import PoseFits, fit_poses
+from snapspace.fitting.stretches import stretches
 from snapspace.mesh.embedded_surface import EmbeddedSurface
 
-from .bodies import bent, body, inverted_tets, rms
+from .bodies import bent, body, fitting_system, inverted_tets, rms
 
 MESH, SURFACE = body()
 REST = SURFACE.vertices(MESH.vertices)
@@ -128,3 +130,41 @@ def test_reports_read_well(count: int) -> None:
     assert "converged" not in fits.reports[0].summary()
     stuck = replace(fits.reports[0], status="max_iterations")
     assert stuck.summary().endswith(", max_iterations")
+
+
+def pulled(distance: float) -> np.ndarray:
+    """The bar with one point of its side pulled out."""
+    target = REST.copy()
+    point = int(np.argmin(np.linalg.norm(REST - [2.0, 0.33, 1.0], axis=1)))
+    target[point, 2] += distance
+    return target
+
+
+def test_a_spike_is_left_by_a_little_where_it_would_stretch_tets_too_much() -> None:
+    system = fitting_system(MESH, SURFACE)
+
+    def fit(stretch: float) -> float:
+        """The largest stretch."""
+        u, report = system.fit(
+            pulled(4.0) - REST,
+            deviation=0.12,
+            first_stiffness=1.0,
+            stretch=stretch,
+            max_iterations=300,
+            control=core.SolveControl(),
+        )
+        assert report.status == core.FitStatus.converged and report.deviation <= 0.12
+        values, inverted = stretches(MESH, MESH.vertices + u.reshape(-1, 3))
+        assert not inverted.any() and values.min() > 1.0 / stretch
+        return float(values.max())
+
+    assert fit(1e6) > 10.0 > fit(10.0) > 5.0
+
+
+def test_a_surface_that_needs_more_gets_more() -> None:
+    stretch = np.array([15.0, 1.0, 1.0])
+    fits = fit_poses(MESH, SURFACE, [REST * stretch])
+    (report,) = fits.reports
+    assert report.converged and report.inverted_tets == 0
+    assert report.largest_stretch == pytest.approx(15.0, rel=0.1)
+    assert distance_up_to_motion(fits.shapes[0], MESH.vertices * stretch) < 5e-3

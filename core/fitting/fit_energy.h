@@ -1,0 +1,28 @@
+#pragma once
+#include <vector>
+
+#include "energy/block_hessian.h"
+#include "energy/elastic_energy.h"
+#include "fitting/bounded_stretch.h"
+
+namespace snapspace {
+
+/// The symmetric Dirichlet energy of unit shear modulus, tet by tet bounded in stretch.
+class FitEnergy {
+ public:
+  FitEnergy(const ElasticEnergy& energy, double stretch);
+
+  /// Energies (tets) and first Piola-Kirchhoff stresses times volume (tets x 9) at displacements u.
+  void evaluate(const double* u, std::vector<double>& energies,
+                std::vector<double>& stresses) const;
+
+  /// Adds the Hessian at u, every tet's projected. For tets without energies of their own it is
+  /// that of the symmetric Dirichlet energy.
+  void add_hessian(const double* u, BlockHessian& hessian) const;
+
+ private:
+  const ElasticEnergy& energy_;
+  BoundedStretch bound_;
+};
+
+}  // namespace snapspace
