@@ -298,9 +298,9 @@ class InterpolationSystem(SampleSystem):
 
     def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material) -> None: ...
 
-    def adapted(self, shapes: NDArray[numpy.float64]) -> InterpolationSystem:
+    def adapted(self, shapes: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> InterpolationSystem:
         """
-        The same problem with an inverse for solutions near displacements (k, 3n).
+        The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, poses).
         """
 
     def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:

@@ -101,7 +101,11 @@ void bind_energy(nb::module_& m) {
             const std::size_t tets = self.rest.tets.size();
             DoublesOut stresses = new_array<double>({tets, 9}),
                        energies = new_array<double>({tets});
-            self.tet_stresses(checked(self, u), stresses.data(), energies.data());
+            const double* displacement = checked(self, u);
+            {
+              const nb::gil_scoped_release release;
+              self.tet_stresses(displacement, stresses.data(), energies.data());
+            }
             return std::make_pair(stresses, energies);
           },
           nb::arg("u"),

@@ -64,18 +64,22 @@ void bind_systems(nb::module_& m) {
       nb::arg("poses"), nb::arg("tets").noconvert(), nb::arg("material"));
   interpolation.def(
       "adapted",
-      [](const InterpolationSystem& self, MatrixIn shapes) {
+      [](const InterpolationSystem& self, MatrixIn shapes, MatrixIn weights) {
         require(shapes.shape(0) >= 1 && shapes.shape(1) == static_cast<std::size_t>(self.size()),
                 "shapes must be (k, 3n)");
+        require(weights.shape(0) == shapes.shape(0) &&
+                    weights.shape(1) == static_cast<std::size_t>(self.input_size()),
+                "weights must be (k, poses)");
         std::vector<double> renumbered(shapes.size());
         for (std::size_t k = 0; k < shapes.shape(0); ++k)
           self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
                                      renumbered.data() + k * shapes.shape(1));
         nb::gil_scoped_release release;
-        return self.adapted(renumbered, static_cast<int>(shapes.shape(0)));
+        return self.adapted(renumbered, {weights.data(), weights.data() + weights.size()});
       },
-      nb::arg("shapes"),
-      "The same problem with an inverse for solutions near displacements (k, 3n).");
+      nb::arg("shapes"), nb::arg("weights"),
+      "The same problem with an inverse for solutions near displacements (k, 3n) for weights (k, "
+      "poses).");
   interpolation.def(
       "tet_stresses",
       [](const InterpolationSystem& self, VectorIn u, VectorIn weights) {
@@ -85,14 +89,18 @@ void bind_systems(nb::module_& m) {
         const auto tets = static_cast<std::size_t>(self.energy->tets());
         DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
         DoublesOut gradient = new_array<double>({u.size()});
-        std::vector<double> shape(u.size()), slope(u.size()), P(9 * tets), psi(tets);
-        self.numbering.to_internal(u.data(), shape.data());
-        self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data(), slope.data());
-        self.numbering.to_external(slope.data(), gradient.data());
-        for (std::size_t t = 0; t < tets; ++t) {
-          const auto external = static_cast<std::size_t>(self.tet_order[t]);
-          std::copy_n(P.data() + 9 * t, 9, stresses.data() + 9 * external);
-          energies.data()[external] = psi[t];
+        {
+          const nb::gil_scoped_release release;
+          std::vector<double> shape(u.size()), slope(u.size()), P(9 * tets), psi(tets);
+          self.numbering.to_internal(u.data(), shape.data());
+          self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data(),
+                                    slope.data());
+          self.numbering.to_external(slope.data(), gradient.data());
+          for (std::size_t t = 0; t < tets; ++t) {
+            const auto external = static_cast<std::size_t>(self.tet_order[t]);
+            std::copy_n(P.data() + 9 * t, 9, stresses.data() + 9 * external);
+            energies.data()[external] = psi[t];
+          }
         }
         return std::make_tuple(stresses, energies, gradient);
       },

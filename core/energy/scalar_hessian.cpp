@@ -4,12 +4,23 @@
 
 #include "energy/projection.h"
 #include "material/signed_svd.h"
+#include "threads/parallel.h"
 
 namespace snapspace {
 
 void ScalarHessian::add(const ElasticEnergy& energy, const double* u, double weight) {
+  constexpr int kPiece = 4096;
+  const int pieces = (energy.tets() + kPiece - 1) / kPiece;
+  parallel_for(pieces, 0, [&](int piece) {
+    const int begin = piece * kPiece;
+    add_tets(energy, u, weight, begin, std::min(begin + kPiece, energy.tets()));
+  });
+}
+
+void ScalarHessian::add_tets(const ElasticEnergy& energy, const double* u, double weight, int begin,
+                             int end) {
   const TetMaterial material = energy.material.view();
-  for (int t = 0; t < energy.tets(); ++t) {
+  for (int t = begin; t < end; ++t) {
     const RestTet& tet = energy.rest.tets[t];
     double F[3][3];
     displacement_gradient(tet, u, F);

@@ -20,14 +20,16 @@ class ScalarHessian {
   explicit ScalarHessian(const RestShape& rest)
       : rest_(rest), locals_(rest.tets.size(), Eigen::Matrix4d::Zero()) {}
 
-  /// Adds weight times the Hessian at displacements u. The energy may have another rest shape of
-  /// the same tets.
+  /// Adds weight times the Hessian at displacements u, on all threads. The energy may have another
+  /// rest shape of the same tets.
   void add(const ElasticEnergy& energy, const double* u, double weight);
 
   /// The sum so far; singular, since it does not change under translations.
   [[nodiscard]] Eigen::SparseMatrix<double> matrix() const { return rest_.assembled(locals_); }
 
  private:
+  void add_tets(const ElasticEnergy& energy, const double* u, double weight, int begin, int end);
+
   const RestShape& rest_;
   std::vector<Eigen::Matrix4d> locals_;
 };

@@ -12,15 +12,19 @@ namespace snapspace {
 namespace {
 
 Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
-                                          const std::vector<double>& shapes, int count) {
+                                          const std::vector<double>& shapes,
+                                          const std::vector<double>& weights) {
   ScalarHessian hessian(energy.energy(0).rest);
   const int size = energy.size();
   std::vector<double> shifted(size);
-  for (int shape = 0; shape < count; ++shape)
+  const auto count = static_cast<double>(shapes.size() / size);
+  for (std::size_t shape = 0; shape < shapes.size() / size; ++shape)
     for (int k = 0; k < energy.poses(); ++k) {
-      const double* u = shapes.data() + static_cast<std::size_t>(shape) * size;
+      const double weight = weights[shape * energy.poses() + k];
+      if (weight == 0.0) continue;
+      const double* u = shapes.data() + shape * size;
       for (int i = 0; i < size; ++i) shifted[i] = u[i] + energy.offset(k)[i];
-      hessian.add(energy.energy(k), shifted.data(), 1.0 / (count * energy.poses()));
+      hessian.add(energy.energy(k), shifted.data(), weight / count);
     }
   Eigen::SparseMatrix<double> A = hessian.matrix();
   A.coeffRef(0, 0) *= 2.0;
@@ -93,9 +97,10 @@ InterpolationSystem::InterpolationSystem(const LocalMesh& mesh, const std::vecto
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
                                          std::vector<std::int32_t> tets)
-    : InterpolationSystem(
-          std::move(numbers), blended, std::move(tets),
-          ScalarInverse(scalar_matrix(*blended, std::vector<double>(blended->size(), 0.0), 1))) {}
+    : InterpolationSystem(std::move(numbers), blended, std::move(tets),
+                          ScalarInverse(scalar_matrix(
+                              *blended, std::vector<double>(blended->size(), 0.0),
+                              std::vector<double>(blended->poses(), 1.0 / blended->poses())))) {}
 
 InterpolationSystem::InterpolationSystem(Numbering numbers,
                                          std::shared_ptr<const BlendedEnergy> blended,
@@ -105,8 +110,8 @@ InterpolationSystem::InterpolationSystem(Numbering numbers,
       tet_order(std::move(tets)) {}
 
 InterpolationSystem InterpolationSystem::adapted(const std::vector<double>& shapes,
-                                                 int count) const {
-  return {numbering, energy, tet_order, inverse.of(scalar_matrix(*energy, shapes, count))};
+                                                 const std::vector<double>& weights) const {
+  return {numbering, energy, tet_order, inverse.of(scalar_matrix(*energy, shapes, weights))};
 }
 
 LaneObjectives InterpolationSystem::lanes() const {

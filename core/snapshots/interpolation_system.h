@@ -27,9 +27,11 @@ class InterpolationSystem final : public SampleSystem {
                       const MaterialField& material);
 
   /// The same problem with an inverse for solutions near the given shapes (count x 3n, internal
-  /// displacements): that of the mean of their scalar Hessians at equal weights. Poses that stretch
-  /// a tet much make it stiff, and one that knows needs a fourth of the iterations.
-  [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes, int count) const;
+  /// displacements): that of the mean of their scalar Hessians, each at its weights (count x
+  /// poses). Poses that stretch a tet much make it stiff, and one that knows needs a fourth of the
+  /// iterations.
+  [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes,
+                                            const std::vector<double>& weights) const;
 
   [[nodiscard]] int size() const override { return energy->size(); }
   [[nodiscard]] int input_size() const override { return energy->poses(); }

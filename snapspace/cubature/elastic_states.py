@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
+from .blending_compliances import blending_compliances
 
 FloatArray = NDArray[np.float64]
 States = TypeVar("States", bound="ElasticStates")
@@ -53,6 +54,13 @@ class ElasticStates(Protocol):
 
     def __len__(self) -> int: ...
 
+    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+        """Inverse Hessians (s, d, d), which make displacements of forces.
+
+        stiffness (d, d) is the Hessian at tau, ordered are tets, see `tets_by_force`.
+        """
+        ...
+
     def chosen(self: States, which: NDArray[np.intp]) -> States:
         """Some of the states."""
         ...
@@ -86,6 +94,11 @@ class PosingStates:
     def chosen(self, which: NDArray[np.intp]) -> PosingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which])
+
+    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+        """That of the rest shape for all: handles hold what is soft."""
+        compliance = np.linalg.inv(stiffness)
+        return np.broadcast_to(compliance, (len(self), *compliance.shape))
 
     def with_forces(self) -> PosingStates:
         """Themselves: elastic forces hold those of the handles."""
@@ -121,6 +134,12 @@ class BlendingStates:
     def chosen(self, which: NDArray[np.intp]) -> BlendingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which], weights=self.weights[which])
+
+    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+        """See `blending_compliances`."""
+        return blending_compliances(
+            self.problem, self.subspace, self.coordinates, self.weights, stiffness, ordered
+        )
 
     def with_forces(self) -> BlendingStates:
         """Each state, and the same shape with weights halfway to those of the state before.

@@ -21,8 +21,8 @@ class CubatureErrors:
     states : how many
     energy_* : |E_c - E| / E
     force_* : |f_c - f| / |f| of the reduced elastic forces
-    displacement_* : |C (f_c - f)| / |q| with the compliance C at rest: about how far the cubature
-    alone moves a solution, relative to its displacement
+    displacement_* : |C (f_c - f)| / |q| with the compliance C of the state: about how far the
+    cubature alone moves a solution, relative to its displacement
     """
 
     states: int
@@ -42,9 +42,12 @@ class CubatureErrors:
 def held_out_errors(
     states: ElasticStates,
     cubature: Callable[[int], tuple[float, FloatArray]],
-    compliance: FloatArray,
+    compliances: FloatArray,
 ) -> CubatureErrors:
-    """Errors at one state or more, where `cubature` gives value and gradient (d,) of a state."""
+    """Errors at one state or more, where `cubature` gives value and gradient (d,) of a state.
+
+    `compliances` (s, d, d) are those of the states.
+    """
     basis = states.subspace.basis
     sizes = np.linalg.norm(states.coordinates, axis=1)
     sizes = np.maximum(sizes, 1e-3 * sizes.max())  # a blend may be the mean shape itself
@@ -55,7 +58,7 @@ def held_out_errors(
         value, gradient = cubature(k)
         target[0] = abs(value - exact.energy) / exact.unit
         target[1] = np.linalg.norm(gradient - force) / np.linalg.norm(force)
-        target[2] = np.linalg.norm(compliance @ (gradient - force)) / max(size, 1e-300)
+        target[2] = np.linalg.norm(compliances[k] @ (gradient - force)) / max(size, 1e-300)
     median, worst = np.median(errors, axis=0).tolist(), errors.max(axis=0).tolist()
     return CubatureErrors(
         len(states), median[0], worst[0], median[1], worst[1], median[2], worst[2]

@@ -232,7 +232,7 @@ class InterpolationProblem:
     def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""
         rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
-        return run_abandonable(lambda: rest.adapted(shapes))
+        return run_abandonable(lambda: rest.adapted(shapes, self.domain.center[None]))
 
     @cached_property
     def _mean_mass(self) -> csr_array:

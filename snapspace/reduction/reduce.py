@@ -88,7 +88,7 @@ def reduce(
         needs ten at least that are not at rest, two for blending. Its quality is that of their
         forces: those of settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
-        The most that a cubature may choose. Default: 8 d for posing, 30 d for blending, but at
+        The most that a cubature may choose. Default: 8 d for posing, 15 d for blending, but at
         most 1000, or all tets if there are fewer.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
@@ -127,7 +127,7 @@ def reduce(
             blends = pose_quartics(problem, subspace, threads=threads)
         else:
             blends, record["cubature"] = train_blended_cubature(
-                problem, subspace, coordinates, parameters, tets=tets, seed=seed
+                problem, subspace, coordinates, parameters, tets=tets, seed=seed, threads=threads
             )
         return InterpolationModel(
             problem=problem,
@@ -144,7 +144,13 @@ def reduce(
         elastic = reduced_quartic(problem.energy, subspace, threads=threads)
     else:
         elastic, record["cubature"] = train_cubature(
-            problem, subspace, coordinates, 2.0 * handles.K, tets=tets, seed=seed
+            problem,
+            subspace,
+            coordinates,
+            2.0 * handles.K,
+            tets=tets,
+            seed=seed,
+            threads=threads,
         )
     return PosingModel(
         problem=problem,

@@ -75,7 +75,9 @@ class Spy:
 
     def __call__(self, displacement: FloatArray) -> Any:
         self.shapes.append(displacement.copy())
-        system = self._problem._rest_system.adapted(displacement[None])
+        system = self._problem._rest_system.adapted(
+            displacement[None], self._problem.domain.center[None]
+        )
 
         def solve(*arrays: FloatArray, **options: Any) -> core.Batch:
             batch = system.solve_fast(*arrays, **options)
