@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .mesh import mass_norms
 from .reduction import ReducedModel
 from .sampling import Domain
+from .session import FrameReport
 from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
 
 FloatArray = NDArray[np.float64]
@@ -110,16 +111,7 @@ def validate(
             "validate: no full solution converged, so there is nothing to compare with"
         )
 
-    session = model.session()
-    solutions, frames = [], []
-    for w in reference.parameters:
-        session.reset()
-        begin = time.perf_counter()
-        report = session.set_parameters(w)
-        _ = session.vertices
-        frames.append((report, 1e3 * (time.perf_counter() - begin)))
-        solutions.append(session.q.copy())
-    errors = _errors(model, reference, np.array(solutions))
+    errors, frames = _compared(model, reference)
     full_values = np.array([report.value for report in reference.reports])
     return Validation(
         error=errors[:, 0],
@@ -130,6 +122,35 @@ def validate(
         frame_ms=np.array([milliseconds for _, milliseconds in frames]),
         reference=reference,
     )
+
+
+def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
+    """Errors (k,) of reduced solves from tau against full solutions, as `Validation.error`.
+
+    Raises
+    ------
+    ValueError
+        If the reference is of another problem.
+    """
+    reference.check_known(model.problem, "unseen_errors")
+    errors: FloatArray = _compared(model, reference)[0][:, 0]
+    return errors
+
+
+def _compared(
+    model: ReducedModel, reference: Snapshots
+) -> tuple[FloatArray, list[tuple[FrameReport, float]]]:
+    """Errors (k, 2), see `_errors`, and reports with the milliseconds of frames."""
+    session = model.session()
+    solutions, frames = [], []
+    for w in reference.parameters:
+        session.reset()
+        begin = time.perf_counter()
+        report = session.set_parameters(w)
+        _ = session.vertices
+        frames.append((report, 1e3 * (time.perf_counter() - begin)))
+        solutions.append(session.q.copy())
+    return _errors(model, reference, np.array(solutions)), frames
 
 
 def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:

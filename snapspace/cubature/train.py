@@ -37,6 +37,8 @@ CANDIDATES, ROWS = 20, 3
 TRAINED, HELD_OUT = 200, 20
 #: One snapshot in so many is held out, which takes as many at least.
 FEWEST_SNAPSHOTS = 10
+#: How often a blended cubature gets half as many tets again, until the mean shape is a minimum.
+GROWTHS = 4
 #: Fewest blends that a cubature is trained on: one, and one to judge by.
 FEWEST_BLENDS = 2
 #: One blended state in so many says how large energies are.
@@ -140,9 +142,13 @@ def train_blended_cubature(
         for q, w in zip(states.coordinates[::PILOT_STEP], states.weights[::PILOT_STEP], strict=True)
     ]
     states = replace(states, floor=0.01 * max(energies, default=0.0))
-    budget = _Budget(tets, default_blended_tets(subspace.dimension), FEWEST_BLENDS)
-    fit = _fit(states, _mean_stiffness(states), budget, seed=seed, threads=threads)
-    cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+    stiffness = _mean_stiffness(states)
+    for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
+        budget = _Budget(tets, usual, FEWEST_BLENDS)
+        fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
+        cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
+        if tets is not None or _is_stable(cubature, problem.domain.center):
+            break
     unseen = fit.unseen
     errors = held_out_errors(
         unseen,
@@ -150,6 +156,18 @@ def train_blended_cubature(
         fit.compliances,
     )
     return cubature, fit.record(errors)
+
+
+def _growing(count: int, most: int) -> list[int]:
+    """Numbers of tets, each half as many again, that are tried until a cubature is stable."""
+    counts = [round(count * 1.5**power) for power in range(GROWTHS + 1)]
+    return [count, *(c for c in counts[1:] if c <= most)]
+
+
+def _is_stable(cubature: BlendedCubature, mean: FloatArray) -> bool:
+    """Whether the mean shape is a minimum: where it is soft few tets may leave it a saddle."""
+    hessian = cubature.hessian(np.zeros(cubature.dimension), mean)
+    return bool(np.linalg.eigvalsh(hessian)[0] > 0.0)
 
 
 @dataclass(frozen=True)

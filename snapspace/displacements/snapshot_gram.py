@@ -109,20 +109,28 @@ class SnapshotGram:
         ValueError
             For a dimension below 1, or without training rows.
         """
+        if dimension < 1:
+            raise ValueError(f"SnapshotGram: dimension is {dimension}, but must be at least 1")
+        errors = self.held_out_errors(training, unseen)
+        last: FloatArray = errors[min(dimension, len(errors) - 1)]
+        return last
+
+    @single_threaded_blas
+    def held_out_errors(self, training: ArrayLike, unseen: ArrayLike) -> FloatArray:
+        """The same for all dimensions, (k + 1, unseen): row d for d directions.
+
+        k is how many directions the training rows have; ValueError without training rows.
+        """
         known, new = (_indices(which, len(self)) for which in (training, unseen))
-        if dimension < 1 or len(known) == 0:
-            raise ValueError(
-                f"SnapshotGram: dimension {dimension} and {len(known)} training rows, but at least "
-                "1 of each is needed"
-            )
+        if len(known) == 0:
+            raise ValueError("SnapshotGram: there are no training rows, but one at least is needed")
         squared = self._matrix[new, new]
-        largest = [max(len(known) - dimension, 0), len(known) - 1]
-        eigenvalues, vectors = eigh(self._matrix[np.ix_(known, known)], subset_by_index=largest)
+        eigenvalues, vectors = eigh(self._matrix[np.ix_(known, known)])
         # rounding of the largest: directions below it are noise
         real = eigenvalues > len(known) * np.finfo(float).eps * max(eigenvalues[-1], 0.0)
-        directions = vectors[:, real] / np.sqrt(eigenvalues[real])
-        held = ((directions.T @ self._matrix[np.ix_(known, new)]) ** 2).sum(axis=0)
-        left = np.maximum(squared - held, 0.0)
+        directions = (vectors[:, real] / np.sqrt(eigenvalues[real]))[:, ::-1]
+        held = np.cumsum((directions.T @ self._matrix[np.ix_(known, new)]) ** 2, axis=0)
+        left = np.maximum(squared - np.vstack([np.zeros_like(squared), held]), 0.0)
         zero = squared == 0.0
         errors: FloatArray = np.sqrt(left / np.where(zero, 1.0, squared))
         return errors
