@@ -78,6 +78,20 @@ def test_within_solves_from_several_starts_find_one_minimum(
         assert np.abs(np.array(found) - found[0]).max() < 1e-4 * model.coordinate_scale
 
 
+def test_full_solves_find_minima_within_the_range_and_fall_without_bound_not_far_beyond() -> None:
+    """The test of single tets is nearly sharp: in the full space thin limbs give way first."""
+    problem = InterpolationProblem(lizard_poses(3, 600), extrapolation=60.0)
+    certain, center = problem.certain_range, problem.domain.center
+    assert certain is not None
+    ways = [sign * (alone - center) for alone in np.eye(3) for sign in (1, -1)]
+    weights = [
+        center + share * certain.reach(center + way) * way for share in (0.95, 1.5) for way in ways
+    ]
+    converged = solve_snapshots(problem, np.array(weights), threads=1).converged
+    assert converged[:6].all()
+    assert not converged[6:].any()
+
+
 def test_the_energy_grows_far_away_within_the_range(model: InterpolationModel) -> None:
     """Along every direction of some: the reason that there is a minimum."""
     center, rng = model.problem.domain.center, np.random.default_rng(3)
