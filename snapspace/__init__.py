@@ -37,6 +37,7 @@ from .mesh import (
 from .model_file import load, save_model
 from .page import export_html
 from .problem import (
+    CertainRange,
     Handle,
     HandleBox,
     Handles,
@@ -82,6 +83,7 @@ __all__ = [
     "MATERIALS",
     "AffineSubspace",
     "BlendingSession",
+    "CertainRange",
     "Certificate",
     "Checkpoint",
     "CheckpointNotice",

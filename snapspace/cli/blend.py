@@ -14,6 +14,7 @@ from ..mesh.input_path import writable_path
 from ..pictures import save_png
 from ..reduction import InterpolationModel
 from ..session import BlendingSession
+from .blend_extrapolation import certain_share, notice_uncertain, weights_text
 from .blend_path import path_weights
 from .blend_path_report import notice_jumps, path_facts, path_figures
 from .blend_picture import blend_picture
@@ -107,7 +108,7 @@ def blend(
     else:
         assert frames is not None
         shapes, jumps = _walked(model, session, frames, even or "shape", linear=linear)
-    _check(shapes)
+    _check(model, shapes)
     begin = time.perf_counter()
     written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:
@@ -191,13 +192,14 @@ def _number(frame: Path) -> int:
     return int(digits) if digits.isdecimal() else -1
 
 
-def _check(shapes: list[BlendedShape]) -> None:
+def _check(model: InterpolationModel, shapes: list[BlendedShape]) -> None:
     for shape in shapes:
         if shape.report.status == "unbounded":
             raise ValueError(
-                f"--weights {','.join(f'{w:g}' for w in shape.weights)}: the energy has no minimum "
-                "that far outside; choose weights nearer to the poses"
+                f"{weights_text(shape.weights)}: the energy has no minimum that far outside; "
+                f"choose weights nearer to the poses{certain_share(model, shape.weights)}"
             )
+        notice_uncertain(model, shape)
     failed = [shape for shape in shapes if not shape.report.converged]
     if failed:
         notice(

@@ -20,7 +20,10 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BlendedShape:
-    """The shape (n, 3) for weights (poses,), how it was found, and the linear blend if asked."""
+    """The shape (n, 3) for weights (poses,), how it was found, and the linear blend if asked.
+
+    `certain` is that of the session: whether the energy has a minimum there without doubt.
+    """
 
     weights: FloatArray
     vertices: FloatArray
@@ -29,6 +32,7 @@ class BlendedShape:
     frame_ms: float
     volume: float
     inverted_tets: int
+    certain: bool | None
 
     def as_json(self) -> dict[str, Any]:
         """The figures with the keys of `snapspace blend --json`."""
@@ -41,6 +45,7 @@ class BlendedShape:
             "frame_ms": self.frame_ms,
             "volume": self.volume,
             "inverted_tets": self.inverted_tets,
+            "certain": self.certain,
         }
 
 
@@ -67,6 +72,7 @@ def shape_at(
         frame_ms,
         float(volumes.sum()),
         int((volumes <= 0).sum()),
+        session.certain,
     )
 
 

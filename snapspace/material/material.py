@@ -33,6 +33,7 @@ class Material(ABC):
     title : name for people
     exact_degree : degree of the density as a polynomial of F, if it is one; else None
     barrier : whether inverted tets have infinite energy, so that solves must start without any
+    collapses : whether blends of poses collapse to nine numbers per tet, as the core's `Blend` does
     lam, mu : Lame parameters of small strains; every material has them, as fields or properties
     """
 
@@ -40,6 +41,7 @@ class Material(ABC):
     title: ClassVar[str]
     exact_degree: ClassVar[int | None] = None
     barrier: ClassVar[bool] = False
+    collapses: ClassVar[bool] = False
     lam: Any
     mu: Any
 

@@ -21,3 +21,4 @@ class StableNeoHookean(LameMaterial):
 
     kind: ClassVar[str] = "stable-neo-hookean"
     title: ClassVar[str] = "stable neo-Hookean"
+    collapses: ClassVar[bool] = True

@@ -1,5 +1,6 @@
 """Parametrised shape problems."""
 
+from .certain_range import CertainRange, certain_range
 from .handle_box import HandleBox
 from .handles import Handle, Handles
 from .interpolation_problem import InterpolationProblem
@@ -13,6 +14,7 @@ from .simplex import Simplex
 from .solver_traits import Projection, SolverTraits
 
 __all__ = [
+    "CertainRange",
     "Handle",
     "HandleBox",
     "Handles",
@@ -24,6 +26,7 @@ __all__ = [
     "Simplex",
     "SolverTraits",
     "affine_offset",
+    "certain_range",
     "euler_of_rotation",
     "in_box",
     "in_sphere",

@@ -17,6 +17,7 @@ from ..interruptible import run_abandonable
 from ..material import Material, StableNeoHookean
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
+from .certain_range import CertainRange, certain_range
 from .mean_shape import mean_displacement
 from .poses import Poses
 from .simplex import Simplex
@@ -131,6 +132,14 @@ class InterpolationProblem:
         """The poses registered to the mean shape, (k, 3n): the solutions for one-hot weights."""
         flat = self.poses.shapes.reshape(len(self.poses), -1)
         return np.ascontiguousarray(registered(flat.T, self.tau, self._mean_mass).T)
+
+    @cached_property
+    def certain_range(self) -> CertainRange | None:
+        """Weights for which F certainly has a minimum, tested in all tets; None: no test is known.
+
+        A reduced model has one of its own, for its energy: it is larger, since that has fewer tets.
+        """
+        return certain_range(self.material, self.poses.shapes[:, self.poses.tets])
 
     @cached_property
     def fingerprint(self) -> str:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..cubature import BlendedCubature, WeightedCubature
-from ..problem import InterpolationProblem
+from ..problem import CertainRange, InterpolationProblem, certain_range
 from .quartic import PoseQuartics, Quartic
 from .reduced_model import ReducedModel
 
@@ -33,6 +34,17 @@ class InterpolationModel(ReducedModel):
 
     problem: InterpolationProblem
     blends: PoseQuartics | BlendedCubature
+
+    @cached_property
+    def certain_range(self) -> CertainRange | None:
+        """Weights for which the reduced energy certainly has a minimum; None: no test is known.
+
+        Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
+        full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
+        """
+        if not isinstance(self.blends, BlendedCubature):
+            return None
+        return certain_range(self.blends.material, self.blends.corners[:-1])
 
     def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature:
         """The reduced energy for weights (poses,)."""

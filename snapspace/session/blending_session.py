@@ -59,7 +59,7 @@ class BlendingSession(Session[InterpolationModel]):
         extrapolate : bool, default False
             Also takes weights beyond the simplex that was sampled; their sum is still one. There
             the energy may have no minimum: the report's status is then unbounded, and shape and
-            weights stay as they were.
+            weights stay as they were. `certain` and `reach` tell how far there is one for sure.
 
         Raises
         ------
@@ -109,6 +109,40 @@ class BlendingSession(Session[InterpolationModel]):
         lowest = self.model.problem.domain.lowest - 1e-9
         names = self.model.problem.poses.names
         return tuple(n for n, w in zip(names, self._weights, strict=True) if w < lowest)
+
+    @property
+    def certain(self) -> bool | None:
+        """Whether the energy certainly has a minimum for the present weights.
+
+        Not certain does not mean that there is none: see `CertainRange`, and the last report's
+        status. None where no test is known and a weight is negative.
+        """
+        certain = self.model.certain_range
+        if certain is not None:
+            return certain.holds(self._weights)
+        return True if (self._weights >= 0.0).all() else None
+
+    def reach(self, toward: ArrayLike) -> float | None:
+        """How far the way from the present weights to others has a minimum for certain.
+
+        Parameters
+        ----------
+        toward : array_like, (poses,), of sum one
+
+        Returns
+        -------
+        float or None
+            As `CertainRange.reach`: 1.3 says that the way may be gone on by three tenths of its
+            length. None where no test is known.
+
+        Raises
+        ------
+        ValueError
+            For another number of weights, one that is not finite, or another sum.
+        """
+        w = self.model.problem.weights(toward, extrapolate=True)
+        certain = self.model.certain_range
+        return None if certain is None else certain.reach(w, start=self._weights)
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`blend` with any weights that sum to one."""

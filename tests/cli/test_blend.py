@@ -29,7 +29,7 @@ def test_json_has_the_agreed_keys_and_the_figures_of_a_session(
     (frame,) = figures["frames"]
     assert list(frame) == [
         *("weights", "status", "iterations", "value", "solve_ms", "frame_ms", "volume"),
-        "inverted_tets",
+        *("inverted_tets", "certain"),
     ]
     session = load(blend_model).session()
     report = session.blend(WEIGHTS)

@@ -88,9 +88,27 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
                 "certificate": certificate(session),
                 "linear": model.surface.vertices(linear).ravel().tolist(),
                 "outside": list(session.outside),
+                "certain": session.certain,
             }
         )
-    return {"frames": frames, "diagonal": model.problem.mesh.diagonal}
+    diagonal = model.problem.mesh.diagonal
+    return {"frames": frames, "diagonal": diagonal, **certain_range(model)}
+
+
+def certain_range(model: InterpolationModel) -> dict[str, Any]:
+    """How far it goes from equal weights in some directions, and where sliders end."""
+    certain = model.certain_range
+    if certain is None:
+        return {"ends": None}
+    ways = np.array([[1, -1, 0], [-1, 0.5, 0.5], [0.2, 0.3, -0.5]])
+    alone = np.eye(3)[:2]  # two poses take part
+    forth, back = (certain.reach(b, start=a) for a, b in (alone, alone[::-1]))
+    ends = [*certain.limits(), [1 - forth, back], [1 - back, forth]]
+    return {
+        "ends": np.clip(ends, -1, 2).tolist(),
+        "ways": ways.tolist(),
+        "reaches": [certain.reach(1 / 3 + way) for way in ways],
+    }
 
 
 def values_at(model: PosingModel) -> dict[str, Any]:

@@ -1,6 +1,8 @@
+import { CertainRange } from "./certain_range.ts";
 import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
+import { weightEnds, type WeightEnds } from "./weight_ends.ts";
 
 // A solution farther from the mean shape than this many coordinate scales is none.
 const FARTHEST = 100;
@@ -11,6 +13,7 @@ export class BlendingSession {
   readonly #core: Core;
   readonly #stop: Termination;
   readonly #certifier: Certifier | null;
+  readonly #certain: CertainRange | null;
   #weights: number[] = [];
 
   static async create(module: WebAssembly.Module, model: BlendingModel): Promise<BlendingSession> {
@@ -21,6 +24,7 @@ export class BlendingSession {
     this.model = model;
     this.#core = core;
     this.#certifier = Certifier.of(model, core);
+    this.#certain = CertainRange.of(model);
     const { valueScale } = core;
     const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-9, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
@@ -84,6 +88,17 @@ export class BlendingSession {
   /** Poses whose weights are below the least one that was sampled. */
   get outside(): string[] {
     return this.model.poses.filter((_, pose) => this.#weights[pose] < this.model.lowestWeight - 1e-9);
+  }
+
+  /** Whether the energy certainly has a minimum for the present weights; null where no test is known. */
+  get certain(): boolean | null {
+    if (this.#certain) return this.#certain.holds(this.#weights);
+    return this.#weights.every((w) => w >= 0) || null;
+  }
+
+  /** The least and the greatest weight of each of some poses, see `weightEnds`. */
+  ends(poses: readonly number[]): WeightEnds[] {
+    return weightEnds(this.model, this.#certain, poses);
   }
 
   #set(weights: readonly number[]): void {

@@ -10,3 +10,4 @@ export { readModel } from "./read_model.ts";
 export { ShapePicker, type Hit } from "./shape_picker.ts";
 export { reconstruct, type ShapeSpace } from "./shape_space.ts";
 export { StrainScale } from "./strain_scale.ts";
+export { PLAIN_ENDS, type WeightEnds } from "./weight_ends.ts";

@@ -31,13 +31,13 @@ export function normalised(weights: readonly number[]): number[] {
   return weights.map((w) => w / total);
 }
 
-/** Weights with one of them changed and the others scaled so that the sum stays one. */
+/** Weights with one of them changed and the others scaled so that the sum stays one; they may be negative. */
 export function withWeight(weights: readonly number[], changed: number, value: number): number[] {
   const others = 1 - weights[changed];
   const left = 1 - value;
   return normalised(
     weights.map((w, i) =>
-      i === changed ? value : others > 1e-9 ? (w * left) / others : left / (weights.length - 1),
+      i === changed ? value : Math.abs(others) > 1e-9 ? (w * left) / others : left / (weights.length - 1),
     ),
   );
 }

@@ -1,3 +1,4 @@
+import { PLAIN_ENDS, type WeightEnds } from "../engine/index.ts";
 import { BlendPolygon } from "./blend_polygon.ts";
 import { h, section, slider } from "./dom.ts";
 import {
@@ -9,6 +10,7 @@ import {
   type PoseChoice,
 } from "./pose_choice.ts";
 import { PoseList } from "./pose_list.ts";
+import { sliderEnds } from "./slider_ends.ts";
 import { WeightRows } from "./weight_rows.ts";
 
 /** The controls of a blend: polygon and sliders of the poses that take part; of many poses a list that they are chosen in. */
@@ -17,9 +19,15 @@ export interface BlendPanel {
   /** Where a search for poses is typed; null for few poses. */
   readonly search: HTMLInputElement | null;
   show(choice: PoseChoice): void;
+  /** Lets sliders go as far as `endsOf` says of the poses that take part; null: from 0 to 100 %. */
+  extend(endsOf: EndsOf | null): void;
   /** Shows a picture of a pose wherever it stands. */
   illustrate(pose: number, address: string): void;
 }
+
+/** The least and the greatest weight of each of some poses. */
+export type EndsOf = (poses: readonly number[]) => readonly WeightEnds[];
+const plainEnds: EndsOf = (poses) => poses.map(() => PLAIN_ENDS);
 
 /** `act` gets what the user asks for. Few poses all take part, many are chosen. */
 export function blendPanel(
@@ -46,6 +54,11 @@ function whole(
       act(reweighted(shown, pose, w)),
     ),
   );
+  const ends = sliders.map(({ element, input }) => {
+    const own = sliderEnds(input);
+    element.append(own.element);
+    return own;
+  });
   return {
     sections: [
       section("Blend", place.element, row),
@@ -56,6 +69,10 @@ function whole(
       shown = choice;
       place.show(choice);
       sliders.forEach(({ set }, pose) => set(choice.weights[pose]));
+    },
+    extend: (endsOf) => {
+      const limits = (endsOf ?? plainEnds)(shown.poses);
+      ends.forEach(({ set }, pose) => set(limits[pose]));
     },
     illustrate: (pose, address) => place.illustrate(pose, address),
   };
@@ -77,14 +94,22 @@ function choosing(
     remove: (pose) => act(withoutPose(shown, pose)),
   });
   place.element.classList.add("steady");
+  let endsOf = plainEnds;
   return {
     sections: [section("Poses", list.element), section("Blend", place.element, row, rows.element)],
     search: list.search,
     show: (choice) => {
-      if (choice.poses !== shown.poses) list.show(choice.poses);
+      if (choice.poses !== shown.poses) {
+        list.show(choice.poses);
+        rows.extend(endsOf(choice.poses));
+      }
       shown = choice;
       place.show(choice);
       rows.show(choice, place.pictures);
+    },
+    extend: (given) => {
+      endsOf = given ?? plainEnds;
+      rows.extend(endsOf(shown.poses));
     },
     illustrate: (pose, address) => {
       place.illustrate(pose, address);

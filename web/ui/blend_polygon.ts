@@ -56,8 +56,11 @@ export class BlendPolygon {
 
   show(weights: readonly number[]): void {
     const sum = (axis: 0 | 1) => weights.reduce((total, w, i) => total + w * this.#corners[i][axis], 0);
-    this.#dot.setAttribute("cx", String(RADIUS * sum(0)));
-    this.#dot.setAttribute("cy", String(RADIUS * sum(1)));
+    const isBeyond = Math.min(...weights) < 0; // on the edge then, as a ring
+    const [x, y] = isBeyond ? clampedInto(this.#corners, sum(0), sum(1)) : [sum(0), sum(1)];
+    this.#dot.setAttribute("cx", String(RADIUS * x));
+    this.#dot.setAttribute("cy", String(RADIUS * y));
+    this.#dot.classList.toggle("beyond", isBeyond);
     this.element.setAttribute("aria-valuetext", weights.map((w) => `${Math.round(100 * w)} %`).join(", "));
   }
 

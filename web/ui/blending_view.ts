@@ -8,7 +8,7 @@ import { enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
-import { allWeights, firstChoice, inEqualParts, type PoseChoice } from "./pose_choice.ts";
+import { allWeights, firstChoice, inEqualParts, withoutNegatives, type PoseChoice } from "./pose_choice.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
@@ -64,7 +64,14 @@ export async function blendingView(
     place();
   });
   const mean = h("button", { type: "button", onclick: () => ask(inEqualParts(choice.poses)) }, "Mean");
-  const panel = blendPanel(model.poses, [play, compare, mean], ask);
+  const beyond = toggle("Beyond", "Weights below 0 and above 100 %", false, (on) => {
+    panel.extend(on ? endsOf : null);
+    if (!on && choice.weights.some((w) => w < 0)) ask(withoutNegatives(choice));
+  });
+  const endsOf = (poses: readonly number[]) => session.ends(poses);
+  const canGoBeyond = endsOf(firstChoice(model.poses.length).poses).some(([least]) => least < 0);
+  const buttons = [play, compare, mean, ...(canGoBeyond ? [beyond] : [])];
+  const panel = blendPanel(model.poses, buttons, ask);
 
   const place = () => {
     straight.object.visible = compared;
@@ -92,6 +99,7 @@ export async function blendingView(
   const take = (report: FrameReport) => {
     solved = allWeights(choice, model.poses.length);
     hud.solved(report);
+    hud.warn(warningOf(session, report));
     for (const surface of [elastic, straight]) surface.weights = solved;
     elastic.show(session.q);
     straight.show(solved);
@@ -183,6 +191,12 @@ function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
 
 function jumpRemark(poses: readonly string[], { pose, weight }: Jump): string {
   return `The shape jumps on the way to ${poses[pose]}, at a weight of ${(100 * weight).toFixed(1)} %.`;
+}
+
+function warningOf({ outside, certain }: BlendingSession, { status }: FrameReport): string {
+  if (status === "unbounded") return "The energy has no minimum that far; the shape is the one before";
+  if (certain === false) return "Too far: the energy need not have a minimum";
+  return outside.length > 0 ? `Beyond what was sampled: ${outside.join(", ")}` : "";
 }
 
 /** Puts the names below their shapes. */

@@ -43,6 +43,11 @@ export function reweighted(choice: PoseChoice, place: number, weight: number): P
   return { ...choice, weights: withWeight(choice.weights, place, weight) };
 }
 
+/** Without negative weights, and in the proportions of the others. */
+export function withoutNegatives(choice: PoseChoice): PoseChoice {
+  return { ...choice, weights: normalised(choice.weights.map((w) => Math.max(w, 0))) };
+}
+
 /** One weight for each of `count` poses. */
 export function allWeights(choice: PoseChoice, count: number): number[] {
   const all = Array<number>(count).fill(0);

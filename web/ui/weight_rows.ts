@@ -1,8 +1,10 @@
+import type { WeightEnds } from "../engine/index.ts";
 import { h, mark } from "./dom.ts";
 import { MOST_CHOSEN, type PoseChoice } from "./pose_choice.ts";
+import { sliderEnds } from "./slider_ends.ts";
 
 export interface WeightActs {
-  /** A weight between 0 and 1 for the pose at a place of the choice. */
+  /** A weight between the ends for the pose at a place of the choice. */
   weigh(place: number, weight: number): void;
   remove(pose: number): void;
 }
@@ -25,6 +27,11 @@ export class WeightRows {
       ),
     );
     this.element = h("div", {}, ...this.#rows.map(({ element }) => element));
+  }
+
+  /** How far each row's weight may go. */
+  extend(ends: readonly WeightEnds[]): void {
+    ends.forEach((own, place) => this.#rows[place].extend(own));
   }
 
   /** `pictures` are addresses by pose; those that are not made yet are missing. */
@@ -70,6 +77,13 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
     button,
     input,
   );
+  const ends = sliderEnds(input);
+  element.append(ends.element);
+  const extend = (own: WeightEnds) => {
+    ends.set(own);
+    mark(number, "min", Math.round(100 * own[0]));
+    mark(number, "max", Math.round(100 * own[1]));
+  };
   const show = (pose: string, address: string | undefined, weight: number) => {
     if (name.textContent !== pose) {
       name.textContent = name.title = pose;
@@ -83,5 +97,5 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
     input.value = String(weight);
     if (!isTyped) number.value = String(Math.round(1000 * weight) / 10);
   };
-  return { element, input, remove: button, show };
+  return { element, input, remove: button, extend, show };
 }

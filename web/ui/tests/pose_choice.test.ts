@@ -6,6 +6,7 @@ import {
   firstChoice,
   MOST_CHOSEN,
   reweighted,
+  withoutNegatives,
   withoutPose,
   withPose,
   type PoseChoice,
@@ -63,4 +64,14 @@ test("the last pose stays, and the one too many stays out", () => {
   assert.deepEqual(reweighted(last, 0, 0).weights, [1]);
   const full = firstChoice(MOST_CHOSEN);
   assert.equal(withPose(full, 9), full);
+});
+
+test("beyond a pose the others go below zero in their proportions, and come back", () => {
+  const start: PoseChoice = { poses: [4, 2, 11], weights: [0.5, 0.3, 0.2] };
+  const beyond = reweighted(start, 0, 1.5);
+  close(beyond.weights, [1.5, -0.3, -0.2]);
+  close(reweighted(beyond, 0, 0.5).weights, start.weights);
+  close(reweighted(start, 0, -0.5).weights, [-0.5, 0.9, 0.6]);
+  close(withoutNegatives(reweighted(start, 0, -0.5)).weights, [0, 0.6, 0.4]);
+  close(withoutNegatives(beyond).weights, [1, 0, 0]);
 });

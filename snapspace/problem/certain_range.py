@@ -1,0 +1,180 @@
+"""CertainRange: weights for which a blended energy has a minimum without doubt."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..material import Material
+from .simplex import Simplex
+
+FloatArray = NDArray[np.float64]
+
+
+class CertainRange:
+    """Weights, also below zero and above one, for which the blended energy certainly has a minimum.
+
+    The blended energy of a collapsing density (stable neo-Hookean) is, in each tet,
+    tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const, and M and alpha are linear in the weights
+    (docs/materials.md). With M positive definite and alpha > 0 in all tets it grows in every
+    direction, and so the sum has a minimum. Such weights are a convex set with the whole simplex
+    in it. The test suffices and is not necessary: one bad tet ends the range, while the sum over
+    all tets may have a minimum farther out. Nor does it say that there is one minimum only.
+
+    Parameters
+    ----------
+    corners : (poses, tets, 4, 3) float64
+        The tets in every pose, none without volume; an inverted one counts as its mirror image.
+
+    Raises
+    ------
+    ValueError
+        For another shape of the array, fewer than two poses or no tets, or a tet without volume
+        or with a corner that is not finite.
+
+    Notes
+    -----
+    With the edges E_k and volume v_k of a tet in pose k, and A_k = E_0 E_k^-1, M is
+    mu sum_k w_k v_k A_k A_k^T and alpha is (lam + mu) v_0^2 sum_k w_k / v_k: moduli are common
+    factors, and the range is one of the poses alone.
+    """
+
+    def __init__(self, corners: ArrayLike) -> None:
+        squares, inverse_volumes = _terms(_checked(corners))
+        # relative to equal weights, for which M is the identity and alpha is one
+        factors = np.linalg.inv(np.linalg.cholesky(squares.mean(axis=0)))
+        self._squares = factors @ squares @ factors.swapaxes(-1, -2)
+        self._alphas = inverse_volumes / inverse_volumes.mean(axis=0)
+        self._domain = Simplex(corners=len(squares))
+
+    @property
+    def poses(self) -> int:
+        """Number of weights."""
+        return self._domain.corners
+
+    def margin(self, weights: ArrayLike) -> float:
+        """The least of all tets' eigenvalues of M and of their alphas.
+
+        Relative to those of equal weights: one there, zero on the bound of the range, negative
+        beyond, and concave in the weights.
+
+        Raises
+        ------
+        ValueError
+            As `Simplex.check`, for weights (poses,) that are none; negative ones are taken.
+        """
+        w = self._checked_weights(weights)
+        size = max(np.abs(w).max(), 1.0)  # sums of weights as large as numbers can be stay finite
+        return float(size * self._least(w / size))
+
+    def holds(self, weights: ArrayLike) -> bool:
+        """Whether weights (poses,) are in the range, without its bound; errors as for `margin`."""
+        return self.margin(weights) > 0.0
+
+    def reach(self, toward: ArrayLike, *, start: ArrayLike | None = None) -> float:
+        """How far the way from some weights to others stays in the range.
+
+        Parameters
+        ----------
+        toward : array_like, (poses,)
+        start : array_like, (poses,), optional
+            Default: equal weights.
+
+        Returns
+        -------
+        float
+            The largest t >= 0 with start + t (toward - start) in the closed range: above one if
+            `toward` is in the range; infinite if all the ray is; zero if the start is not in it.
+
+        Raises
+        ------
+        ValueError
+            As `margin`, for either of them.
+        """
+        begin = self._domain.center if start is None else self._checked_weights(start)
+        step = self._checked_weights(toward) - begin
+        if not self.margin(begin) > 0.0:
+            return 0.0
+        length = float(np.abs(step).max())
+        if length == 0.0:
+            return np.inf
+        # 1 + t e vanishes first for the least eigenvalue e of the step relative to the start
+        factors = np.linalg.inv(np.linalg.cholesky(_sum(begin, self._squares)))
+        moved = factors @ _sum(step / length, self._squares) @ factors.swapaxes(-1, -2)
+        alphas = _sum(step / length, self._alphas) / _sum(begin, self._alphas)
+        steepest = min(_least_eigenvalue(moved), float(alphas.min()))
+        # what rounding leaves where nothing changes is no slope
+        return -1.0 / steepest / length if steepest < -1e-12 else np.inf
+
+    def limits(self) -> FloatArray:
+        """The least and the greatest weight of each pose while the others share the rest evenly.
+
+        Returns
+        -------
+        ndarray, (poses, 2) float64
+            Negative and above one; infinite where the range does not end.
+        """
+        center, limits = self._domain.center, np.empty((self.poses, 2))
+        for pose, alone in enumerate(np.eye(self.poses)):
+            way = alone - center
+            limits[pose] = (
+                center[pose] - self.reach(center - way) * way[pose],
+                center[pose] + self.reach(alone) * way[pose],
+            )
+        return limits
+
+    def _least(self, weights: FloatArray) -> float:
+        alphas = _sum(weights, self._alphas)
+        return min(_least_eigenvalue(_sum(weights, self._squares)), float(alphas.min()))
+
+    def _checked_weights(self, weights: ArrayLike) -> FloatArray:
+        return self._domain.check(weights, extrapolate=True, who="CertainRange")
+
+
+def certain_range(material: Material, corners: ArrayLike) -> CertainRange | None:
+    """The range of a material's blends, or None.
+
+    Densities that do not collapse have no cheap test. Weights that are not negative are fine for
+    all of them: a sum of energies with minima.
+
+    Parameters
+    ----------
+    material : Material
+    corners : (poses, tets, 4, 3) float64
+        As for `CertainRange`, with its errors.
+    """
+    return CertainRange(corners) if material.collapses else None
+
+
+def _checked(corners: ArrayLike) -> FloatArray:
+    array = np.asarray(corners, np.float64)
+    if array.ndim != 4 or array.shape[2:] != (4, 3) or array.shape[0] < 2 or array.shape[1] < 1:
+        raise ValueError(
+            "CertainRange: corners must be (poses, tets, 4, 3) with two poses or more and a tet, "
+            f"got {array.shape}"
+        )
+    if not np.isfinite(array).all():
+        raise ValueError("CertainRange: a corner is not finite")
+    return array
+
+
+def _terms(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """v A A^T (poses, tets, 3, 3) and 1 / v (poses, tets), in units of the volumes in pose 0."""
+    edges = corners[:, :, 1:] - corners[:, :, :1]  # E^T
+    volumes = np.abs(np.linalg.det(edges))
+    if not (volumes > 0.0).all():
+        pose, tet = np.argwhere(~(volumes > 0.0))[0]
+        raise ValueError(f"CertainRange: tet {tet} of pose {pose} has no volume")
+    volumes /= volumes[0]
+    maps = np.linalg.solve(edges, np.broadcast_to(edges[0], edges.shape))  # A^T = E_k^-T E_0^T
+    squares: FloatArray = volumes[..., None, None] * (maps.swapaxes(-1, -2) @ maps)
+    return squares, 1.0 / volumes
+
+
+def _sum(weights: FloatArray, terms: FloatArray) -> FloatArray:
+    total: FloatArray = np.tensordot(weights, terms, axes=1)
+    return total
+
+
+def _least_eigenvalue(matrices: FloatArray) -> float:
+    return float(np.linalg.eigvalsh(matrices)[:, 0].min())
