@@ -1,5 +1,19 @@
 """Models as accurate as is asked: samples and dimension follow from measured errors."""
 
-from .accurate_blends import AccurateBlends, Step, accurate_blends
+from .accurate_blends import (
+    MOST_SAMPLES,
+    TARGET_ERROR,
+    AccurateBlends,
+    Step,
+    accurate_blends,
+    check_target,
+)
 
-__all__ = ["AccurateBlends", "Step", "accurate_blends"]
+__all__ = [
+    "MOST_SAMPLES",
+    "TARGET_ERROR",
+    "AccurateBlends",
+    "Step",
+    "accurate_blends",
+    "check_target",
+]

@@ -12,12 +12,14 @@ import click
 from rich import box
 from rich.table import Table
 
+from ..accurate import TARGET_ERROR, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..material import MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
+from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
 from .build import check_output
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
@@ -88,6 +90,15 @@ SAMPLES, DIMENSION = 40, 30
 )
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
+@click.option(
+    "--accuracy",
+    type=float,
+    default=TARGET_ERROR,
+    show_default=True,
+    metavar="SHARE",
+    help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "
+    "--dimension, --energy-fraction, --sampling, --target-error is given, except for stvk.",
+)
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
 @threads_option
@@ -106,6 +117,7 @@ def interpolate(
     kind: str,
     lam: float,
     mu: float,
+    accuracy: float,
     choices: Choices,
     repair: bool,
     threads: int | None,
@@ -117,6 +129,9 @@ def interpolate(
     Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
     the same tets; vertex i of all poses is one point of the object. Each may be in a frame of its
     own. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
+
+    Samples and dimension follow from the error of blends that the model was not made of, see
+    --accuracy, unless you give them.
 
     Ctrl-C keeps finished poses and samples beside the model; the same command goes on from there.
 
@@ -136,6 +151,7 @@ def interpolate(
     material = material_class(kind).from_lame(lam=lam, mu=mu)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
+    check_target(accuracy)
     if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
         raise ValueError(
             f"the energy is a cubature, which is trained on {FEWEST_BLENDS} samples or more, but "
@@ -172,15 +188,31 @@ def interpolate(
         "pose_seconds": pose_set.seconds,
     }
     try:
-        built = build_model(
-            problem,
-            recipe,
-            output,
-            source=source,
-            surface=pose_set.surface,
-            begin=begin,
-            executor=executor,
-        )
+        if material.exact_degree == 4 or extrapolation > 0 or decided_by_hand():
+            built = build_model(
+                problem,
+                recipe,
+                output,
+                source=source,
+                surface=pose_set.surface,
+                begin=begin,
+                executor=executor,
+            )
+        else:
+            built = build_accurate_model(
+                problem,
+                AccurateRecipe(
+                    target_error=accuracy,
+                    seed=choices.seed,
+                    solver=choices.solver_options(),
+                    threads=threads,
+                ),
+                output,
+                source=source,
+                surface=pose_set.surface,
+                begin=begin,
+                executor=executor,
+            )
     except KeyboardInterrupt as stop:
         kept = "; the fitted poses are kept" if pose_set.fits else ""
         raise KeyboardInterrupt(f"{stop}{kept}") from None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -96,15 +96,15 @@ def build_model(
     choice.check(problem, recipe.samples.count)
     checkpoint = Checkpoint.beside(output, recipe.samples.key(problem, recipe.solver))
     seconds: dict[str, float] = {}
-    with _telling_what_is_kept(recipe, checkpoint):
+    with telling_what_is_kept(lambda: (recipe.samples.finished(checkpoint), recipe.samples.count)):
         if isinstance(problem, InterpolationProblem):
-            with _stage(seconds, "mean shape"), spinner("mean shape"):
+            with stage(seconds, "mean shape"), spinner("mean shape"):
                 problem.solve_mean_shape(threads=recipe.threads)
-        with _stage(seconds, "snapshots"):
+        with stage(seconds, "snapshots"):
             snapshots = _solved(problem, recipe, checkpoint, executor)
-        with _stage(seconds, "basis"), spinner("basis"):
+        with stage(seconds, "basis"), spinner("basis"):
             subspace = _subspace(snapshots, recipe)
-        with _stage(seconds, "reduction"), spinner("reduced energy"):
+        with stage(seconds, "reduction"), spinner("reduced energy"):
             usable = np.ones(len(snapshots), bool)
             if not recipe.include_unconverged:
                 usable = snapshots.usable
@@ -126,13 +126,13 @@ def build_model(
 
 
 @contextmanager
-def _telling_what_is_kept(recipe: Recipe, checkpoint: Checkpoint) -> Iterator[None]:
+def telling_what_is_kept(finished: Callable[[], tuple[int, int]]) -> Iterator[None]:
+    """Ctrl-C in this block says how many samples are kept; `finished` gives them, and all."""
     try:
         with ctrl_c_as_itself():
             yield
     except KeyboardInterrupt:
-        kept = recipe.samples.finished(checkpoint)
-        raise KeyboardInterrupt(_resume_line(kept, recipe.samples.count)) from None
+        raise KeyboardInterrupt(_resume_line(*finished())) from None
 
 
 def _solved(
@@ -179,7 +179,8 @@ def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:
 
 
 @contextmanager
-def _stage(seconds: dict[str, float], name: str) -> Iterator[None]:
+def stage(seconds: dict[str, float], name: str) -> Iterator[None]:
+    """Notes how long the block took."""
     begin = time.perf_counter()
     yield
     seconds[name] = time.perf_counter() - begin

@@ -64,6 +64,20 @@ def check_dimension(dimension: int, samples: int, *, known: int = 0) -> None:
 def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
     """What made the model; no names of machines or people."""
     return {
+        **made_by(recipe.solver, snapshots),
+        "sampling": recipe.sampling,
+        "basis": {
+            "dimension": recipe.dimension,
+            "energy_fraction": recipe.energy_fraction,
+            "lumped": recipe.lumped,
+            "include_unconverged": recipe.include_unconverged,
+        },
+    }
+
+
+def made_by(solver: SolverOptions, snapshots: Snapshots) -> dict[str, Any]:
+    """Versions, the solver's options and what became of the samples."""
+    return {
         "versions": {
             "snapspace": __version__,
             "python": platform.python_version(),
@@ -71,14 +85,7 @@ def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
             "scipy": scipy.__version__,
             "core": _core.level,
         },
-        "sampling": recipe.sampling,
-        "solver": solver_key(recipe.solver, snapshots.problem),
-        "basis": {
-            "dimension": recipe.dimension,
-            "energy_fraction": recipe.energy_fraction,
-            "lumped": recipe.lumped,
-            "include_unconverged": recipe.include_unconverged,
-        },
+        "solver": solver_key(solver, snapshots.problem),
         "snapshots": {
             "solved": len(snapshots),
             "converged": int(snapshots.converged.sum()),

@@ -8,9 +8,7 @@ from typing import Any, Generic
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
-from ..blas import single_threaded_blas
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .blended_cubature import BlendedCubature
@@ -18,6 +16,7 @@ from .cubature import Cubature
 from .elastic_states import BlendingStates, PosingStates, States
 from .held_out_errors import CubatureErrors, held_out_errors
 from .nonnegative_fit import nonnegative_fit
+from .reduced_stiffness import mean_stiffness, reduced_stiffness
 from .sampled_tets import sampled_tets
 from .tets_by_force import tets_by_force
 from .training_rows import training_rows
@@ -106,7 +105,8 @@ def train_cubature(
         and that of the mesh.
     """
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)])
-    stiffness = _stiffness(problem.energy.hessian(problem.base), subspace) + handle_hessian
+    hessian = problem.energy.hessian(problem.base)
+    stiffness = reduced_stiffness(hessian, subspace) + handle_hessian
     budget = _Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS)
     fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
@@ -142,7 +142,7 @@ def train_blended_cubature(
         for q, w in zip(states.coordinates[::PILOT_STEP], states.weights[::PILOT_STEP], strict=True)
     ]
     states = replace(states, floor=0.01 * max(energies, default=0.0))
-    stiffness = _mean_stiffness(states)
+    stiffness = mean_stiffness(problem, subspace)
     for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
         budget = _Budget(tets, usual, FEWEST_BLENDS)
         fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
@@ -275,34 +275,3 @@ def _spread(which: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     places = np.unique(np.linspace(0, len(which) - 1, count).round().astype(int))
     some: NDArray[np.intp] = which[places]
     return some
-
-
-@single_threaded_blas
-def _stiffness(hessian: csr_array, subspace: AffineSubspace) -> FloatArray:
-    """The exact reduced Hessian of a full one (3n, 3n), symmetric."""
-    stiffness = subspace.basis.T @ (hessian @ subspace.basis)
-    return _symmetric(stiffness)
-
-
-def _symmetric(matrix: FloatArray) -> FloatArray:
-    symmetric: FloatArray = (matrix + matrix.T) / 2
-    return symmetric
-
-
-@single_threaded_blas
-def _mean_stiffness(states: BlendingStates) -> FloatArray:
-    """The exact reduced Hessian at the mean shape, (d, d), by central differences of forces.
-
-    They take 2 d gradients for any number of poses. Only directions are weighed with it: the error,
-    of the square of the step, is of no consequence.
-    """
-    problem, basis = states.problem, states.subspace.basis
-    mean, center = states.subspace.tau - problem.base, problem.domain.center
-    step = 1e-4 * problem.mesh.diagonal * float(np.sqrt(problem.mesh.volume))
-    columns = []
-    for mode in basis.T:
-        forces = [
-            problem.system.value_and_gradient(mean + h * mode, center)[1] for h in (-step, step)
-        ]
-        columns.append((forces[1] - forces[0]) @ basis / (2.0 * step))
-    return _symmetric(np.array(columns))

@@ -1,0 +1,44 @@
+"""Exact Hessians of reduced energies where the coordinates vanish."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from ..blas import single_threaded_blas
+from ..problem import InterpolationProblem
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+
+@single_threaded_blas
+def reduced_stiffness(hessian: csr_array, subspace: AffineSubspace) -> FloatArray:
+    """The exact reduced Hessian of a full one (3n, 3n), symmetric."""
+    stiffness = subspace.basis.T @ (hessian @ subspace.basis)
+    return _symmetric(stiffness)
+
+
+def _symmetric(matrix: FloatArray) -> FloatArray:
+    symmetric: FloatArray = (matrix + matrix.T) / 2
+    return symmetric
+
+
+@single_threaded_blas
+def mean_stiffness(problem: InterpolationProblem, subspace: AffineSubspace) -> FloatArray:
+    """The exact reduced Hessian at the mean shape, (d, d), by central differences of forces.
+
+    They take 2 d gradients for any number of poses. Only directions are weighed with it: the error,
+    of the square of the step, is of no consequence.
+    """
+    basis = subspace.basis
+    mean, center = subspace.tau - problem.base, problem.domain.center
+    step = 1e-4 * problem.mesh.diagonal * float(np.sqrt(problem.mesh.volume))
+    columns = []
+    for mode in basis.T:
+        forces = [
+            problem.system.value_and_gradient(mean + h * mode, center)[1] for h in (-step, step)
+        ]
+        columns.append((forces[1] - forces[0]) @ basis / (2.0 * step))
+    return _symmetric(np.array(columns))
