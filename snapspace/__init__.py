@@ -2,6 +2,7 @@
 
 from importlib.metadata import version as _version
 
+from .accurate import AccurateBlends, accurate_blends
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
@@ -81,6 +82,7 @@ __version__ = _version("snapspace")
 __all__ = [
     "ARAP",
     "MATERIALS",
+    "AccurateBlends",
     "AffineSubspace",
     "BlendingSession",
     "CertainRange",

@@ -30,13 +30,17 @@ FIRST_SAMPLES, MORE_SAMPLES = 40, 1.5
 MOST_SAMPLES = 160
 #: The most dimensions: a frame stays below half a millisecond.
 MOST_DIMENSIONS = 80
+#: Dimensions of a model that is made for starts alone.
+STARTING_DIMENSIONS = 20
 #: Modes for each solution that they come from: the last ones fit these alone.
 MODES_PER_SOLUTION = 0.8
-#: Errors of reduced solutions over those of projections, before it is measured: they are 3 to 8 on
+#: Errors of reduced solutions over those of projections, before it is measured: they are 2 to 8 on
 #: generated and real poses.
-FIRST_RATIO = 4.0
+FIRST_RATIO = 3.0
 #: The least growth of the dimension from try to try.
 GROWTH = 1.2
+#: Where more dimensions leave more than this share of the error, still more are of no use.
+FALL = 0.9
 #: What the next try aims below the target by.
 MARGIN = 1.1
 
@@ -113,7 +117,8 @@ def accurate_blends(
     Stages of 40, 60, 90, 135 and 160 samples: the last ones of each are held out. Their projections
     say which dimension may do, and whether any can; then a model is made, and its reduced solutions
     are compared with them. The ratio of both errors decides the next dimension, and where no
-    dimension is enough, the next stage follows. Time has no say.
+    dimension is enough, the next stage follows. Its samples start from the reduced solutions of a
+    model of those before. Time has no say.
 
     Parameters
     ----------
@@ -146,6 +151,7 @@ def accurate_blends(
     growing = GrowingSamples(problem, most_samples, seed=seed)
     steps: list[Step] = []
     best: tuple[Step, InterpolationModel] | None = None
+    starting: InterpolationModel | None = None
     for count in _stages(most_samples):
         growing.solve_up_to(
             count,
@@ -154,8 +160,11 @@ def accurate_blends(
             progress=progress,
             checkpoint=checkpoint,
             executor=executor,
+            model=starting,
         )
-        tries = _Tries(growing, target_error, steps[-1] if steps else None)
+        # the least: where more dimensions do not help the ratio grows, and says nothing
+        ratio = min(map(_ratio, steps), default=FIRST_RATIO)
+        tries = _Tries(growing, target_error, ratio)
         for dimension in tries.dimensions(last=count == most_samples):
             model = _model(growing, dimension, surface, threads)
             error = float(unseen_errors(model, growing.unseen).mean())
@@ -169,6 +178,8 @@ def accurate_blends(
             break
         if count < most_samples:
             say(f"no dimension of {count} samples meets {100 * target_error:.2g} %: more samples")
+            dimension = min(STARTING_DIMENSIONS, tries.most)
+            starting = best[1] if best else starting or _model(growing, dimension, surface, threads)
     assert best is not None  # the last stage tries one at least
     return AccurateBlends(best[1], growing.snapshots, tuple(steps), best[0], target_error)
 
@@ -176,35 +187,41 @@ def accurate_blends(
 class _Tries:
     """The dimensions that are tried with the samples of a stage."""
 
-    def __init__(self, growing: GrowingSamples, target: float, before: Step | None) -> None:
+    def __init__(self, growing: GrowingSamples, target: float, ratio: float) -> None:
         self._projections = growing.projection_errors().mean(axis=1)
-        known = growing.trained_solutions
-        self._most = min(MOST_DIMENSIONS, int(MODES_PER_SOLUTION * known), growing.directions)
+        most = int(MODES_PER_SOLUTION * growing.trained_solutions)
+        self.most = min(MOST_DIMENSIONS, most, len(self._projections) - 1)
         self._target = target
-        self._ratio = FIRST_RATIO if before is None else _ratio(before)
-        self._last: Step | None = None
+        self._ratio = ratio
+        self._steps: list[Step] = []
 
     def projection(self, dimension: int) -> float:
         """Mean error of the held-out samples' projections."""
-        return float(self._projections[min(dimension, len(self._projections) - 1)])
+        return float(self._projections[dimension])
 
     def add(self, step: Step) -> None:
         """Takes what the last dimension gave."""
-        self._last, self._ratio = step, _ratio(step)
+        self._steps.append(step)
+        self._ratio = _ratio(step)
 
     def dimensions(self, *, last: bool) -> Iterator[int]:
-        """One after the other, until one meets the target or none is left."""
-        tried = 0
-        while self._last is None or self._last.error > self._target:
+        """One after the other, until one meets the target or more of them are of no use."""
+        while not self._useless():
+            tried = self._steps[-1].dimension if self._steps else 0
             enough = np.flatnonzero(self._projections * self._ratio * MARGIN <= self._target)
-            wanted = max(int(enough[0]), ceil(GROWTH * tried)) if len(enough) else self._most + 1
-            if wanted > self._most:
+            wanted = max(int(enough[0]), ceil(GROWTH * tried), 1) if len(enough) else self.most + 1
+            if wanted > self.most:
                 # more samples are the cure; at last the best that there is
-                if not last or tried == self._most:
+                if not last or tried == self.most:
                     return
-                wanted = self._most
-            tried = max(wanted, 1)
-            yield tried
+                wanted = self.most
+            yield wanted
+
+    def _useless(self) -> bool:
+        """Whether the target is met, or the last dimensions did not help."""
+        errors = [step.error for step in self._steps]
+        met = bool(errors) and errors[-1] <= self._target
+        return met or (len(errors) > 1 and errors[-1] > FALL * errors[-2])
 
 
 def _ratio(step: Step) -> float:

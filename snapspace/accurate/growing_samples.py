@@ -3,19 +3,31 @@
 from __future__ import annotations
 
 from concurrent.futures import Executor
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import SnapshotGram
+from ..greedy.error_estimates import reduced_solutions
 from ..problem import InterpolationProblem, solutions_beyond_tau
+from ..reduction import InterpolationModel
 from ..sampling import Method, sample
-from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions, solve_snapshots
+from ..snapshots import (
+    Checkpoint,
+    Progress,
+    SampleReport,
+    Snapshots,
+    SolverOptions,
+    solve_snapshots,
+)
 
 FloatArray = NDArray[np.float64]
 
 #: One sample in so many is held out, and these at least.
-HELD_OUT_PERIOD, FEWEST_HELD_OUT = 10, 8
+HELD_OUT_PERIOD, FEWEST_HELD_OUT = 5, 8
+#: Tolerance of these, relative to that of the others.
+JUDGING = 0.01
 
 
 class GrowingSamples:
@@ -58,11 +70,6 @@ class GrowingSamples:
         """How many solutions a basis comes from, those known without solving among them."""
         return int(self._masks()[0].sum()) + len(self._known())
 
-    @property
-    def directions(self) -> int:
-        """How many directions these have."""
-        return len(self.projection_errors()) - 1
-
     def solve_up_to(
         self,
         count: int,
@@ -72,24 +79,46 @@ class GrowingSamples:
         progress: Progress | None,
         checkpoint: Checkpoint | None,
         executor: Executor | None,
+        model: InterpolationModel | None,
     ) -> None:
-        """Solves the samples before `count` that are not; arguments as for `solve_snapshots`."""
-        before = 0 if self._snapshots is None else len(self._snapshots)
-        if count <= before:
-            return
-        stage = None if checkpoint is None else Checkpoint(checkpoint.folder / f"from-{before:05d}")
-        solved = solve_snapshots(
-            self.problem,
-            self.parameters[before:count],
-            options=options,
-            threads=threads,
-            progress=progress,
-            checkpoint=stage,
-            executor=executor,
-            known=self._snapshots,
+        """Solves the samples before `count` that are not; arguments as for `solve_snapshots`.
+
+        Those that are held out are solved more tightly: along soft modes the others are off by as
+        much as a model. The solves start from the reduced solutions of `model`, where there is one,
+        and take half as many iterations.
+        """
+        usual = options or SolverOptions()
+        tolerance = usual.resolved(self.problem).tolerance
+        judging = replace(usual, tolerance=JUDGING * tolerance, settling=None)
+        trained = count - self._held_out(count)
+        for end, chosen in ((trained, usual), (count, judging)):
+            before = 0 if self._snapshots is None else len(self._snapshots)
+            if end <= before:
+                continue
+            name = f"from-{before:05d}"
+            solved = solve_snapshots(
+                self.problem,
+                self.parameters[before:end],
+                options=chosen,
+                threads=threads,
+                progress=progress,
+                checkpoint=None if checkpoint is None else Checkpoint(checkpoint.folder / name),
+                executor=executor,
+                known=self._starts(model, self.parameters[before:end]),
+            )
+            self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
+            self._gram.add(list(solved.displacements), threads=threads or 0)
+
+    def _starts(self, model: InterpolationModel | None, parameters: FloatArray) -> Snapshots | None:
+        """What is solved, and what a model of it says of samples that are not."""
+        if model is None:
+            return self._snapshots
+        shapes = reduced_solutions(model, parameters) + self.problem.base
+        guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
+        reports = [guess] * len(parameters)
+        return self.snapshots.joined(
+            Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
         )
-        self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
-        self._gram.add(list(solved.displacements), threads=threads or 0)
 
     def projection_errors(self) -> FloatArray:
         """Of the held-out samples onto bases of the others, see `SnapshotGram.held_out_errors`."""
@@ -100,6 +129,11 @@ class GrowingSamples:
             np.append(np.flatnonzero(trained), known), np.flatnonzero(unseen)
         )
 
+    @staticmethod
+    def _held_out(count: int) -> int:
+        """How many of the first samples are held out."""
+        return max(FEWEST_HELD_OUT, count // HELD_OUT_PERIOD)
+
     def _known(self) -> FloatArray:
         """Displacements (k, 3n) of the solutions that are known, beside tau."""
         shapes: FloatArray = solutions_beyond_tau(self.problem)[1] - self.problem.base
@@ -108,8 +142,7 @@ class GrowingSamples:
     def _masks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Which samples (k,) train, and which are held out."""
         usable = self.snapshots.usable
-        held = max(FEWEST_HELD_OUT, len(usable) // HELD_OUT_PERIOD)
-        last = np.arange(len(usable)) >= len(usable) - held
+        last = np.arange(len(usable)) >= len(usable) - self._held_out(len(usable))
         if not (usable & last).any() or not (usable & ~last).any():
             raise ValueError(
                 f"accurate_blends: only {int(usable.sum())} of {len(usable)} samples converged; "

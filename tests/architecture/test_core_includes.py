@@ -24,7 +24,7 @@ ALLOWED: dict[str, set[str]] = {
     "simd": set(),
     "threads": set(),
     "online": {"element", "material", "simd"},
-    "energy": {"element", "material", "memory", "mesh", "simd"},
+    "energy": {"element", "material", "memory", "mesh", "simd", "threads"},
     "cholesky": {"memory", "simd"},
     "multigrid": {"cholesky", "dense", "memory", "simd"},
     "snapshots": {

@@ -118,6 +118,17 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "stopping",
     },
+    "accurate": {
+        "displacements",
+        "greedy",
+        "mesh",
+        "problem",
+        "reduction",
+        "sampling",
+        "snapshots",
+        "subspace",
+        "validation",
+    },
     "validation": {"mesh", "problem", "snapshots", "subspace", "reduction", "session", "sampling"},
 }
 
