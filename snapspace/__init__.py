@@ -131,6 +131,7 @@ __all__ = [
     "TetMesh",
     "UnsavedSamplesError",
     "Validation",
+    "accurate_blends",
     "affine_subspace",
     "boundary_surface",
     "calibrated",
