@@ -97,7 +97,8 @@ SAMPLES, DIMENSION = 40, 30
     show_default=True,
     metavar="SHARE",
     help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --target-error is given, except for stvk.",
+    "--dimension, --energy-fraction, --sampling, --target-error, --extrapolation is given, except "
+    "for stvk.",
 )
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
