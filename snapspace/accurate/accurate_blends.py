@@ -94,6 +94,7 @@ class AccurateBlends:
         return {
             "target_error": self.target,
             "reached": self.reached,
+            "step": vars(self.step),
             "steps": [vars(step) for step in self.steps],
         }
 

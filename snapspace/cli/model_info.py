@@ -96,6 +96,16 @@ def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     for key in ("sampling", "solver", "versions"):
         if isinstance(record.get(key), dict):
             facts.append((key, ", ".join(f"{name} {value}" for name, value in record[key].items())))
+    accurate = record.get("accurate")
+    if isinstance(accurate, dict) and isinstance(accurate.get("step"), dict):
+        step = accurate["step"]
+        facts.append(
+            (
+                "accuracy",
+                f"unseen blends within {_percent(step['error'])} in the mean, "
+                f"{_percent(accurate['target_error'])} asked; {step['samples']} samples",
+            )
+        )
     cubature = record.get("cubature")
     if isinstance(cubature, dict) and isinstance(cubature.get("held_out"), dict):
         errors = cubature["held_out"]
