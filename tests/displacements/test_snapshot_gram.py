@@ -166,10 +166,22 @@ def test_the_reference_shape_itself_has_no_error() -> None:
     np.testing.assert_array_equal(products.held_out_error([5], [0, 5], 3), [1.0, 0.0])
 
 
-@pytest.mark.parametrize(("training", "dimension"), [(range(3), 0), ([], 2)])
-def test_refuses_what_has_no_subspace(training: range, dimension: int) -> None:
+def test_all_dimensions_at_once_are_each_of_them() -> None:
+    products = gram(MASSES["consistent"], decaying(30, 6))
+    every = products.held_out_errors(range(20), range(20, 30))
+    np.testing.assert_array_equal(every[0], 1.0)  # without a direction nothing is held
+    for dimension, errors in enumerate(every[1:], start=1):
+        one = products.held_out_error(range(20), range(20, 30), dimension)
+        np.testing.assert_array_equal(one, errors)
+
+
+@pytest.mark.parametrize(
+    ("training", "dimension", "message"),
+    [(range(3), 0, "dimension is 0"), ([], 2, "there are no training rows")],
+)
+def test_refuses_what_has_no_subspace(training: range, dimension: int, message: str) -> None:
     products = gram(MASSES["consistent"], displacements(5, SIZE))
-    with pytest.raises(ValueError, match=r"SnapshotGram: dimension \d and \d training rows"):
+    with pytest.raises(ValueError, match=f"SnapshotGram: {message}"):
         products.held_out_error(np.array(training, int), [4], dimension)
 
 
