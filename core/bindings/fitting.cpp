@@ -1,8 +1,8 @@
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "bindings/arrays.h"
-#include "element/tet.h"
 #include "fitting/pose_fitter.h"
 
 namespace snapspace {
@@ -41,15 +41,10 @@ DoublesOut external(const FittingSystem& system, const std::vector<double>& u) {
 /// The energy of fits, without limits to its growth in a step.
 std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u, double stretch) {
   std::vector<double> energies, stresses, gradient(self.size());
-  FitEnergy(self.energy, stretch).evaluate(internal(self, u).data(), energies, stresses);
-  double value = 0.0;
-  for (std::size_t t = 0; t < energies.size(); ++t) {
-    value += energies[t];
-    double P[3][3];
-    std::copy_n(&stresses[9 * t], 9, &P[0][0]);
-    scatter_stress(self.energy.rest.tets[t], P, gradient.data());
-  }
-  return {value, external(self, gradient)};
+  const FitEnergy fit(self.energy, stretch);
+  fit.evaluate(internal(self, u).data(), energies, stresses);
+  fit.add_gradient(stresses, gradient.data());
+  return {std::accumulate(energies.begin(), energies.end(), 0.0), external(self, gradient)};
 }
 
 DoublesOut hessian_product(const FittingSystem& self, const VectorIn& u, const VectorIn& v,

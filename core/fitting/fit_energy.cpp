@@ -1,5 +1,7 @@
 #include "fitting/fit_energy.h"
 
+#include <algorithm>
+
 #include "element/tet.h"
 
 namespace snapspace {
@@ -16,6 +18,14 @@ void FitEnergy::evaluate(const double* u, std::vector<double>& energies,
     const auto growth = bound_.of(energies[t], energy_.rest.tets[t].volume);
     energies[t] = growth.value;
     for (std::size_t i = 9 * t; i < 9 * t + 9; ++i) stresses[i] *= growth.slope;
+  }
+}
+
+void FitEnergy::add_gradient(const std::vector<double>& stresses, double* gradient) const {
+  for (std::size_t t = 0; t < energy_.rest.tets.size(); ++t) {
+    double P[3][3];
+    std::copy_n(&stresses[9 * t], 9, &P[0][0]);
+    scatter_stress(energy_.rest.tets[t], P, gradient);
   }
 }
 

@@ -16,6 +16,9 @@ class FitEnergy {
   void evaluate(const double* u, std::vector<double>& energies,
                 std::vector<double>& stresses) const;
 
+  /// Adds the gradient (3n) that stresses make.
+  void add_gradient(const std::vector<double>& stresses, double* gradient) const;
+
   /// Adds the Hessian at u, every tet's projected. For tets without energies of their own it is
   /// that of the symmetric Dirichlet energy.
   void add_hessian(const double* u, BlockHessian& hessian) const;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "cholesky/analysis.h"
-#include "element/tet.h"
 #include "snapshots/line_search.h"
 #include "threads/flush_denormals.h"
 
@@ -112,10 +111,8 @@ double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<
     // written so that NaN is refused as well
     if (!(energies_[t] <= limits_[t])) return std::numeric_limits<double>::infinity();
     value += energies_[t];
-    double P[3][3];
-    std::copy_n(&stresses_[9 * t], 9, &P[0][0]);
-    scatter_stress(system_.energy.rest.tets[t], P, gradient.data());
   }
+  energy_.add_gradient(stresses_, gradient.data());
   return value +
          system_.springs.value_and_gradient(report_.stiffness, targets_, u.data(), gradient.data());
 }

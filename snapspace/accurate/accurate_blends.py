@@ -26,9 +26,9 @@ Tell = Callable[[str], None]
 TARGET_ERROR = 0.005
 #: Samples of the first stage, and the growth from stage to stage.
 FIRST_SAMPLES, MORE_SAMPLES = 40, 1.5
-#: The most samples. 160 of twenty poses see no three of them twice.
+#: The most samples: the ten Lions take a minute and a half with them.
 MOST_SAMPLES = 160
-#: The most dimensions: a frame stays below half a millisecond.
+#: The most dimensions: a frame of a drag takes up to a millisecond.
 MOST_DIMENSIONS = 80
 #: Dimensions of a model that is made for starts alone.
 STARTING_DIMENSIONS = 20

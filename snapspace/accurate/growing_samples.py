@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import SnapshotGram
-from ..greedy.error_estimates import reduced_solutions
+from ..greedy import batch_checkpoint, reduced_solutions
 from ..problem import InterpolationProblem, solutions_beyond_tau
 from ..reduction import InterpolationModel
 from ..sampling import Method, sample
@@ -95,16 +95,16 @@ class GrowingSamples:
             before = 0 if self._snapshots is None else len(self._snapshots)
             if end <= before:
                 continue
-            name = f"from-{before:05d}"
+            wanted = self.parameters[before:end]
             solved = solve_snapshots(
                 self.problem,
-                self.parameters[before:end],
+                wanted,
                 options=chosen,
                 threads=threads,
                 progress=progress,
-                checkpoint=None if checkpoint is None else Checkpoint(checkpoint.folder / name),
+                checkpoint=batch_checkpoint(checkpoint, before, self.problem, wanted, chosen),
                 executor=executor,
-                known=self._starts(model, self.parameters[before:end]),
+                known=self._starts(model, wanted),
             )
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=threads or 0)

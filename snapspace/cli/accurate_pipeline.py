@@ -13,6 +13,7 @@ import click
 import numpy as np
 
 from ..accurate import MOST_SAMPLES, AccurateBlends, accurate_blends
+from ..greedy import finished_samples
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
@@ -56,8 +57,8 @@ class AccurateRecipe:
     threads: int | None
 
     def key(self, problem: InterpolationProblem) -> str:
-        """Hash of what the samples depend on."""
-        choice = {"seed": self.seed, "accurate": MOST_SAMPLES}
+        """Hash of what the samples depend on: which models give starts follows from the target."""
+        choice = {"seed": self.seed, "accurate": [MOST_SAMPLES, self.target_error]}
         none = np.zeros((0, problem.parameter_count))
         return run_key(problem, none, {**solver_key(self.solver, problem), **choice})
 
@@ -77,13 +78,10 @@ def build_accurate_model(
     checkpoint = Checkpoint.beside(output, recipe.key(problem))
     seconds: dict[str, float] = {}
 
-    def kept() -> tuple[int, int]:
-        parts = checkpoint.folder.glob("from-*")
-        return sum(len(Checkpoint(part).numbers()) for part in parts), MOST_SAMPLES
-
-    with telling_what_is_kept(kept):
-        if kept()[0]:
-            notice(f"resuming: {kept()[0]} samples were finished before")
+    found = finished_samples(checkpoint)
+    with telling_what_is_kept(lambda: (finished_samples(checkpoint), MOST_SAMPLES)):
+        if found:
+            notice(f"resuming: {found} samples were finished before")
         with stage(seconds, "mean shape"), spinner("mean shape"):
             problem.solve_mean_shape(threads=recipe.threads)
         with stage(seconds, "samples and models"), spinner("samples and models"):
@@ -107,8 +105,6 @@ def build_accurate_model(
         }
         model = replace(built.model, provenance={**built.model.provenance, **record})
         model.save(output)
-    for part in checkpoint.folder.glob("from-*"):
-        Checkpoint(part).remove()
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
     return Built(model, built.snapshots, output, seconds)

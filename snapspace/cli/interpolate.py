@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -188,32 +189,24 @@ def interpolate(
         "fits": [asdict(fit) for fit in pose_set.fits],
         "pose_seconds": pose_set.seconds,
     }
+    if material.exact_degree == 4 or extrapolation > 0 or decided_by_hand():
+        build = partial(build_model, problem, recipe)
+    else:
+        accurate = AccurateRecipe(
+            target_error=accuracy,
+            seed=choices.seed,
+            solver=choices.solver_options(),
+            threads=threads,
+        )
+        build = partial(build_accurate_model, problem, accurate)
     try:
-        if material.exact_degree == 4 or extrapolation > 0 or decided_by_hand():
-            built = build_model(
-                problem,
-                recipe,
-                output,
-                source=source,
-                surface=pose_set.surface,
-                begin=begin,
-                executor=executor,
-            )
-        else:
-            built = build_accurate_model(
-                problem,
-                AccurateRecipe(
-                    target_error=accuracy,
-                    seed=choices.seed,
-                    solver=choices.solver_options(),
-                    threads=threads,
-                ),
-                output,
-                source=source,
-                surface=pose_set.surface,
-                begin=begin,
-                executor=executor,
-            )
+        built = build(
+            output,
+            source=source,
+            surface=pose_set.surface,
+            begin=begin,
+            executor=executor,
+        )
     except KeyboardInterrupt as stop:
         kept = "; the fitted poses are kept" if pose_set.fits else ""
         raise KeyboardInterrupt(f"{stop}{kept}") from None

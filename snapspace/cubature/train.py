@@ -234,11 +234,10 @@ def _fit(
         ordered, CANDIDATES * count, largest_share=states.largest_share, seed=seed
     ).tets
     directions = min(dimension, -(-ROWS * count // len(with_forces)))
-    compliances = trained.compliances(stiffness, ordered)
     rows = training_rows(
         with_forces,
         candidates,
-        np.repeat(compliances, len(with_forces) // len(trained), axis=0),
+        _repeated(trained.compliances(stiffness, ordered), len(with_forces)),
         directions=directions,
         seed=seed,
         threads=threads,
@@ -251,9 +250,16 @@ def _fit(
         )
     picked = candidates[picks]
     volumes = factors * mesh.volumes[picked]
-    both = unseen.with_forces()
-    away = np.repeat(unseen.compliances(stiffness, ordered), len(both) // len(unseen), axis=0)
-    return _Fit(picked, volumes, both, away, len(with_forces), len(rows.target), seed, begin)
+    judging = unseen.with_forces()
+    compliances = _repeated(unseen.compliances(stiffness, ordered), len(judging))
+    return _Fit(
+        picked, volumes, judging, compliances, len(with_forces), len(rows.target), seed, begin
+    )
+
+
+def _repeated(compliances: FloatArray, count: int) -> FloatArray:
+    """Those of states for their `with_forces`, which has each state as often as any other."""
+    return np.repeat(compliances, count // len(compliances), axis=0)
 
 
 def _checked_count(available: int, usual: int, tets: int | None) -> int:

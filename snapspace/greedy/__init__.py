@@ -1,15 +1,17 @@
 """Greedy sampling: the next samples are those that the present model is worst at."""
 
-from .batch_checkpoints import finished_samples, greedy_key
-from .error_estimates import estimated_errors
+from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
+from .error_estimates import estimated_errors, reduced_solutions
 from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
 
 __all__ = [
     "BATCH",
     "CANDIDATES",
+    "batch_checkpoint",
     "check_target",
     "estimated_errors",
     "finished_samples",
     "greedy_key",
     "greedy_snapshots",
+    "reduced_solutions",
 ]
