@@ -269,6 +269,11 @@ class SampleSystem:
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
         """Objective at u (3n,) for inputs (input_size,), and its gradient."""
 
+    def evaluate(self, shapes: NDArray[numpy.float64], inputs: NDArray[numpy.float64], *, threads: int = 0) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """
+        Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n); together, several to a pack.
+        """
+
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
         """Puts a sample into a queue: input (input_size,), start (3n,)."""
 

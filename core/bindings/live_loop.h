@@ -20,7 +20,10 @@ inline auto derivatives(live::ReducedFunction& function, const VectorIn& q) {
   const double* at = checked_coordinates(function.dimension(), q);
   DoublesOut gradient = new_array<double>({d}), hessian = new_array<double>({d, d});
   double* H = hessian.data();
-  const double value = function.derivatives(at, gradient.data(), H);
+  const double value = [&] {
+    const nb::gil_scoped_release release;  // Hessians of many tets take milliseconds
+    return function.derivatives(at, gradient.data(), H);
+  }();
   for (std::size_t i = 0; i < d; ++i)
     for (std::size_t j = 0; j < i; ++j) H[j * d + i] = H[i * d + j];
   return std::make_tuple(value, gradient, hessian);

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "snapshots/evaluate.h"
 #include "snapshots/solve.h"
 
 namespace snapspace {
@@ -96,6 +97,25 @@ void bind_system(nb::module_& m) {
           },
           nb::arg("u"), nb::arg("inputs"),
           "Objective at u (3n,) for inputs (input_size,), and its gradient.")
+      .def(
+          "evaluate",
+          [](const System& self, MatrixIn shapes, MatrixIn inputs, int threads) {
+            const std::size_t count = shapes.shape(0), size = shapes.shape(1);
+            require(size == static_cast<std::size_t>(self.size()) && inputs.shape(0) == count &&
+                        inputs.shape(1) == static_cast<std::size_t>(self.input_size()),
+                    "needs (k, 3n) displacements and (k, input_size) inputs");
+            DoublesOut values = new_array<double>({count}),
+                       gradients = new_array<double>({count, size});
+            {
+              const nb::gil_scoped_release release;
+              evaluate(self, static_cast<int>(count), inputs.data(), shapes.data(), values.data(),
+                       gradients.data(), threads);
+            }
+            return std::make_pair(values, gradients);
+          },
+          nb::arg("shapes"), nb::arg("inputs"), nb::kw_only(), nb::arg("threads") = 0,
+          "Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their "
+          "gradients (k, 3n); together, several to a pack.")
       .def(
           "put",
           [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start) {

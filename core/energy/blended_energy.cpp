@@ -48,14 +48,16 @@ void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
                   [&]<class Density>() { PoseBlend<Density>::fill(moduli, map, result); });
 }
 
+bool BlendedEnergy::in_advance() const { return collapses(kind()) && poses() > kFewPoses; }
+
 std::size_t BlendedEnergy::blend_size() const {
-  if (!collapses(kind())) return poses();
+  if (!in_advance()) return poses();
   return static_cast<std::size_t>(tets()) * numbers_of(kind());
 }
 
 template <class Real>
 void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) const {
-  if (!collapses(kind())) {
+  if (!in_advance()) {
     for (int k = 0; k < poses(); ++k) set_lane(blend[k], lane, weights[k]);
     return;
   }
@@ -73,12 +75,20 @@ template <class Density, class Real>
 Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
                                               Real P[3][3]) const {
   using Blend = PoseBlend<Density>;
+  constexpr int kNumbers = Blend::numbers();
+  const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;
   if constexpr (Blend::kCollapses) {
-    const Real* numbers = blend + static_cast<std::size_t>(tet) * Blend::numbers();
+    Real sums[kNumbers];
+    const Real* numbers = blend + static_cast<std::size_t>(tet) * kNumbers;
+    if (poses() <= kFewPoses) {
+      for (int i = 0; i < kNumbers; ++i) sums[i] = blend[0] * Real(pose[i]);
+      for (int k = 1; k < poses(); ++k)
+        for (int i = 0; i < kNumbers; ++i) sums[i] += blend[k] * Real(pose[k * kNumbers + i]);
+      numbers = sums;
+    }
     return widened(Density::Blend::value_and_stress(numbers, G, P));
   } else {
-    const std::size_t first = static_cast<std::size_t>(tet) * poses() * Blend::numbers();
-    return sum_over_poses(poses(), Density::kModuli, blend, numbers_.data() + first, G, P,
+    return sum_over_poses(poses(), Density::kModuli, blend, pose, G, P,
                           [](const Real* moduli, const Real at[3][3], Real stress[3][3]) {
                             return Density::value_and_stress(moduli, at, stress);
                           });

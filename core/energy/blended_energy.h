@@ -47,7 +47,13 @@ class BlendedEnergy {
                     double* gradient) const;
 
  private:
+  /// Up to so many poses the numbers of a tet are added up anew in every evaluation: samples that
+  /// are side by side share those of the poses, and each would have to read its own sums.
+  static constexpr int kFewPoses = 8;
+
   [[nodiscard]] int kind() const { return energies_[0].material.view().kind; }
+  /// Whether a sample keeps the sums of all tets.
+  [[nodiscard]] bool in_advance() const;
   void fill_numbers(int tet, int pose, double* result) const;
   template <class Density, class Real>
   [[nodiscard]] Sum<Real> tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],

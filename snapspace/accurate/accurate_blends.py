@@ -26,17 +26,16 @@ Tell = Callable[[str], None]
 TARGET_ERROR = 0.005
 #: Samples of the first stage, and the growth from stage to stage.
 FIRST_SAMPLES, MORE_SAMPLES = 40, 1.5
-#: The most samples: the ten Lions take a minute and a half with them.
-MOST_SAMPLES = 160
+#: The most samples by default: 640, but no more than this many vertices in all where 160 are that
+#: many. They take as long as half a minute on small meshes, and a minute on large ones.
+MOST_SAMPLES, FEWER_SAMPLES, MOST_VERTICES = 640, 160, 2_000_000
 #: The most dimensions: a frame of a drag takes up to a millisecond.
-MOST_DIMENSIONS = 80
-#: Dimensions of a model that is made for starts alone.
-STARTING_DIMENSIONS = 20
+MOST_DIMENSIONS = 200
 #: Modes for each solution that they come from: the last ones fit these alone.
 MODES_PER_SOLUTION = 0.8
-#: Errors of reduced solutions over those of projections, before it is measured: they are 2 to 8 on
-#: generated and real poses.
-FIRST_RATIO = 3.0
+#: Errors of reduced solutions over those of projections, before it is measured: they are 2 to 14
+#: on generated and real poses. Too low a one costs models that miss the target.
+FIRST_RATIO = 6.0
 #: The least growth of the dimension from try to try.
 GROWTH = 1.2
 #: Where more dimensions leave more than this share of the error, still more are of no use.
@@ -103,7 +102,7 @@ def accurate_blends(
     problem: InterpolationProblem,
     *,
     target_error: float = TARGET_ERROR,
-    most_samples: int = MOST_SAMPLES,
+    most_samples: int | None = None,
     seed: int = 0,
     options: SolverOptions | None = None,
     threads: int | None = None,
@@ -115,19 +114,20 @@ def accurate_blends(
 ) -> AccurateBlends:
     """Solves samples until the model of some meets a target on the others.
 
-    Stages of 40, 60, 90, 135 and 160 samples: the last ones of each are held out. Their projections
-    say which dimension may do, and whether any can; then a model is made, and its reduced solutions
-    are compared with them. The ratio of both errors decides the next dimension, and where no
-    dimension is enough, the next stage follows. Its samples start from the reduced solutions of a
-    model of those before. Time has no say.
+    Stages of 40, 60, 90 and more samples, each half as many again: the last ones of each are held
+    out. Their projections say which dimension may do, and whether any can; then a model is made,
+    and its reduced solutions are compared with them. The ratio of both errors decides the next
+    dimension, and where no dimension is enough, the next stage follows. Its samples start from the
+    reduced solutions of the best model, if there is one. Time has no say.
 
     Parameters
     ----------
     problem : InterpolationProblem
     target_error : float, default 0.005
         Mean of |x_red - x_full|_M / |x_full - tau|_M over the held-out samples.
-    most_samples : int, default 160
+    most_samples : int, optional
         The last stage, 20 at least. Where the target is not met the best model is returned.
+        Default: `usual_most_samples`.
     seed : int, default 0
         Of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
@@ -147,12 +147,13 @@ def accurate_blends(
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
+    if most_samples is None:
+        most_samples = usual_most_samples(problem)
     _check(target_error, most_samples)
     say = tell or (lambda line: None)
     growing = GrowingSamples(problem, most_samples, seed=seed)
     steps: list[Step] = []
     best: tuple[Step, InterpolationModel] | None = None
-    starting: InterpolationModel | None = None
     for count in _stages(most_samples):
         growing.solve_up_to(
             count,
@@ -161,7 +162,7 @@ def accurate_blends(
             progress=progress,
             checkpoint=checkpoint,
             executor=executor,
-            model=starting,
+            model=best[1] if best else None,
         )
         # the least: where more dimensions do not help the ratio grows, and says nothing
         ratio = min(map(_ratio, steps), default=FIRST_RATIO)
@@ -179,8 +180,6 @@ def accurate_blends(
             break
         if count < most_samples:
             say(f"no dimension of {count} samples meets {100 * target_error:.2g} %: more samples")
-            dimension = min(STARTING_DIMENSIONS, tries.most)
-            starting = best[1] if best else starting or _model(growing, dimension, surface, threads)
     assert best is not None  # the last stage tries one at least
     return AccurateBlends(best[1], growing.snapshots, tuple(steps), best[0], target_error)
 
@@ -245,6 +244,12 @@ def _stages(most: int) -> list[int]:
     while stages[-1] < most:
         stages.append(round(MORE_SAMPLES * stages[-1]))
     return [min(stage, most) for stage in stages]
+
+
+def usual_most_samples(problem: InterpolationProblem) -> int:
+    """The most samples by default: 640, on large meshes fewer, but 160 at least."""
+    fitting = MOST_VERTICES // len(problem.mesh.vertices)
+    return min(MOST_SAMPLES, max(FEWER_SAMPLES, fitting))
 
 
 def check_target(target_error: float) -> None:

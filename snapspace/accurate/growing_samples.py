@@ -24,8 +24,8 @@ from ..snapshots import (
 
 FloatArray = NDArray[np.float64]
 
-#: One sample in so many is held out, and these at least.
-HELD_OUT_PERIOD, FEWEST_HELD_OUT = 5, 8
+#: One sample in so many is held out, and these at least and at the most.
+HELD_OUT_PERIOD, FEWEST_HELD_OUT, MOST_HELD_OUT = 5, 8, 32
 #: Tolerance of these, relative to that of the others.
 JUDGING = 0.01
 
@@ -132,7 +132,7 @@ class GrowingSamples:
     @staticmethod
     def _held_out(count: int) -> int:
         """How many of the first samples are held out."""
-        return max(FEWEST_HELD_OUT, count // HELD_OUT_PERIOD)
+        return min(max(FEWEST_HELD_OUT, count // HELD_OUT_PERIOD), MOST_HELD_OUT)
 
     def _known(self) -> FloatArray:
         """Displacements (k, 3n) of the solutions that are known, beside tau."""

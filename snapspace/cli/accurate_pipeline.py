@@ -12,7 +12,7 @@ from typing import Any
 import click
 import numpy as np
 
-from ..accurate import MOST_SAMPLES, AccurateBlends, accurate_blends
+from ..accurate import AccurateBlends, accurate_blends, usual_most_samples
 from ..greedy import finished_samples
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem
@@ -58,7 +58,7 @@ class AccurateRecipe:
 
     def key(self, problem: InterpolationProblem) -> str:
         """Hash of what the samples depend on: which models give starts follows from the target."""
-        choice = {"seed": self.seed, "accurate": [MOST_SAMPLES, self.target_error]}
+        choice = {"seed": self.seed, "accurate": [usual_most_samples(problem), self.target_error]}
         none = np.zeros((0, problem.parameter_count))
         return run_key(problem, none, {**solver_key(self.solver, problem), **choice})
 
@@ -79,7 +79,8 @@ def build_accurate_model(
     seconds: dict[str, float] = {}
 
     found = finished_samples(checkpoint)
-    with telling_what_is_kept(lambda: (finished_samples(checkpoint), MOST_SAMPLES)):
+    most = usual_most_samples(problem)
+    with telling_what_is_kept(lambda: (finished_samples(checkpoint), most)):
         if found:
             notice(f"resuming: {found} samples were finished before")
         with stage(seconds, "mean shape"), spinner("mean shape"):

@@ -54,10 +54,13 @@ class ElasticStates(Protocol):
 
     def __len__(self) -> int: ...
 
-    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+    def compliances(
+        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
+    ) -> FloatArray:
         """Inverse Hessians (s, d, d), which make displacements of forces.
 
-        stiffness (d, d) is the Hessian at tau, ordered are tets, see `tets_by_force`.
+        stiffness (d, d) is the Hessian at tau, ordered are tets, see `tets_by_force`; threads
+        default to all.
         """
         ...
 
@@ -95,7 +98,9 @@ class PosingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which])
 
-    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+    def compliances(
+        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
+    ) -> FloatArray:
         """That of the rest shape for all: handles hold what is soft."""
         compliance = np.linalg.inv(stiffness)
         return np.broadcast_to(compliance, (len(self), *compliance.shape))
@@ -135,10 +140,18 @@ class BlendingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which], weights=self.weights[which])
 
-    def compliances(self, stiffness: FloatArray, ordered: NDArray[np.int32]) -> FloatArray:
+    def compliances(
+        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
+    ) -> FloatArray:
         """See `blending_compliances`."""
         return blending_compliances(
-            self.problem, self.subspace, self.coordinates, self.weights, stiffness, ordered
+            self.problem,
+            self.subspace,
+            self.coordinates,
+            self.weights,
+            stiffness,
+            ordered,
+            threads=threads,
         )
 
     def with_forces(self) -> BlendingStates:

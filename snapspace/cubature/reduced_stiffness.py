@@ -26,19 +26,20 @@ def _symmetric(matrix: FloatArray) -> FloatArray:
 
 
 @single_threaded_blas
-def mean_stiffness(problem: InterpolationProblem, subspace: AffineSubspace) -> FloatArray:
+def mean_stiffness(
+    problem: InterpolationProblem, subspace: AffineSubspace, *, threads: int | None = None
+) -> FloatArray:
     """The exact reduced Hessian at the mean shape, (d, d), by central differences of forces.
 
-    They take 2 d gradients for any number of poses. Only directions are weighed with it: the error,
-    of the square of the step, is of no consequence.
+    They take 2 d gradients for any number of poses, on so many threads (default: all). Only
+    directions are weighed with it: the error, of the square of the step, is of no consequence.
     """
     basis = subspace.basis
-    mean, center = subspace.tau - problem.base, problem.domain.center
+    mean, dimension = subspace.tau - problem.base, subspace.dimension
     step = 1e-4 * problem.mesh.diagonal * float(np.sqrt(problem.mesh.volume))
-    columns = []
-    for mode in basis.T:
-        forces = [
-            problem.system.value_and_gradient(mean + h * mode, center)[1] for h in (-step, step)
-        ]
-        columns.append((forces[1] - forces[0]) @ basis / (2.0 * step))
-    return _symmetric(np.array(columns))
+    weights = np.tile(problem.domain.center, (dimension, 1))
+    after, before = (
+        problem.system.evaluate(mean + h * basis.T, weights, threads=threads or 0)[1]
+        for h in (step, -step)
+    )
+    return _symmetric((after - before) @ basis / (2.0 * step))

@@ -45,7 +45,7 @@ class SolverTraits:
 #: Iterations on the shared factor after which an interpolated sample gets one of its own. Most
 #: samples of the Centaur take 200. Those that start far from their minimum take 650 on the shared
 #: factor, and 220 more after so many on one of their own.
-PATIENCE = 240
+PATIENCE = 400
 
 
 def posing_traits(

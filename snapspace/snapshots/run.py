@@ -238,7 +238,8 @@ class Run:
             return corrected
         nearest = nearest_start(parameters, rows, wanted)
         tau = np.broadcast_to(self.problem.tau - self.problem.base, nearest.shape)
-        return lowest_start(self.problem.system, inputs, [corrected, nearest, tau])
+        guesses = [corrected, nearest, tau]
+        return lowest_start(self.problem.system, inputs, guesses, threads=self.threads)
 
     def _book(self, solved: Sequence[Solved]) -> None:
         for one in solved:

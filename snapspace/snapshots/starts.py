@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RBFInterpolator
 from scipy.spatial import cKDTree
 
+from .. import _core as core
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
 
@@ -95,15 +96,23 @@ def _radial_weights(
     return np.asarray(interpolant(wanted), np.float64)
 
 
-def lowest_start(system: Any, inputs: FloatArray, guesses: Sequence[FloatArray]) -> FloatArray:
+def lowest_start(
+    system: core.SampleSystem,
+    inputs: FloatArray,
+    guesses: Sequence[FloatArray],
+    *,
+    threads: int = 0,
+) -> FloatArray:
     """The guess (j, 3n) of lowest energy, sample by sample, for inputs (j, input_size).
 
     Between distant poses an interpolated shape shrinks and turns inside out, and a solve from there
     may end in a minimum that is far from the others; energies with a barrier are infinite there.
     The first of equal guesses wins.
     """
-    chosen = np.array(guesses[0])
-    for k, w in enumerate(inputs):
-        values = [system.value_and_gradient(guess[k], w)[0] for guess in guesses]
-        chosen[k] = guesses[int(np.argmin(values))][k]
-    return chosen
+    count = len(inputs)
+    values = system.evaluate(
+        np.vstack(guesses), np.tile(inputs, (len(guesses), 1)), threads=threads
+    )
+    lowest = np.argmin(values[0].reshape(-1, count), axis=0)
+    starts: FloatArray = np.stack(guesses)[lowest, np.arange(count)]
+    return starts
