@@ -2,6 +2,7 @@
 #include <utility>
 #include <vector>
 
+#include "online/drag_extrapolation.h"
 #include "online/minimizers.h"
 #include "online/objective.h"
 
@@ -18,7 +19,8 @@ class BlendingSolver final : public Objective {
       : elastic_(std::move(elastic)),
         weights_(elastic_.poses(), 1.0 / elastic_.poses()),
         equal_(weights_),
-        minimizers_(elastic_.dimension()) {
+        minimizers_(elastic_.dimension()),
+        drag_(elastic_.dimension(), elastic_.poses()) {
     elastic_.set_weights(equal_.data());
     valid_ = minimizers_.prepare(*this, dimension());
   }
@@ -34,6 +36,7 @@ class BlendingSolver final : public Objective {
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights stay.
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
+    drag_.clear();
     elastic_.set_weights(equal_.data());
     minimizers_.prepare(*this, dimension);
     elastic_.set_weights(weights_.data());
@@ -54,17 +57,29 @@ class BlendingSolver final : public Objective {
     return elastic_.derivatives(q, gradient, hessian);
   }
 
-  /// From q, in place. Where a Hessian is dear, BFGS keeps its approximation from frame to frame.
+  /// From q, in place, or from where a drag that q is the last frame of arrives.
   Report solve(double* q, Method method, const Termination& stop) {
+    drag_.go_on(dimension(), weights_.data(), q);
+    const Report report = solve_from(q, method, stop);
+    if (report.status == Status::converged)
+      drag_.add(dimension(), weights_.data(), q);
+    else
+      drag_.clear();
+    return report;
+  }
+
+ private:
+  /// Where a Hessian is dear, BFGS keeps its approximation from frame to frame.
+  Report solve_from(double* q, Method method, const Termination& stop) {
     if constexpr (Elastic::kHessianIsDear)
       if (method == Method::bfgs) return minimizers_.minimize_onwards(*this, q, stop);
     return minimizers_.minimize(*this, method, q, stop);
   }
 
- private:
   Elastic elastic_;
   std::vector<double> weights_, equal_;
   Minimizers minimizers_;
+  DragExtrapolation drag_;
   bool valid_ = false;
 };
 
