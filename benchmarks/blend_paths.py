@@ -4,7 +4,8 @@
     python benchmarks/blend_paths.py --set lizard-8 lion   # some of them
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
-the largest of a vertex, relative to the diagonal of the first pose.
+the largest of a vertex, relative to the diagonal of the first pose. Full solutions are those of
+some unseen blends from three starts each: where a material has one minimum they are the same.
 """
 
 from __future__ import annotations
@@ -24,7 +25,9 @@ from rich.console import Console
 from rich.table import Table
 
 import snapspace as ss
+from snapspace import _core as core
 from snapspace.generators import lizard_poses
+from snapspace.snapshots.fast_solve import solve_fast
 
 STEPS = 100
 #: Sets of the meshes' folder: the poses beside the first one.
@@ -56,6 +59,33 @@ def walk(session: Any, ends: tuple[int, int], poses: int) -> tuple[np.ndarray, l
         milliseconds.append(1e3 * session.blend(weights).seconds)
         shapes.append(session.vertices)
     return np.array(shapes), milliseconds
+
+
+def apart_from_other_starts(problem: ss.InterpolationProblem, blends: int) -> float:
+    """How far tight solutions from different starts are apart at most, for some uniform blends.
+
+    Starts are the mean shape, the straight blend, and the pose with the largest weight.
+    """
+    center = np.asarray(problem.domain.center)
+    weights = ss.sample(problem.domain, blends, method="sobol", seed=9)
+    known, shapes = problem.known_solutions()
+    starts = []
+    for w in weights:
+        pose = shapes[np.argmin(((known - np.eye(len(w))[np.argmax(w)]) ** 2).sum(axis=1))]
+        mean = shapes[np.argmin(((known - center) ** 2).sum(axis=1))]
+        starts += [x - problem.base for x in (mean, problem.linear_blend(w).reshape(-1), pose)]
+    options = ss.SolverOptions(tolerance=1e-12, max_iterations=3000).resolved(problem)
+    solved, _ = solve_fast(
+        problem,
+        np.repeat(weights, 3, axis=0),
+        np.array(starts),
+        core.SolveControl(),
+        options,
+        threads=0,
+    )
+    every = problem.registered(solved).reshape(blends, 3, -1, 3)
+    distances = np.linalg.norm(every[:, :, None] - every[:, None], axis=-1)
+    return float(distances.max()) / problem.mesh.diagonal
 
 
 def built(
@@ -104,6 +134,7 @@ def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str
         "longest over median step": float(max(steps)),
         "forth against back": forth_back,
         "jump against drag": jump_drag,
+        "full solutions apart": apart_from_other_starts(problem, args.starts),
         "held-out error, mean": float(np.mean(validation.error)),
         "projection, mean": float(np.mean(validation.projection_error)),
         "inverted tets of a sample": max(r.inverted_tets for r in snapshots.reports),
@@ -125,6 +156,7 @@ def main() -> None:
     parser.add_argument("--dimension", type=int, default=30, help="of stvk")
     parser.add_argument("--pairs", type=int, default=3, help="paths of a set")
     parser.add_argument("--validate", type=int, default=12, help="unseen blends")
+    parser.add_argument("--starts", type=int, default=6, help="blends solved from three starts")
     parser.add_argument("--json", action="store_true", help="one line per row, as they come")
     args = parser.parse_args()
     table = None

@@ -35,7 +35,7 @@ MOST_DIMENSIONS = 200
 MODES_PER_SOLUTION = 0.8
 #: Errors of reduced solutions over those of projections, before it is measured: they are 2 to 14
 #: on generated and real poses. Too low a one costs models that miss the target.
-FIRST_RATIO = 6.0
+FIRST_RATIO = 8.0
 #: The least growth of the dimension from try to try.
 GROWTH = 1.2
 #: Where more dimensions leave more than this share of the error, still more are of no use.

@@ -1,0 +1,90 @@
+"""Drags along straight lines of weights: each frame starts where the last three say it arrives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import BlendingSession, InterpolationModel, InterpolationProblem
+from snapspace.generators import lizard_poses
+
+from ..conftest import interpolation_model
+
+FloatArray = NDArray[np.float64]
+FIRST, LAST, ASIDE = np.array([0.9, 0.1, 0.0]), np.array([0.1, 0.9, 0.0]), np.array([-0.5, -0.5, 1])
+SHARES = np.linspace(0.0, 1.0, 81)
+
+
+@pytest.fixture(scope="module")
+def lizards() -> InterpolationModel:
+    return interpolation_model(InterpolationProblem(lizard_poses(3, 600, seed=3)), 24, 12)
+
+
+def blend(share: float, aside: float = 0.0) -> FloatArray:
+    weights: FloatArray = (1.0 - share) * FIRST + share * LAST + aside * ASIDE
+    return weights
+
+
+def evaluations(session: BlendingSession, path: Iterable[FloatArray]) -> float:
+    """In the mean of the frames after the first four."""
+    counts = [session.blend(weights).evaluations for weights in path]
+    return float(np.mean(counts[4:]))
+
+
+def test_a_straight_drag_takes_fewer_evaluations_than_a_trembling_one(
+    lizards: InterpolationModel,
+) -> None:
+    """Steps of both have nearly the same length; no three trembling frames are on a line."""
+    straight = evaluations(lizards.session(), [blend(share) for share in SHARES])
+    trembling = [blend(share, 0.002 * (k % 2)) for k, share in enumerate(SHARES)]
+    assert straight < 0.75 * evaluations(lizards.session(), trembling)
+
+
+def test_steps_of_other_lengths_are_extrapolated_as_well(lizards: InterpolationModel) -> None:
+    """Slower and faster by a half, as hands are: at most a quarter more than at constant speed."""
+    uneven = SHARES + 0.25 * (SHARES[1] - SHARES[0]) * np.sin(2.5 * np.arange(len(SHARES)))
+    even = evaluations(lizards.session(), [blend(share) for share in SHARES])
+    assert evaluations(lizards.session(), [blend(share) for share in uneven]) < 1.25 * even + 0.5
+
+
+@pytest.mark.parametrize(
+    "then",
+    [blend(0.2), blend(0.6, 0.05), np.array([0.0, 0.0, 1.0])],
+    ids=["back", "aside", "far"],
+)
+def test_where_a_drag_ends_says_nothing_about_what_follows(
+    lizards: InterpolationModel, then: FloatArray
+) -> None:
+    session, fresh = lizards.session(tolerance=1e-12), lizards.session(tolerance=1e-12)
+    for share in SHARES[:40]:
+        session.blend(blend(share))
+    session.blend(then)
+    fresh.blend(then)
+    apart = np.linalg.norm(session.vertices - fresh.vertices, axis=1).max()
+    assert apart < 1e-5 * lizards.problem.mesh.diagonal
+
+
+def test_a_put_shape_is_where_the_solve_starts(lizards: InterpolationModel) -> None:
+    """Coordinates that somebody sets are no frame of the drag: nothing is added to them."""
+    session, other = lizards.session(), lizards.session()
+    for share in SHARES[:10]:
+        session.blend(blend(share))
+    elsewhere = session.q * 0.5
+    for one in (session, other):
+        one.put(blend(SHARES[9]), elsewhere)
+        one.blend(blend(SHARES[9]))
+    assert session.q == pytest.approx(other.q, abs=1e-6 * lizards.coordinate_scale)
+
+
+def test_fewer_dimensions_begin_a_new_drag(lizards: InterpolationModel) -> None:
+    """Frames of more dimensions are forgotten: the next one is that of a fresh session."""
+    session, fresh = lizards.session(tolerance=1e-12), lizards.session(tolerance=1e-12)
+    for share in SHARES[:10]:
+        session.blend(blend(share))
+    for one in (session, fresh):
+        one.dimension = 6
+        one.blend(blend(SHARES[10]))
+    assert session.q == pytest.approx(fresh.q, abs=1e-5 * lizards.coordinate_scale)
