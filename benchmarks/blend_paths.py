@@ -93,7 +93,7 @@ def built(
 ) -> tuple[ss.InterpolationModel, ss.Snapshots]:
     """As the command does by default; St.Venant-Kirchhoff with the samples and d that are given."""
     if problem.material.exact_degree != 4:
-        accurate = ss.accurate_blends(problem, tell=lambda line: print(line, file=sys.stderr))
+        accurate = ss.accurate_model(problem, tell=lambda line: print(line, file=sys.stderr))
         return accurate.model, accurate.snapshots
     parameters = ss.sample(problem.domain, args.samples, method="sobol")
     snapshots = ss.solve_snapshots(problem, parameters, progress=common.progress)

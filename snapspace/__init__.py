@@ -2,7 +2,7 @@
 
 from importlib.metadata import version as _version
 
-from .accurate import AccurateBlends, accurate_blends
+from .accurate import AccurateModel, accurate_model
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
@@ -82,7 +82,7 @@ __version__ = _version("snapspace")
 __all__ = [
     "ARAP",
     "MATERIALS",
-    "AccurateBlends",
+    "AccurateModel",
     "AffineSubspace",
     "BlendingSession",
     "CertainRange",
@@ -131,7 +131,7 @@ __all__ = [
     "TetMesh",
     "UnsavedSamplesError",
     "Validation",
-    "accurate_blends",
+    "accurate_model",
     "affine_subspace",
     "boundary_surface",
     "calibrated",

@@ -1,4 +1,4 @@
-"""GrowingSamples: solved blends, of which the last are held out."""
+"""GrowingSamples: solved samples, some of which are held out."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..displacements import SnapshotGram
 from ..greedy import batch_checkpoint, reduced_solutions
-from ..problem import InterpolationProblem, solutions_beyond_tau
-from ..reduction import InterpolationModel
+from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
+from ..reduction import InterpolationModel, PosingModel
 from ..sampling import Method, sample
 from ..snapshots import (
     Checkpoint,
@@ -24,28 +24,37 @@ from ..snapshots import (
 
 FloatArray = NDArray[np.float64]
 
-#: One sample in so many is held out, and these at least and at the most.
-HELD_OUT_PERIOD, FEWEST_HELD_OUT, MOST_HELD_OUT = 5, 8, 32
-#: Tolerance of these, relative to that of the others.
+#: Tolerance of held-out samples, relative to that of the others.
 JUDGING = 0.01
 
 
 class GrowingSamples:
-    """Samples of one sequence, solved as far as is asked.
+    """Samples of one sequence, solved as far as is asked; the same ones are held out all the time.
 
     Parameters
     ----------
-    problem : InterpolationProblem
+    problem : PosingProblem or InterpolationProblem
     most : int
-        Length of the sequence: `blends`, of two poses Sobol points.
+        Length of the sequence.
+    method : of `sample`
     seed : int
+    first, held_out : int
+        The first samples train, so many after them are held out, and all others train again.
     """
 
-    def __init__(self, problem: InterpolationProblem, most: int, *, seed: int) -> None:
-        # of two poses `blends` has the middle only once, and uniform points between
-        method: Method = "blends" if problem.parameter_count > 2 else "sobol"
+    def __init__(
+        self,
+        problem: PosingProblem | InterpolationProblem,
+        most: int,
+        *,
+        method: Method,
+        seed: int,
+        first: int,
+        held_out: int,
+    ) -> None:
         self.problem = problem
         self.parameters = sample(problem.domain, most, method=method, seed=seed)
+        self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
         self._gram = SnapshotGram.of(problem)
 
@@ -54,6 +63,13 @@ class GrowingSamples:
         """All that are solved; there must be some."""
         assert self._snapshots is not None
         return self._snapshots
+
+    @property
+    def held_out(self) -> NDArray[np.bool_]:
+        """Which samples (k,) judge."""
+        judges = np.zeros(len(self.snapshots), bool)
+        judges[self._judges.start : self._judges.stop] = True
+        return judges
 
     @property
     def trained(self) -> Snapshots:
@@ -79,7 +95,7 @@ class GrowingSamples:
         progress: Progress | None,
         checkpoint: Checkpoint | None,
         executor: Executor | None,
-        model: InterpolationModel | None,
+        model: PosingModel | InterpolationModel | None,
     ) -> None:
         """Solves the samples before `count` that are not; arguments as for `solve_snapshots`.
 
@@ -89,11 +105,13 @@ class GrowingSamples:
         """
         usual = options or SolverOptions()
         tolerance = usual.resolved(self.problem).tolerance
-        judging = replace(usual, tolerance=JUDGING * tolerance, settling=None)
-        trained = count - self._held_out(count)
-        for end, chosen in ((trained, usual), (count, judging)):
+        judging = replace(
+            usual, tolerance=JUDGING * tolerance, settling=None, precision=None, max_iterations=5000
+        )
+        parts = ((self._judges.start, usual), (self._judges.stop, judging), (count, usual))
+        for end, chosen in parts:
             before = 0 if self._snapshots is None else len(self._snapshots)
-            if end <= before:
+            if end <= before or end > count:
                 continue
             wanted = self.parameters[before:end]
             solved = solve_snapshots(
@@ -109,7 +127,9 @@ class GrowingSamples:
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=threads or 0)
 
-    def _starts(self, model: InterpolationModel | None, parameters: FloatArray) -> Snapshots | None:
+    def _starts(
+        self, model: PosingModel | InterpolationModel | None, parameters: FloatArray
+    ) -> Snapshots | None:
         """What is solved, and what a model of it says of samples that are not."""
         if model is None:
             return self._snapshots
@@ -129,11 +149,6 @@ class GrowingSamples:
             np.append(np.flatnonzero(trained), known), np.flatnonzero(unseen)
         )
 
-    @staticmethod
-    def _held_out(count: int) -> int:
-        """How many of the first samples are held out."""
-        return min(max(FEWEST_HELD_OUT, count // HELD_OUT_PERIOD), MOST_HELD_OUT)
-
     def _known(self) -> FloatArray:
         """Displacements (k, 3n) of the solutions that are known, beside tau."""
         shapes: FloatArray = solutions_beyond_tau(self.problem)[1] - self.problem.base
@@ -141,11 +156,10 @@ class GrowingSamples:
 
     def _masks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Which samples (k,) train, and which are held out."""
-        usable = self.snapshots.usable
-        last = np.arange(len(usable)) >= len(usable) - self._held_out(len(usable))
-        if not (usable & last).any() or not (usable & ~last).any():
+        usable, judges = self.snapshots.usable, self.held_out
+        if not (usable & judges).any() or not (usable & ~judges).any():
             raise ValueError(
-                f"accurate_blends: only {int(usable.sum())} of {len(usable)} samples converged; "
+                f"accurate_model: only {int(usable.sum())} of {len(usable)} samples converged; "
                 "allow more iterations"
             )
-        return usable & ~last, usable & last
+        return usable & ~judges, usable & judges

@@ -1,4 +1,4 @@
-"""From poses to a model file, with samples and dimension chosen by the error of unseen blends."""
+"""From a problem to a model file, with samples and dimension chosen by the error of unseen ones."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from typing import Any
 import click
 import numpy as np
 
-from ..accurate import AccurateBlends, accurate_blends, usual_most_samples
+from ..accurate import AccurateModel, accurate_model, usual_most_samples
 from ..greedy import finished_samples
 from ..mesh import EmbeddedSurface
-from ..problem import InterpolationProblem
+from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
 from .pipeline import Built, stage, telling_what_is_kept
@@ -33,20 +33,24 @@ DECIDING = (
     "solver",
     "lumped",
     "include_unconverged",
+    "energy",
+    "tets",
 )
 
 
-def decided_by_hand(options: Sequence[str] = DECIDING) -> bool:
-    """Whether the user of the running command gave one of the options."""
-    source = click.get_current_context().get_parameter_source
-    return any(source(name) is click.core.ParameterSource.COMMANDLINE for name in options)
+def decided_by_hand(command: Sequence[str] = DECIDING) -> bool:
+    """Whether the user of the running command gave one of the options that it has of these."""
+    context = click.get_current_context()
+    given = click.core.ParameterSource.COMMANDLINE
+    own = {option.name for option in context.command.params}
+    return any(context.get_parameter_source(name) is given for name in own.intersection(command))
 
 
 @dataclass(frozen=True, kw_only=True)
 class AccurateRecipe:
-    """What to do with poses.
+    """What to do with a problem.
 
-    target_error, seed : as for `accurate_blends`
+    target_error, seed : as for `accurate_model`
     solver : SolverOptions
     threads : None for all
     """
@@ -56,7 +60,7 @@ class AccurateRecipe:
     solver: SolverOptions
     threads: int | None
 
-    def key(self, problem: InterpolationProblem) -> str:
+    def key(self, problem: PosingProblem | InterpolationProblem) -> str:
         """Hash of what the samples depend on: which models give starts follows from the target."""
         choice = {"seed": self.seed, "accurate": [usual_most_samples(problem), self.target_error]}
         none = np.zeros((0, problem.parameter_count))
@@ -64,7 +68,7 @@ class AccurateRecipe:
 
 
 def build_accurate_model(
-    problem: InterpolationProblem,
+    problem: PosingProblem | InterpolationProblem,
     recipe: AccurateRecipe,
     output: Path,
     *,
@@ -83,10 +87,11 @@ def build_accurate_model(
     with telling_what_is_kept(lambda: (finished_samples(checkpoint), most)):
         if found:
             notice(f"resuming: {found} samples were finished before")
-        with stage(seconds, "mean shape"), spinner("mean shape"):
-            problem.solve_mean_shape(threads=recipe.threads)
+        if isinstance(problem, InterpolationProblem):
+            with stage(seconds, "mean shape"), spinner("mean shape"):
+                problem.solve_mean_shape(threads=recipe.threads)
         with stage(seconds, "samples and models"), spinner("samples and models"):
-            built = accurate_blends(
+            built = accurate_model(
                 problem,
                 target_error=recipe.target_error,
                 seed=recipe.seed,
@@ -111,12 +116,15 @@ def build_accurate_model(
     return Built(model, built.snapshots, output, seconds)
 
 
-def _tell_outcome(built: AccurateBlends) -> None:
+def _tell_outcome(built: AccurateModel) -> None:
     if built.reached:
         return
+    step = built.step
+    typical = "mean" if step.unseen == "blends" else "median"
+    cure = "leave out poses that differ most" if step.unseen == "blends" else "make the box smaller"
     notice(
-        f"notice: unseen blends are {100 * built.step.error:.2g} % off in the mean, more than the "
-        f"{100 * built.target:.2g} % of --accuracy; these poses need more than "
+        f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {typical}, more "
+        f"than the {100 * built.target:.2g} % of --accuracy; it takes more than "
         f"{len(built.snapshots)} samples or {built.model.dimension} dimensions: give --samples and "
-        "--dimension, or leave out poses that differ most"
+        f"--dimension, or {cure}"
     )

@@ -6,14 +6,17 @@ import json
 import os
 import time
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import click
 
+from ..accurate import TARGET_ERROR, check_target
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import ENERGIES, Energy
+from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
@@ -32,6 +35,16 @@ DIMENSION = 40
 )
 @click.option(
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
+)
+@click.option(
+    "--accuracy",
+    type=float,
+    default=TARGET_ERROR,
+    show_default=True,
+    metavar="SHARE",
+    help="Median error of unseen motions. Decides samples and dimension where none of --samples, "
+    "--dimension, --energy-fraction, --sampling, --target-error, --energy, --tets is given, except "
+    "for stvk.",
 )
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
@@ -60,6 +73,7 @@ def build(
     energy: Energy,
     tets: int | None,
     repair: bool,
+    accuracy: float,
     choices: Choices,
     threads: int | None,
     dask: str | None,
@@ -67,7 +81,8 @@ def build(
 ) -> None:
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
-    MESH replaces the mesh that the problem file names. Ctrl-C keeps the finished samples beside the
+    Samples and dimension follow from the error of motions that the model was not made of, see
+    --accuracy, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C keeps the finished samples beside the
     model; the same command goes on from there.
 
     \b
@@ -79,6 +94,7 @@ def build(
     """
     begin = time.perf_counter()
     check_output(output)
+    check_target(accuracy)
     problem, surface, source = _read(problem_file, mesh, repair=repair)
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
     choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)
@@ -91,9 +107,17 @@ def build(
     )
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
-    built = build_model(
-        problem, recipe, output, source=source, surface=surface, begin=begin, executor=executor
-    )
+    if problem.material.exact_degree == 4 or decided_by_hand():
+        make = partial(build_model, problem, recipe)
+    else:
+        accurate = AccurateRecipe(
+            target_error=accuracy,
+            seed=choices.seed,
+            solver=choices.solver_options(),
+            threads=threads,
+        )
+        make = partial(build_accurate_model, problem, accurate)
+    built = make(output, source=source, surface=surface, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [

@@ -85,6 +85,21 @@ def _percent(share: float) -> str:
     return f"{100 * share:.2g} %"
 
 
+def accuracy_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
+    """How far unseen motions or blends are off, if the record has it."""
+    accurate = record.get("accurate")
+    step = accurate.get("step") if isinstance(accurate, dict) else None
+    if not isinstance(step, dict) or not {"unseen", "ninth"} <= step.keys():
+        return []
+    typical = "mean" if step["unseen"] == "blends" else "median"
+    text = (
+        f"unseen {step['unseen']} are off by {_percent(step['error'])} in the {typical}, "
+        f"{_percent(accurate['target_error'])} asked; nine of ten by less than "
+        f"{_percent(step['ninth'])}; {step['samples']} samples"
+    )
+    return [("accuracy", text)]
+
+
 def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     """What is recorded, for models of any origin: entries that are not there are left out."""
     facts = []
@@ -96,16 +111,7 @@ def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     for key in ("sampling", "solver", "versions"):
         if isinstance(record.get(key), dict):
             facts.append((key, ", ".join(f"{name} {value}" for name, value in record[key].items())))
-    accurate = record.get("accurate")
-    if isinstance(accurate, dict) and isinstance(accurate.get("step"), dict):
-        step = accurate["step"]
-        facts.append(
-            (
-                "accuracy",
-                f"unseen blends within {_percent(step['error'])} in the mean, "
-                f"{_percent(accurate['target_error'])} asked; {step['samples']} samples",
-            )
-        )
+    facts += accuracy_facts(record)
     cubature = record.get("cubature")
     if isinstance(cubature, dict) and isinstance(cubature.get("held_out"), dict):
         errors = cubature["held_out"]

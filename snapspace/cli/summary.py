@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .console import print_facts
-from .model_info import energy_text
+from .model_info import accuracy_facts, energy_text
 from .pipeline import Built
 from .units import in_bytes, in_time
 
@@ -28,6 +28,7 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
             "the snapshots' energy",
         ),
         ("energy", energy_text(built.model)),
+        *accuracy_facts(built.model.provenance),
         ("time", seconds),
         ("memory", f"{in_bytes(figures['peak_memory_bytes'])} at the most"),
         ("model", f"{built.path}, {in_bytes(figures['model_bytes'])}"),

@@ -1,4 +1,4 @@
-"""Models as accurate as is asked: the error is that of blends which nothing was made of."""
+"""Blends as accurate as is asked: the error is that of blends which nothing was made of."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from snapspace import InterpolationProblem, Poses, validate
-from snapspace.accurate import AccurateBlends, accurate_blends
+from snapspace.accurate import AccurateModel, accurate_model
 from snapspace.generators import lizard_poses
 from snapspace.snapshots import Checkpoint, SolveProgress
 
@@ -19,28 +19,28 @@ def problem() -> InterpolationProblem:
 
 
 @pytest.fixture(scope="module")
-def usual(problem: InterpolationProblem) -> AccurateBlends:
-    return accurate_blends(problem)
+def usual(problem: InterpolationProblem) -> AccurateModel:
+    return accurate_model(problem)
 
 
-def test_unseen_blends_are_as_accurate_as_was_asked(usual: AccurateBlends) -> None:
+def test_unseen_blends_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
     """Also uniform ones, which are not those that it judged by, against tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.005
     assert usual.step.projection <= usual.step.error, "projections are the best that there is"
     assert validate(usual.model, samples=12).error.mean() < 1.5 * usual.target
 
 
-def test_what_judges_a_model_is_in_none(usual: AccurateBlends) -> None:
-    trained = len(usual.snapshots) - 8
-    unseen = usual.snapshots.parameters[-8:]
+def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
+    trained = int((~usual.held_out).sum())
+    unseen = usual.snapshots.parameters[usual.held_out]
     apart = np.abs(usual.model.training_parameters[:, None] - unseen).max(axis=2)
     assert apart.min() > 1e-6
     poses = len(usual.model.problem.poses)
     assert len(usual.model.training_parameters) == trained + poses, "all others, and the poses"
 
 
-def test_a_smaller_target_takes_more(problem: InterpolationProblem, usual: AccurateBlends) -> None:
-    better = accurate_blends(problem, target_error=usual.step.error / 4)
+def test_a_smaller_target_takes_more(problem: InterpolationProblem, usual: AccurateModel) -> None:
+    better = accurate_model(problem, target_error=usual.step.error / 4)
     assert better.step.error <= usual.step.error / 4
     assert better.model.dimension > usual.model.dimension
     assert validate(better.model, samples=12).error.mean() < usual.step.error / 2
@@ -48,25 +48,26 @@ def test_a_smaller_target_takes_more(problem: InterpolationProblem, usual: Accur
 
 def test_without_a_model_that_does_the_best_is_given(problem: InterpolationProblem) -> None:
     told: list[str] = []
-    built = accurate_blends(problem, target_error=1e-9, most_samples=24, tell=told.append)
+    built = accurate_model(problem, target_error=1e-9, most_samples=24, tell=told.append)
     assert not built.reached
     assert built.step.error == min(step.error for step in built.steps)
     assert built.model.dimension == built.step.dimension
     assert [str(step) for step in built.steps] == told
     assert len(built.snapshots) == 24
+    assert built.held_out.sum() == 6, "a share of few samples as of many"
 
 
 def test_it_is_the_same_on_any_number_of_threads(
-    problem: InterpolationProblem, usual: AccurateBlends
+    problem: InterpolationProblem, usual: AccurateModel
 ) -> None:
-    again = accurate_blends(problem, threads=1)
+    again = accurate_model(problem, threads=1)
     assert again.steps == usual.steps
     np.testing.assert_array_equal(again.model.subspace.basis, usual.model.subspace.basis)
     np.testing.assert_array_equal(again.model.blends.weights, usual.model.blends.weights)
 
 
 def test_an_interrupted_run_goes_on_to_the_same_model(
-    problem: InterpolationProblem, usual: AccurateBlends, tmp_path: Path
+    problem: InterpolationProblem, usual: AccurateModel, tmp_path: Path
 ) -> None:
     checkpoint = Checkpoint(tmp_path / "samples")
 
@@ -78,9 +79,9 @@ def test_an_interrupted_run_goes_on_to_the_same_model(
             raise StopError
 
     with pytest.raises(StopError):
-        accurate_blends(problem, checkpoint=checkpoint, progress=stop)
+        accurate_model(problem, checkpoint=checkpoint, progress=stop)
     solved: list[int] = []
-    again = accurate_blends(
+    again = accurate_model(
         problem, checkpoint=checkpoint, progress=lambda state: solved.append(state.solved)
     )
     assert again.steps == usual.steps
@@ -90,9 +91,9 @@ def test_an_interrupted_run_goes_on_to_the_same_model(
 @pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf])
 def test_a_target_must_be_positive(problem: InterpolationProblem, target: float) -> None:
     with pytest.raises(ValueError, match="must be positive and finite"):
-        accurate_blends(problem, target_error=target)
+        accurate_model(problem, target_error=target)
 
 
 def test_some_samples_must_judge(problem: InterpolationProblem) -> None:
     with pytest.raises(ValueError, match="most_samples is 19, but at least 20"):
-        accurate_blends(problem, most_samples=19)
+        accurate_model(problem, most_samples=19)

@@ -1,10 +1,10 @@
-"""accurate_blends: as many samples and dimensions as an error of unseen blends asks for."""
+"""accurate_model: as many samples and dimensions as an error of unseen parameters asks for."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from math import ceil
 from typing import Any
 
@@ -12,30 +12,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
-from ..problem import InterpolationProblem
-from ..reduction import InterpolationModel, reduce
+from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
 from ..subspace import snapshot_pca
 from ..validation import unseen_errors
 from .growing_samples import GrowingSamples
+from .plan import Plan, plan_of, usual_most_samples
 
 FloatArray = NDArray[np.float64]
 Tell = Callable[[str], None]
+Model = PosingModel | InterpolationModel
 
-#: The mean error of unseen blends that is good enough.
+#: The typical error of unseen parameters that is good enough.
 TARGET_ERROR = 0.005
-#: Samples of the first stage, and the growth from stage to stage.
-FIRST_SAMPLES, MORE_SAMPLES = 40, 1.5
-#: The most samples by default: 640, but no more than this many vertices in all where 160 are that
-#: many. They take as long as half a minute on small meshes, and a minute on large ones.
-MOST_SAMPLES, FEWER_SAMPLES, MOST_VERTICES = 640, 160, 2_000_000
-#: The most dimensions: a frame of a drag takes up to a millisecond.
-MOST_DIMENSIONS = 200
+#: Fewest samples, and fewest of them that judge.
+FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
+#: Growth of the samples that train, from stage to stage.
+MORE_SAMPLES = 1.5
 #: Modes for each solution that they come from: the last ones fit these alone.
 MODES_PER_SOLUTION = 0.8
-#: Errors of reduced solutions over those of projections, before it is measured: they are 2 to 14
-#: on generated and real poses. Too low a one costs models that miss the target.
-FIRST_RATIO = 8.0
 #: The least growth of the dimension from try to try.
 GROWTH = 1.2
 #: Where more dimensions leave more than this share of the error, still more are of no use.
@@ -50,35 +46,43 @@ class Step:
 
     samples : solved by then
     dimension : d
-    projection : mean error of the held-out samples' projections
-    error : of their reduced solutions
+    projection : error of the held-out samples' projections, the mean for blends and the median for
+        motions
+    error : of their reduced solutions, the same
+    mean, ninth : mean and 90th percentile of the latter
+    unseen : what was held out, for people
     """
 
     samples: int
     dimension: int
     projection: float
     error: float
+    mean: float
+    ninth: float
+    unseen: str
 
     def __str__(self) -> str:
         return (
-            f"{self.samples} samples, d = {self.dimension}: error of unseen blends "
+            f"{self.samples} samples, d = {self.dimension}: error of unseen {self.unseen} "
             f"{100 * self.error:.2g} %, of their projections {100 * self.projection:.2g} %"
         )
 
 
 @dataclass(frozen=True)
-class AccurateBlends:
-    """A model of blended poses, and how it came about.
+class AccurateModel:
+    """A model of motions or blends, and how it came about.
 
     model : the first that met the target, or else that with the least error
-    snapshots : all samples; the last of them were held out
+    snapshots : all samples, those that were held out among them
+    held_out : (k,), which these are
     steps : the models that were tried, in their order
     step : that of the model
-    target : the mean error that was asked for
+    target : the error that was asked for
     """
 
-    model: InterpolationModel
+    model: Model
     snapshots: Snapshots
+    held_out: NDArray[np.bool_]
     steps: tuple[Step, ...]
     step: Step
     target: float
@@ -93,13 +97,13 @@ class AccurateBlends:
         return {
             "target_error": self.target,
             "reached": self.reached,
-            "step": vars(self.step),
-            "steps": [vars(step) for step in self.steps],
+            "step": asdict(self.step),
+            "steps": [asdict(step) for step in self.steps],
         }
 
 
-def accurate_blends(
-    problem: InterpolationProblem,
+def accurate_model(
+    problem: PosingProblem | InterpolationProblem,
     *,
     target_error: float = TARGET_ERROR,
     most_samples: int | None = None,
@@ -111,23 +115,25 @@ def accurate_blends(
     executor: Executor | None = None,
     surface: EmbeddedSurface | None = None,
     tell: Tell | None = None,
-) -> AccurateBlends:
+) -> AccurateModel:
     """Solves samples until the model of some meets a target on the others.
 
-    Stages of 40, 60, 90 and more samples, each half as many again: the last ones of each are held
-    out. Their projections say which dimension may do, and whether any can; then a model is made,
-    and its reduced solutions are compared with them. The ratio of both errors decides the next
-    dimension, and where no dimension is enough, the next stage follows. Its samples start from the
-    reduced solutions of the best model, if there is one. Time has no say.
+    The first stage solves some samples to train on, and a few, more tightly, to judge by. The
+    projections of these say which dimension may do, and whether any can; then a model is made, and
+    its reduced solutions are compared with them. The ratio of both errors decides the next
+    dimension, and where no dimension is enough, half as many samples again are solved. These start
+    from the reduced solutions of the best model, if there is one. Time has no say.
 
     Parameters
     ----------
-    problem : InterpolationProblem
+    problem : PosingProblem or InterpolationProblem
+        Of a material whose reduced energy is a cubature.
     target_error : float, default 0.005
-        Mean of |x_red - x_full|_M / |x_full - tau|_M over the held-out samples.
+        |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median of motions, and
+        the mean of blends.
     most_samples : int, optional
-        The last stage, 20 at least. Where the target is not met the best model is returned.
-        Default: `usual_most_samples`.
+        In all, 20 at least. Where the target is not met the best model is returned. Default:
+        `usual_most_samples`.
     seed : int, default 0
         Of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
@@ -137,7 +143,7 @@ def accurate_blends(
 
     Returns
     -------
-    AccurateBlends
+    AccurateModel
         Bitwise the same for the same arguments and any number of threads.
 
     Raises
@@ -147,14 +153,21 @@ def accurate_blends(
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
-    if most_samples is None:
-        most_samples = usual_most_samples(problem)
-    _check(target_error, most_samples)
+    most = usual_most_samples(problem) if most_samples is None else most_samples
+    _check(target_error, most)
+    plan = _fitting(plan_of(problem), most)
     say = tell or (lambda line: None)
-    growing = GrowingSamples(problem, most_samples, seed=seed)
+    growing = GrowingSamples(
+        problem,
+        most,
+        method=plan.sampling,
+        seed=seed,
+        first=plan.first,
+        held_out=plan.held_out,
+    )
     steps: list[Step] = []
-    best: tuple[Step, InterpolationModel] | None = None
-    for count in _stages(most_samples):
+    best: tuple[Step, Model] | None = None
+    for count in _stages(plan, most):
         growing.solve_up_to(
             count,
             options=options,
@@ -165,38 +178,48 @@ def accurate_blends(
             model=best[1] if best else None,
         )
         # the least: where more dimensions do not help the ratio grows, and says nothing
-        ratio = min(map(_ratio, steps), default=FIRST_RATIO)
-        tries = _Tries(growing, target_error, ratio)
-        for dimension in tries.dimensions(last=count == most_samples):
+        ratio = min(map(_ratio, steps), default=plan.first_ratio)
+        tries = _Tries(growing, plan, target_error, ratio)
+        for dimension in tries.dimensions(last=count == most):
             model = _model(growing, dimension, surface, threads)
-            error = float(unseen_errors(model, growing.unseen).mean())
-            step = Step(count, dimension, tries.projection(dimension), error)
+            errors = unseen_errors(model, growing.unseen)
+            step = Step(
+                samples=count,
+                dimension=dimension,
+                projection=tries.projection(dimension),
+                error=plan.typical(errors),
+                mean=float(errors.mean()),
+                ninth=float(np.quantile(errors, 0.9)),
+                unseen=plan.unseen_name,
+            )
             say(str(step))
             steps.append(step)
             tries.add(step)
-            if best is None or error < best[0].error:
+            if best is None or step.error < best[0].error:
                 best = step, model
         if best is not None and best[0].error <= target_error:
             break
-        if count < most_samples:
+        if count < most:
             say(f"no dimension of {count} samples meets {100 * target_error:.2g} %: more samples")
     assert best is not None  # the last stage tries one at least
-    return AccurateBlends(best[1], growing.snapshots, tuple(steps), best[0], target_error)
+    return AccurateModel(
+        best[1], growing.snapshots, growing.held_out, tuple(steps), best[0], target_error
+    )
 
 
 class _Tries:
     """The dimensions that are tried with the samples of a stage."""
 
-    def __init__(self, growing: GrowingSamples, target: float, ratio: float) -> None:
-        self._projections = growing.projection_errors().mean(axis=1)
+    def __init__(self, growing: GrowingSamples, plan: Plan, target: float, ratio: float) -> None:
+        self._projections = np.array([plan.typical(row) for row in growing.projection_errors()])
         most = int(MODES_PER_SOLUTION * growing.trained_solutions)
-        self.most = min(MOST_DIMENSIONS, most, len(self._projections) - 1)
+        self.most = min(plan.most_dimensions, most, len(self._projections) - 1)
         self._target = target
         self._ratio = ratio
         self._steps: list[Step] = []
 
     def projection(self, dimension: int) -> float:
-        """Mean error of the held-out samples' projections."""
+        """Typical error of the held-out samples' projections."""
         return float(self._projections[dimension])
 
     def add(self, step: Step) -> None:
@@ -233,23 +256,29 @@ def _model(
     dimension: int,
     surface: EmbeddedSurface | None,
     threads: int | None,
-) -> InterpolationModel:
+) -> Model:
     trained = growing.trained
     subspace = snapshot_pca(trained, dimension=dimension)
     return reduce(growing.problem, subspace, snapshots=trained, surface=surface, threads=threads)
 
 
-def _stages(most: int) -> list[int]:
-    stages = [FIRST_SAMPLES]
+def _fitting(plan: Plan, most: int) -> Plan:
+    """With fewer samples than the first stage has, both parts shrink alike."""
+    together = plan.first + plan.held_out
+    if most >= together:
+        return plan
+    held_out = max(FEWEST_HELD_OUT, plan.held_out * most // together)
+    return replace(plan, first=most - held_out, held_out=held_out)
+
+
+def _stages(plan: Plan, most: int) -> list[int]:
+    """Numbers of samples."""
+    training = float(plan.first)
+    stages = [plan.first + plan.held_out]
     while stages[-1] < most:
-        stages.append(round(MORE_SAMPLES * stages[-1]))
-    return [min(stage, most) for stage in stages]
-
-
-def usual_most_samples(problem: InterpolationProblem) -> int:
-    """The most samples by default: 640, on large meshes fewer, but 160 at least."""
-    fitting = MOST_VERTICES // len(problem.mesh.vertices)
-    return min(MOST_SAMPLES, max(FEWER_SAMPLES, fitting))
+        training *= MORE_SAMPLES
+        stages.append(min(round(training) + plan.held_out, most))
+    return stages
 
 
 def check_target(target_error: float) -> None:
@@ -260,8 +289,8 @@ def check_target(target_error: float) -> None:
 
 def _check(target_error: float, most_samples: int) -> None:
     check_target(target_error)
-    if most_samples < FIRST_SAMPLES // 2:
+    if most_samples < FEWEST_SAMPLES:
         raise ValueError(
-            f"accurate_blends: most_samples is {most_samples}, but at least "
-            f"{FIRST_SAMPLES // 2} are needed to train on some and judge by others"
+            f"accurate_model: most_samples is {most_samples}, but at least {FEWEST_SAMPLES} are "
+            "needed to train on some and judge by others"
         )

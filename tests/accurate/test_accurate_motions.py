@@ -1,0 +1,55 @@
+"""Motions as accurate as is asked, in the median of motions which nothing was made of."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from snapspace import PosingProblem, validate
+from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
+
+from ..shapes import bar_problem
+
+
+@pytest.fixture(scope="module")
+def problem() -> PosingProblem:
+    return bar_problem()
+
+
+@pytest.fixture(scope="module")
+def usual(problem: PosingProblem) -> AccurateModel:
+    return accurate_model(problem)
+
+
+def test_unseen_motions_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
+    """Also others than those that it judged by, against tighter solutions."""
+    assert usual.reached and usual.step.error <= usual.target == 0.005
+    assert usual.step.projection <= usual.step.error, "projections are the best that there is"
+    assert usual.step.error <= usual.step.ninth
+    assert np.median(validate(usual.model, samples=20).error) < 1.5 * usual.target
+
+
+def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
+    unseen = usual.snapshots.parameters[usual.held_out]
+    apart = np.abs(usual.model.training_parameters[:, None] - unseen).max(axis=2)
+    assert apart.min() > 1e-6
+    trained = int((~usual.held_out).sum())
+    assert len(usual.model.training_parameters) == trained
+
+
+def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
+    better = accurate_model(problem, target_error=usual.step.error / 4)
+    assert better.step.error <= usual.step.error / 4
+    assert better.model.dimension > usual.model.dimension
+
+
+def test_it_is_the_same_on_any_number_of_threads(
+    problem: PosingProblem, usual: AccurateModel
+) -> None:
+    again = accurate_model(problem, threads=1)
+    assert again.steps == usual.steps
+    np.testing.assert_array_equal(again.model.subspace.basis, usual.model.subspace.basis)
+
+
+def test_large_meshes_have_fewer_samples_by_default(problem: PosingProblem) -> None:
+    assert usual_most_samples(problem) == 640
