@@ -1,10 +1,11 @@
 """Models as accurate as is asked: samples and dimension follow from measured errors."""
 
-from .accurate_model import TARGET_ERROR, AccurateModel, Step, accurate_model, check_target
-from .plan import usual_most_samples
+from .accurate_model import AccurateModel, Step, accurate_model, check_target
+from .plan import BLENDS, MOTIONS, usual_most_samples
 
 __all__ = [
-    "TARGET_ERROR",
+    "BLENDS",
+    "MOTIONS",
     "AccurateModel",
     "Step",
     "accurate_model",

@@ -24,8 +24,6 @@ FloatArray = NDArray[np.float64]
 Tell = Callable[[str], None]
 Model = PosingModel | InterpolationModel
 
-#: The typical error of unseen parameters that is good enough.
-TARGET_ERROR = 0.005
 #: Fewest samples, and fewest of them that judge.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
 #: Growth of the samples that train, from stage to stage.
@@ -105,7 +103,7 @@ class AccurateModel:
 def accurate_model(
     problem: PosingProblem | InterpolationProblem,
     *,
-    target_error: float = TARGET_ERROR,
+    target_error: float | None = None,
     most_samples: int | None = None,
     seed: int = 0,
     options: SolverOptions | None = None,
@@ -128,7 +126,7 @@ def accurate_model(
     ----------
     problem : PosingProblem or InterpolationProblem
         Of a material whose reduced energy is a cubature.
-    target_error : float, default 0.005
+    target_error : float, default 0.003 for motions, 0.005 for blends
         |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median of motions, and
         the mean of blends.
     most_samples : int, optional
@@ -154,8 +152,10 @@ def accurate_model(
         On Ctrl-C, after the finished samples were saved.
     """
     most = usual_most_samples(problem) if most_samples is None else most_samples
+    usual = plan_of(problem)
+    target_error = usual.target if target_error is None else target_error
     _check(target_error, most)
-    plan = _fitting(plan_of(problem), most)
+    plan = _fitting(usual, most)
     say = tell or (lambda line: None)
     growing = GrowingSamples(
         problem,

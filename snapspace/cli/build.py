@@ -11,7 +11,7 @@ from pathlib import Path
 
 import click
 
-from ..accurate import TARGET_ERROR, check_target
+from ..accurate import MOTIONS, check_target
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
@@ -39,7 +39,7 @@ DIMENSION = 40
 @click.option(
     "--accuracy",
     type=float,
-    default=TARGET_ERROR,
+    default=MOTIONS.target,
     show_default=True,
     metavar="SHARE",
     help="Median error of unseen motions. Decides samples and dimension where none of --samples, "
@@ -82,8 +82,8 @@ def build(
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
     Samples and dimension follow from the error of motions that the model was not made of, see
-    --accuracy, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C keeps the finished samples beside the
-    model; the same command goes on from there.
+    --accuracy, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C
+    keeps the finished samples beside the model; the same command goes on from there.
 
     \b
     Examples:

@@ -13,7 +13,7 @@ import click
 from rich import box
 from rich.table import Table
 
-from ..accurate import TARGET_ERROR, check_target
+from ..accurate import BLENDS, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..material import MATERIALS, StableNeoHookean, material_class
@@ -94,7 +94,7 @@ SAMPLES, DIMENSION = 40, 30
 @click.option(
     "--accuracy",
     type=float,
-    default=TARGET_ERROR,
+    default=BLENDS.target,
     show_default=True,
     metavar="SHARE",
     help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "

@@ -88,8 +88,10 @@ def _percent(share: float) -> str:
 def accuracy_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     """How far unseen motions or blends are off, if the record has it."""
     accurate = record.get("accurate")
-    step = accurate.get("step") if isinstance(accurate, dict) else None
-    if not isinstance(step, dict) or not {"unseen", "ninth"} <= step.keys():
+    if not isinstance(accurate, dict) or not isinstance(accurate.get("step"), dict):
+        return []
+    step = accurate["step"]
+    if not {"unseen", "ninth"} <= step.keys():
         return []
     typical = "mean" if step["unseen"] == "blends" else "median"
     text = (

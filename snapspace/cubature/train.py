@@ -30,13 +30,18 @@ TETS_PER_DIMENSION = 8
 TETS_PER_BLENDED_DIMENSION = 15
 #: But no more than this: an evaluation takes time in proportion.
 MOST_TETS = 1000
-#: Candidates, and rows of forces, per wanted tet.
-CANDIDATES, ROWS = 20, 3
-#: Snapshots that are trained on, and held out, at the most.
-TRAINED, HELD_OUT = 200, 20
-#: Blends that are trained on at the most. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses
-#: are the same with 20 and with 200, which take four times as long.
-TRAINED_BLENDS = 40
+#: Rows of forces per wanted tet.
+ROWS = 3
+#: Snapshots that are held out at the most.
+HELD_OUT = 20
+#: Motions that are trained on at the most, and candidates per wanted tet. Errors on Dragon, Spot,
+#: Elephant, Armadillo, dog head and hand are those of 200 motions and twice as many candidates,
+#: which take twice as long.
+TRAINED, CANDIDATES = 60, 10
+#: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
+#: 20 blends and with 200, which take four times as long; half as many candidates leave the Lion a
+#: third more.
+TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
 #: One snapshot in so many is held out, which takes as many at least.
 FEWEST_SNAPSHOTS = 10
 #: How often a blended cubature gets half as many tets again, until the mean shape is a minimum.
@@ -110,7 +115,7 @@ def train_cubature(
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)])
     hessian = problem.energy.hessian(problem.base)
     stiffness = reduced_stiffness(hessian, subspace) + handle_hessian
-    budget = _Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED)
+    budget = _Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
     fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     errors = held_out_errors(
@@ -145,7 +150,7 @@ def train_blended_cubature(
     states = replace(states, floor=0.01 * float(energies.max(initial=0.0)))
     stiffness = mean_stiffness(problem, subspace, threads=threads)
     for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
-        budget = _Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS)
+        budget = _Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
         fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
         cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
         if tets is not None or _is_stable(cubature, problem.domain.center):
@@ -173,12 +178,18 @@ def _is_stable(cubature: BlendedCubature, mean: FloatArray) -> bool:
 
 @dataclass(frozen=True)
 class _Budget:
-    """How many tets the user wants, or else are usual; how many states that takes, and trains."""
+    """How many tets the user wants, or else are usual, and what they are chosen from.
+
+    fewest_states : that a cubature needs
+    most_trained : states
+    candidates : tets for each wanted one
+    """
 
     wanted: int | None
     usual: int
     fewest_states: int
     most_trained: int
+    candidates: int
 
 
 @dataclass(frozen=True)
@@ -233,7 +244,7 @@ def _fit(
     with_forces = trained.with_forces()
     ordered = tets_by_force(with_forces)
     candidates = sampled_tets(
-        ordered, CANDIDATES * count, largest_share=states.largest_share, seed=seed
+        ordered, budget.candidates * count, largest_share=states.largest_share, seed=seed
     ).tets
     directions = min(dimension, -(-ROWS * count // len(with_forces)))
     rows = training_rows(

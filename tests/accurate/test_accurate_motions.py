@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace import PosingProblem, validate
+from snapspace import PosingProblem, StableNeoHookean, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
 
-from ..shapes import bar_problem
+from ..snapshots.creatures import posing_creature
 
 
 @pytest.fixture(scope="module")
 def problem() -> PosingProblem:
-    return bar_problem()
+    return posing_creature(5000, StableNeoHookean())
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +23,7 @@ def usual(problem: PosingProblem) -> AccurateModel:
 
 def test_unseen_motions_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
     """Also others than those that it judged by, against tighter solutions."""
-    assert usual.reached and usual.step.error <= usual.target == 0.005
+    assert usual.reached and usual.step.error <= usual.target == 0.003
     assert usual.step.projection <= usual.step.error, "projections are the best that there is"
     assert usual.step.error <= usual.step.ninth
     assert np.median(validate(usual.model, samples=20).error) < 1.5 * usual.target
@@ -38,9 +38,9 @@ def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
 
 
 def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
-    better = accurate_model(problem, target_error=usual.step.error / 4)
-    assert better.step.error <= usual.step.error / 4
-    assert better.model.dimension > usual.model.dimension
+    rough = accurate_model(problem, target_error=4 * usual.target)
+    assert rough.reached and rough.step.error > usual.step.error
+    assert rough.model.dimension < usual.model.dimension
 
 
 def test_it_is_the_same_on_any_number_of_threads(
