@@ -147,7 +147,7 @@ def train_blended_cubature(
     some = slice(None, None, PILOT_STEP)
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
-    states = replace(states, floor=0.01 * float(energies.max(initial=0.0)))
+    states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
     stiffness = mean_stiffness(problem, subspace, threads=threads)
     for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
         budget = _Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)

@@ -30,10 +30,9 @@ class BlendingSession(Session[InterpolationModel]):
 
     Notes
     -----
-    A drag goes on from its last frame, along a straight line from where the last three say that it
-    arrives. Where a sample that the model was trained with has weights nearer than the last
-    frame's, a solve starts from either, whichever has the lower energy: from afar a descent could
-    end in another minimum.
+    A solve starts from the last frame's shape or from the nearest sample that the model was trained
+    with, whichever has the lower energy: from afar a descent could end in another minimum. A drag
+    along a straight line goes on from where its last three frames say that it arrives.
 
     Examples
     --------
@@ -72,7 +71,7 @@ class BlendingSession(Session[InterpolationModel]):
         w = self.model.problem.weights(weights, extrapolate=extrapolate)
         before, shape = self._weights, self.q
         self._set_weights(w)
-        start = self._start(before)
+        start = self._start()
         report = replace(self.solve(), start=start)
         if np.linalg.norm(self.q) > FARTHEST * self.model.coordinate_scale:
             report = replace(report, status="unbounded")
@@ -154,14 +153,12 @@ class BlendingSession(Session[InterpolationModel]):
         self._weights = weights
         self._loop.set_weights(weights)
 
-    def _start(self, before: FloatArray) -> str:
-        """Takes the nearest sample as the start if it is nearer than the last frame, and lower."""
+    def _start(self) -> str:
+        """Takes the nearest training sample as the start if its energy is below the present one."""
         if not len(self.model.training_parameters):
             return "last frame"
         with np.errstate(over="ignore"):  # weights far outside of any use
             away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
-            if ((before - self._weights) ** 2).sum() <= away.min():
-                return "last frame"
         candidate = self.model.training_coordinates[np.argmin(away), : self.dimension]
         present, _ = self._loop.value_and_gradient(self._loop.q)
         known, _ = self._loop.value_and_gradient(candidate)

@@ -58,7 +58,7 @@ export class BlendingSession {
     const shape = this.q;
     this.#set(weights);
     if (start) this.#core.q = start;
-    this.#startBest(before);
+    this.#startBest();
     const report = this.solve();
     if (Math.hypot(...this.q) > FARTHEST * this.model.coordinateScale) report.status = "unbounded";
     if (report.status === "unbounded" || report.status === "not_finite") {
@@ -106,20 +106,17 @@ export class BlendingSession {
     this.#weights = [...weights];
   }
 
-  /** Takes the nearest sample as the start if it is nearer than the last frame, and lower. */
-  #startBest(before: readonly number[]): void {
+  /** Takes the nearest training sample as the start if its energy is below the present one. */
+  #startBest(): void {
     const { sampleWeights, sampleCoordinates, poses, dimension } = this.model;
     const samples = sampleWeights.length / poses.length;
     if (samples === 0) return;
-    const away = (weightOf: (pose: number) => number) =>
-      this.#weights.reduce((sum, w, pose) => sum + (weightOf(pose) - w) ** 2, 0);
-    const last = away((pose) => before[pose]!);
-    let [nearest, least] = [-1, last];
+    let [nearest, least] = [0, Infinity];
     for (let sample = 0; sample < samples; sample++) {
-      const distance = away((pose) => sampleWeights[sample * poses.length + pose]!);
-      if (distance < least) [nearest, least] = [sample, distance];
+      let away = 0;
+      this.#weights.forEach((w, pose) => (away += (sampleWeights[sample * poses.length + pose] - w) ** 2));
+      if (away < least) [nearest, least] = [sample, away];
     }
-    if (nearest < 0) return;
     const start = nearest * dimension;
     const candidate = sampleCoordinates.subarray(start, start + this.dimension);
     if (!(this.#core.value(this.q) <= this.#core.value(candidate))) this.#core.q = candidate;
