@@ -59,6 +59,17 @@ def bar() -> ss.PosingProblem:
     return _problem(mesh, handles, ss.HandleBox(translation=1.0, angle=angle))
 
 
+def bridge() -> ss.PosingProblem:
+    """A flat bar held at both ends, whose middle moves: 6 parameters."""
+    mesh = generators.bar(48, 10, 4, length=6.0, width=1.2, height=0.5)
+    x = mesh.vertices[:, 0]
+    handles = ss.Handles(
+        [np.flatnonzero((x < 0.3) | (x > 5.7)), np.flatnonzero(abs(x - 3.0) < 0.2)],
+        names=["ends", "middle"],
+    )
+    return _problem(mesh, handles, ss.HandleBox(translation=0.8, angle=np.pi / 4))
+
+
 def helix() -> ss.PosingProblem:
     """A rod wound up to a helix, moved at one end: 6 parameters."""
     radial, along = 3, 120
@@ -97,10 +108,11 @@ GENERATED: dict[str, Callable[[], ss.PosingProblem]] = {
     "creature": creature,
     "creature_with_tail": creature_with_tail,
     "bar": bar,
+    "bridge": bridge,
     "helix": helix,
     "tripod": tripod,
 }
 NAMES = (*SHARED, *GENERATED)
 #: Defaults are chosen on these, and judged on the others.
 CHOOSING = ("dragon", "elephant", "armadillo", "creature", "creature_with_tail")
-JUDGING = ("spot", "dog_head", "hand_five_fingers", "bar", "helix", "tripod")
+JUDGING = ("spot", "dog_head", "hand_five_fingers", "bar", "bridge", "helix", "tripod")

@@ -47,7 +47,7 @@ def blending_compliances(
     ordered : tets, see `tets_by_force`
     threads : default all; the result is bitwise the same for any number
     """
-    sample = sampled_tets(ordered, SAMPLED, largest_share=0.5, seed=0)
+    sample = sampled_tets(ordered, SAMPLED, seed=0)
     volumes = sample.factors * problem.mesh.volumes[sample.tets]
     least = LEAST * np.linalg.eigvalsh(stiffness)[0]
     result = np.empty((len(coordinates), subspace.dimension, subspace.dimension))

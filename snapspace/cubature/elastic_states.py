@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import ClassVar, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,11 +72,6 @@ class ElasticStates(Protocol):
         """States that tell how large forces are, these among them."""
         ...
 
-    @property
-    def largest_share(self) -> float:
-        """Share of a cubature's candidates that are the tets with the largest forces."""
-        ...
-
     def forces(self, state: int, displacement: FloatArray) -> TetForces:
         """Of all tets at a state; `displacement` is basis @ coordinates of it, (3n,)."""
         ...
@@ -89,7 +84,6 @@ class PosingStates:
     problem: PosingProblem
     subspace: AffineSubspace
     coordinates: FloatArray
-    largest_share: ClassVar[float] = 1.0
 
     def __len__(self) -> int:
         return len(self.coordinates)
@@ -129,9 +123,6 @@ class BlendingStates:
     coordinates: FloatArray
     weights: FloatArray
     floor: float = 0.0
-    #: Tets that a pose squeezes have forces a thousand times those of others, and are few. On the
-    #: Lion, candidates with the largest forces alone leave errors five times as large.
-    largest_share: ClassVar[float] = 0.5
 
     def __len__(self) -> int:
         return len(self.coordinates)

@@ -243,9 +243,7 @@ def _fit(
     unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
     with_forces = trained.with_forces()
     ordered = tets_by_force(with_forces)
-    candidates = sampled_tets(
-        ordered, budget.candidates * count, largest_share=states.largest_share, seed=seed
-    ).tets
+    candidates = sampled_tets(ordered, budget.candidates * count, seed=seed).tets
     directions = min(dimension, -(-ROWS * count // len(with_forces)))
     rows = training_rows(
         with_forces,

@@ -1,0 +1,102 @@
+"""How accurate a model of default options is, and how long it takes.
+
+    python benchmarks/accuracy.py                     # problems of the meshes, and generated ones
+    python benchmarks/accuracy.py --problem bar spot  # some of them
+
+The models are those of `snapspace build` without options, in stable neo-Hookean. Errors are those
+of 30 unseen motions against tight full solutions, relative to the displacement. Warm is a frame of
+a drag, a jump one from rest; both are the solve alone. Defaults were chosen on one half of the
+problems, and are judged on the other.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import common
+import numpy as np
+import problems
+from rich.console import Console
+from rich.table import Table
+
+import snapspace as ss
+
+KIND = "stable-neo-hookean"
+#: Problems with more parameters are listed, and do not count.
+MOST_PARAMETERS = 12
+
+
+def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
+    body = common.with_material(problems.read(name), KIND)
+    begin = time.perf_counter()
+    built = ss.accurate_model(
+        body, target_error=args.accuracy, tell=lambda line: print(name, line, file=sys.stderr)
+    )
+    seconds = time.perf_counter() - begin
+    found = ss.validate(built.model, samples=args.validate)
+    assert isinstance(built.model, ss.PosingModel)
+    warm, _ = common.drag(built.model, frames=300, seed=1)
+    return {
+        "problem": name,
+        "half": "choosing" if name in problems.CHOOSING else "judging",
+        "parameters": body.parameter_count,
+        "samples": len(built.snapshots),
+        "d": built.model.dimension,
+        "median": float(np.median(found.error)),
+        "mean": float(found.error.mean()),
+        "90 %": float(np.quantile(found.error, 0.9)),
+        "said": built.step.error,
+        "projection": float(np.median(found.projection_error)),
+        "warm ms": float(np.median(warm)),
+        "jump ms": float(np.median(found.solve_ms)),
+        "s": seconds,
+    }
+
+
+def summary(rows: list[dict[str, Any]]) -> Iterator[str]:
+    """Over problems of few parameters: all of them, and each half."""
+    counted = [row for row in rows if row["parameters"] <= MOST_PARAMETERS]
+    for half in ("choosing", "judging", None):
+        some = [row for row in counted if half in (None, row["half"])]
+        if not some:
+            continue
+        medians, means = ([row[key] for row in some] for key in ("median", "mean"))
+        yield (
+            f"{half or 'all'}, {len(some)} problems: median of medians {np.median(medians):.4f}, "
+            f"of means {np.median(means):.4f}; worst {max(medians):.4f}, {max(means):.4f}"
+        )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument(
+        "--problem", nargs="+", choices=problems.NAMES, default=list(problems.NAMES)
+    )
+    parser.add_argument("--accuracy", type=float, help="as of `snapspace build`")
+    parser.add_argument("--validate", type=int, default=30, help="unseen motions")
+    parser.add_argument("--json", action="store_true")
+    args = parser.parse_args()
+    rows = []
+    for name in args.problem:
+        rows.append(figures(name, args))
+        if args.json:
+            print(json.dumps(rows[-1]), flush=True)
+    if args.json:
+        return
+    table = Table(*rows[0], title="models of default options")
+    for row in rows:
+        table.add_row(*(f"{x:.3g}" if isinstance(x, float) else str(x) for x in row.values()))
+    Console().print(table)
+    for line in summary(rows):
+        print(line)
+
+
+if __name__ == "__main__":
+    main()
