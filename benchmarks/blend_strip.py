@@ -21,7 +21,7 @@ import snapspace as ss
 from snapspace.pictures import render_row, save_png
 
 FloatArray = NDArray[np.float64]
-MATERIALS = ("stvk", "stable-neo-hookean")
+MATERIALS = ("stvk", "stable-neo-hookean", "corotational", "arap")
 
 
 def path(model: ss.InterpolationModel, pair: tuple[int, int]) -> FloatArray:

@@ -33,17 +33,37 @@ DECIDING = (
     "solver",
     "lumped",
     "include_unconverged",
-    "energy",
-    "tets",
 )
 
 
-def decided_by_hand(command: Sequence[str] = DECIDING) -> bool:
-    """Whether the user of the running command gave one of the options that it has of these."""
+def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
+    """Whether an option of the running command decides samples or subspace, or an exact energy.
+
+    Parameters
+    ----------
+    exact : whether the material has an exact reduced energy
+    others : options of the command that decide, beside `DECIDING`
+
+    Raises
+    ------
+    ValueError
+        If --accuracy is given as well, which would be of no effect.
+    """
     context = click.get_current_context()
-    given = click.core.ParameterSource.COMMANDLINE
-    own = {option.name for option in context.command.params}
-    return any(context.get_parameter_source(name) is given for name in own.intersection(command))
+    given = {
+        option.name: option.opts[0]
+        for option in context.command.params
+        if context.get_parameter_source(option.name or "") is click.core.ParameterSource.COMMANDLINE
+    }
+    deciding = [given[name] for name in (*DECIDING, *others) if name in given]
+    if "accuracy" in given and deciding:
+        raise ValueError(f"--accuracy chooses what {deciding[0]} decides; leave one of them out")
+    if "accuracy" in given and exact:
+        raise ValueError(
+            "--accuracy is for materials of one minimum, not for St.Venant-Kirchhoff; give "
+            "--samples and --dimension"
+        )
+    return exact or bool(deciding)
 
 
 @dataclass(frozen=True, kw_only=True)

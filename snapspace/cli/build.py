@@ -96,6 +96,8 @@ def build(
     check_output(output)
     check_target(accuracy)
     problem, surface, source = _read(problem_file, mesh, repair=repair)
+    exact = problem.material.exact_degree == 4
+    by_hand = decided_by_hand(exact=exact, others=("energy", "tets"))
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
     choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)
     choice.check(problem, choices.samples)
@@ -107,7 +109,7 @@ def build(
     )
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
-    if problem.material.exact_degree == 4 or decided_by_hand():
+    if by_hand:
         make = partial(build_model, problem, recipe)
     else:
         accurate = AccurateRecipe(

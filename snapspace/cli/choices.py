@@ -165,13 +165,14 @@ def _options(
             "--samples",
             type=click.IntRange(min=1),
             default=samples,
-            show_default=True,
+            show_default=f"--accuracy decides; {samples} with other choices",
             help="Number of snapshots. A grid takes the most that fill its axes evenly.",
         ),
         click.option(
             "--dimension",
             type=click.IntRange(min=1),
-            help=f"Modes of the subspace [default: {dimension}].",
+            help="Modes of the subspace [default: --accuracy decides; "
+            f"{dimension} with other choices].",
         ),
         click.option(
             "--energy-fraction",

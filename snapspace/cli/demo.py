@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import time
+from functools import partial
 from pathlib import Path
 
 import click
 
+from ..accurate import MOTIONS
 from ..generators import creature
 from ..mesh import write_tets
 from ..mesh.atomic_file import atomic_file
@@ -18,6 +20,7 @@ from ..reduction import PosingModel
 from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
+from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
@@ -50,8 +53,18 @@ VALIDATION_SAMPLES = 10
     show_default=True,
     help="Size of the creature.",
 )
-@click.option("--samples", type=click.IntRange(min=1), default=300, show_default=True)
-@click.option("--dimension", type=click.IntRange(min=1), default=40, show_default=True)
+@click.option(
+    "--samples",
+    type=click.IntRange(min=1),
+    default=300,
+    show_default="as many as the accuracy takes; 300 with --dimension",
+)
+@click.option(
+    "--dimension",
+    type=click.IntRange(min=1),
+    default=40,
+    show_default="as many as the accuracy takes; 40 with --samples",
+)
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
 @threads_option
 @json_option
@@ -66,6 +79,8 @@ def demo(
 ) -> None:
     """Build a model of a generated creature, validate it, and paint some of its poses.
 
+    The model is that of `snapspace build` without options, unless --samples or --dimension is
+    given.
     Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.html
     (a page to drag it in), creature.png (a contact sheet) and creature.obj (one pose).
 
@@ -86,22 +101,29 @@ def demo(
         path.write_text(json.dumps(PROBLEM, indent=1) + "\n", encoding="utf-8")
 
     problem = read_problem(files["json"])
-    given = GivenSamples(sample(problem.domain, samples, method="sobol", seed=seed))
-    recipe = Recipe(
-        samples=given,
-        sampling=sampling_record(given, "sobol", asked=samples, seed=seed, scramble=True),
-        solver=SolverOptions(),
-        dimension=dimension,
-        threads=threads,
-    )
+    if decided_by_hand():
+        given = GivenSamples(sample(problem.domain, samples, method="sobol", seed=seed))
+        recipe = Recipe(
+            samples=given,
+            sampling=sampling_record(given, "sobol", asked=samples, seed=seed, scramble=True),
+            solver=SolverOptions(),
+            dimension=dimension,
+            threads=threads,
+        )
+        build = partial(build_model, problem, recipe)
+    else:
+        accurate = AccurateRecipe(
+            target_error=MOTIONS.target, seed=seed, solver=SolverOptions(), threads=threads
+        )
+        build = partial(build_accurate_model, problem, accurate)
     source = {"problem": files["json"].name, "mesh": files["msh"].name}
-    built = build_model(problem, recipe, files["snapspace"], source=source, begin=begin)
+    built = build(files["snapspace"], source=source, begin=begin)
     print_summary(built, include_unconverged=False)
     with sample_progress("full solutions", total=VALIDATION_SAMPLES) as progress:
         validation = validate(
             built.model, samples=VALIDATION_SAMPLES, threads=threads, progress=progress
         )
-    print_validation(validation, dimension, asked=VALIDATION_SAMPLES)
+    print_validation(validation, built.model.dimension, asked=VALIDATION_SAMPLES)
 
     with spinner("painting"):
         assert isinstance(built.model, PosingModel)
@@ -119,7 +141,7 @@ def demo(
                 "folder": str(output),
                 "files": {kind: str(path) for kind, path in files.items()},
                 "build": built.as_json(),
-                "validation": validation.as_json(dimension),
+                "validation": validation.as_json(built.model.dimension),
                 "seconds": seconds,
             }
         )
@@ -130,7 +152,7 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
     head = ["--handle", "head", "--euler", "0,-30,20", "--translate", "0.1,0,0.1"]
     tail = ["--handle", "tail", "--euler", "-35,0,20", "--translate", "0,-0.3,0"]
     outputs = ["-o", str(folder / "mine.obj"), "--png", str(folder / "mine.png")]
-    finer = ["--samples", "600", "--dimension", "60", "-o", str(folder / "finer.snapspace")]
+    finer = ["--accuracy", "0.002", "-o", str(folder / "finer.snapspace")]
     return [
         ("drag it in the browser", ["view", model]),
         ("a pose of your own", ["pose", model, *head, *tail, *outputs]),

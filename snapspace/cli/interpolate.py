@@ -154,6 +154,7 @@ def interpolate(
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
     check_target(accuracy)
+    by_hand = decided_by_hand(exact=material.exact_degree == 4, others=("extrapolation",))
     if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
         raise ValueError(
             f"the energy is a cubature, which is trained on {FEWEST_BLENDS} samples or more, but "
@@ -189,7 +190,7 @@ def interpolate(
         "fits": [asdict(fit) for fit in pose_set.fits],
         "pose_seconds": pose_set.seconds,
     }
-    if material.exact_degree == 4 or extrapolation > 0 or decided_by_hand():
+    if by_hand:
         build = partial(build_model, problem, recipe)
     else:
         accurate = AccurateRecipe(

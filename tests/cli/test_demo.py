@@ -54,6 +54,17 @@ def test_demo(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
     assert run(*commands[3].split()[1:]).code == 0
 
 
+def test_without_options_it_is_as_accurate_as_a_build(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(demo_creature, "render_row", small_row)
+    figures = run("demo", "--output", tmp_path / "demo", "--tets", 5000, "--json").json
+    model = load(figures["files"]["snapspace"])
+    assert model.provenance["accurate"]["reached"]
+    assert model.provenance["accurate"]["step"]["dimension"] == model.dimension
+    assert figures["validation"]["dimension"] == model.dimension
+
+
 def test_the_poses_are_inside_of_the_sampled_domain() -> None:
     bounds = demo_creature.PROBLEM["domain"]
     for name, motions in demo_creature.POSES.items():

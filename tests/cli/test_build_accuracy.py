@@ -1,0 +1,71 @@
+"""`snapspace build` without samples and dimension: both follow from the error."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from snapspace import load
+
+from .conftest import Run
+from .files import write_problem
+
+
+def neo_hookean(folder: Path) -> Path:
+    """The bar's problem in the default material."""
+    file = write_problem(folder)
+    problem = json.loads(file.read_text())
+    problem.pop("material", None)
+    file.write_text(json.dumps(problem))
+    return file
+
+
+def test_it_says_what_it_tried_and_what_came_of_it(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "m.snapspace"
+    result = run("build", "--problem", neo_hookean(tmp_path), "--accuracy", 0.05, "-o", path)
+    assert "error of unseen motions" in result.err
+    record = load(path).provenance["accurate"]
+    assert record["reached"] and record["step"]["error"] <= record["target_error"] == 0.05
+    assert record["step"]["error"] <= record["step"]["ninth"]
+    for told in (result, run("info", path)):
+        assert "5 % asked; nine of ten by less than" in " ".join(told.err.split())
+    assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--samples", 24, "--dimension", 6), ("--tets", 40, "--samples", 24, "--dimension", 6)],
+)
+def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...]) -> None:
+    path = tmp_path / "m.snapspace"
+    run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
+    assert "accurate" not in load(path).provenance
+    assert load(path).dimension == 6
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--accuracy", 0), "must be positive and finite"),
+        (("--accuracy", 0.01, "--samples", 24), "--accuracy chooses what --samples decides"),
+        (("--accuracy", 0.01, "--tets", 24), "--accuracy chooses what --tets decides"),
+    ],
+)
+def test_what_has_no_effect_is_refused(
+    run: Run, tmp_path: Path, words: tuple[object, ...], message: str
+) -> None:
+    path = tmp_path / "m.snapspace"
+    result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
+    assert result.code == 2 and message in " ".join(result.err.split())
+    assert not path.exists()
+
+
+def test_the_papers_material_has_no_accuracy_to_ask_for(run: Run, tmp_path: Path) -> None:
+    file = write_problem(tmp_path)
+    problem = json.loads(file.read_text())
+    problem["material"] = {"model": "stvk", "lam": 1.0, "mu": 1.0}
+    file.write_text(json.dumps(problem))
+    result = run("build", "--problem", file, "--accuracy", 0.01, "-o", tmp_path / "m.snapspace")
+    assert result.code == 2 and "not for St.Venant-Kirchhoff" in " ".join(result.err.split())
