@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from .console import print_facts
+import numpy as np
+
+from ..problem import PosingProblem, handle_misses, usual_stiffness
+from .console import notice, print_facts
 from .model_info import accuracy_facts, energy_text
 from .pipeline import Built
 from .units import in_bytes, in_time
+
+#: Share of the motion that samples may miss their handles by in the median.
+MISSED = 0.01
 
 
 def print_summary(built: Built, *, include_unconverged: bool) -> None:
@@ -34,6 +40,25 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
         ("model", f"{built.path}, {in_bytes(figures['model_bytes'])}"),
     ]
     print_facts("built", facts)
+    _tell_missed_handles(built)
+
+
+def _tell_missed_handles(built: Built) -> None:
+    """A notice where samples do not follow their handles: errors say nothing of that."""
+    problem, snapshots = built.model.problem, built.snapshots
+    if not isinstance(problem, PosingProblem):
+        return
+    missed = float(np.median(handle_misses(problem, snapshots.parameters, snapshots.displacements)))
+    if missed <= MISSED:
+        return
+    usual = usual_stiffness(problem.mesh, problem.material)
+    cure = f"a stiffness of {usual:.2g}, now {problem.stiffness:.2g}, is usual for this body"
+    if problem.stiffness >= 0.5 * usual:
+        cure = "make handles larger, or their motions smaller"
+    notice(
+        f"notice: samples miss their handles by {100 * missed:.2g} % of the motion in the median; "
+        f"{cure}"
+    )
 
 
 def _percent(share: float) -> str:

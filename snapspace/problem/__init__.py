@@ -2,6 +2,7 @@
 
 from .certain_range import CertainRange, certain_range
 from .handle_box import HandleBox
+from .handle_stiffness import handle_misses, usual_stiffness
 from .handles import Handle, Handles
 from .interpolation_problem import InterpolationProblem
 from .motion import affine_offset, euler_of_rotation, rigid_offset, rotation_matrix
@@ -28,6 +29,7 @@ __all__ = [
     "affine_offset",
     "certain_range",
     "euler_of_rotation",
+    "handle_misses",
     "in_box",
     "in_sphere",
     "problem_content",
@@ -36,4 +38,5 @@ __all__ = [
     "rigid_offset",
     "rotation_matrix",
     "solutions_beyond_tau",
+    "usual_stiffness",
 ]

@@ -20,6 +20,7 @@ from ..material import DEFAULT_MATERIAL, Material
 from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
+from .handle_stiffness import usual_stiffness
 from .handles import Handles
 from .motion import rigid_offset
 from .solver_traits import SolverTraits, posing_traits
@@ -41,8 +42,9 @@ class PosingProblem:
         The first one stays at rest while sampling, as do those whose bounds are zero.
     material : Material, default StableNeoHookean(lam=1, mu=1)
         Moduli are numbers, or arrays with one number per tet.
-    stiffness : float, default 1000
+    stiffness : float, optional
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
+        Default: `usual_stiffness`, which follows the size and the moduli of the body.
     domain : HandleBox
         Bounds of the motions; `moving` is set to the number of handles less one.
 
@@ -61,13 +63,14 @@ class PosingProblem:
         *,
         domain: HandleBox,
         material: Material | None = None,
-        stiffness: float = 1000.0,
+        stiffness: float | None = None,
     ) -> None:
         self.mesh = mesh
         self.handles = handles
         self.material = DEFAULT_MATERIAL() if material is None else material
         self.material.check_tets(len(mesh.tets), "PosingProblem")
-        self.stiffness = float(stiffness)
+        usual = usual_stiffness(mesh, self.material)
+        self.stiffness = usual if stiffness is None else float(stiffness)
         self.domain = replace(domain, moving=len(handles) - 1)
         if not (math.isfinite(self.stiffness) and self.stiffness > 0):
             raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")

@@ -35,7 +35,8 @@ def read_problem(
         it is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name or
         "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
         tet. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
-        "factor"; later ones win. Without "material" it is the default one.
+        "factor"; later ones win. Without "material" it is the default one, and without "stiffness"
+        that of the handles follows from the body, see `usual_stiffness`.
     mesh : TetMesh, optional
         Used instead of the file's mesh.
     repair : bool, default False
@@ -133,7 +134,7 @@ def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
         mesh,
         _handles(_entry(content, "handles"), mesh),
         material=material_from(content.get("material", {}), mesh),
-        stiffness=as_number(_entry(content, "stiffness"), "stiffness"),
+        stiffness=as_number(content["stiffness"], "stiffness") if "stiffness" in content else None,
         domain=handle_box(_entry(content, "domain"), content["handles"]),
     )
 

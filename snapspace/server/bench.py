@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..material import DEFAULT_MATERIAL, Material
-from ..problem import PosingProblem
+from ..problem import PosingProblem, usual_stiffness
 from . import messages
 from .body import Body
 from .computation import Computation, Publish
@@ -20,7 +20,6 @@ from .selection import (
     Selection,
     as_vector,
     choices_of,
-    default_stiffness,
     selection_of,
 )
 from .solved_samples import SolvedSamples
@@ -136,7 +135,7 @@ class Bench:
     def _stiffness(self) -> float:
         """Of the last computation, else of the problem file, else one that suits the mesh."""
         return (
-            default_stiffness(self.body.mesh)
+            usual_stiffness(self.body.mesh, self._given)
             if self._problem is None
             else (self._problem.stiffness)
         )

@@ -14,8 +14,6 @@ from .messages import Choose, HandleChoice, Vector
 #: Bounds that a page begins with: about those of problems that were made by hand, whose handles
 #: are some tenth of the body.
 TRANSLATION_SHARE, ANGLE = 0.1, float(np.deg2rad(45))
-#: Stiffness times the squared diagonal, which has no unit; problems made by hand have 1.6e5 to 4e5.
-RELATIVE_STIFFNESS = 2e5
 
 
 @dataclass(frozen=True)
@@ -108,11 +106,6 @@ def as_vector(values: np.ndarray) -> Vector:
     """Three numbers of an array."""
     x, y, z = values.tolist()
     return x, y, z
-
-
-def default_stiffness(mesh: TetMesh) -> float:
-    """What holds handles to about a ten-thousandth of the diagonal, rounded to two digits."""
-    return float(f"{RELATIVE_STIFFNESS / mesh.diagonal**2:.1e}")
 
 
 def _bounds(handle: HandleChoice, own: Vector | None, common: Vector) -> Vector:

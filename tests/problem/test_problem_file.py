@@ -146,7 +146,6 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (("mesh",), DELETE, "the entry 'mesh' is missing"),
     (("mesh",), 5, "mesh must be a string, got 5"),
     (("mesh",), "missing.msh", "missing.msh"),
-    (("stiffness",), DELETE, "the entry 'stiffness' is missing"),
     (("stiffness",), "stiff", "stiffness must be a number, got 'stiff'"),
     (("stiffness",), True, "stiffness must be a number, got True"),
     (("stiffness",), -1, "stiffness is -1.0, but it must be positive"),

@@ -10,7 +10,7 @@ import pytest
 
 from snapspace import HandleBox, PosingProblem, StVK, sample, solve_snapshots
 from snapspace.server.messages import Choose, HandleChoice
-from snapspace.server.selection import choices_of, default_stiffness, selection_of
+from snapspace.server.selection import choices_of, selection_of
 from snapspace.server.solved_samples import SolvedSamples
 
 from ..shapes import bar_problem
@@ -129,12 +129,6 @@ def test_the_same_choice_is_the_same_problem_and_others_share_its_energy() -> No
     stiff = selection_of(choice(*chosen))
     changed = stiff.problem(PROBLEM.mesh, material=StVK(), stiffness=200.0, known=first)
     assert changed.stiffness == 200.0
-
-
-def test_the_stiffness_has_the_unit_of_the_mesh() -> None:
-    mesh = PROBLEM.mesh
-    scaled = type(mesh)(10.0 * mesh.vertices, mesh.tets)
-    assert default_stiffness(mesh) == pytest.approx(100.0 * default_stiffness(scaled), rel=0.1)
 
 
 def test_solved_samples_serve_the_same_handles_and_those_that_contain_them() -> None:
