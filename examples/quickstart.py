@@ -9,12 +9,9 @@ mesh = creature(tets=6_000)  # or ss.read_tets("dragon.mesh")
 parts = creature_handles(mesh)
 handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
 domain = ss.HandleBox(translation=0.3, angle=np.deg2rad(45))
-problem = ss.PosingProblem(mesh, handles, domain=domain, stiffness=1000)
+problem = ss.PosingProblem(mesh, handles, domain=domain)
 
-samples = ss.sample(problem.domain, 40, seed=0)
-snapshots = ss.solve_snapshots(problem, samples)
-subspace = ss.snapshot_pca(snapshots, dimension=20)
-model = ss.reduce(problem, subspace, snapshots=snapshots)
+model = ss.accurate_model(problem).model  # 0.3 % off, on motions that it was not made of
 model.save("creature.snapspace")
 
 session = ss.load("creature.snapspace").session()
