@@ -44,9 +44,8 @@ def sum_of_tets(mesh: TetMesh, material: Material, x: FloatArray) -> tuple[float
 
 def posing(material: Material) -> PosingProblem:
     ends = MESH.vertices[:, 0] < 0.3, MESH.vertices[:, 0] > 1.7
-    return PosingProblem(
-        MESH, Handles(ends), domain=HandleBox(translation=0.1, angle=0.1), material=material
-    )
+    domain = HandleBox(translation=0.1, angle=0.1)
+    return PosingProblem(MESH, Handles(ends), domain=domain, material=material, stiffness=1000.0)
 
 
 def assert_close(found: tuple[float, FloatArray], expected: tuple[float, FloatArray]) -> None:

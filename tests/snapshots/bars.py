@@ -36,7 +36,8 @@ def posing_bar(
     x = mesh.vertices[:, 0]
     handles = Handles([x < 0.6, x > 3.4], names=["foot", "tip"])
     domain = HandleBox(translation=bound, angle=bound)
-    return PosingProblem(mesh, handles, domain=domain, **{"material": StVK(), **options})
+    usual = {"material": StVK(), "stiffness": 1000.0}
+    return PosingProblem(mesh, handles, domain=domain, **{**usual, **options})
 
 
 def parameters(problem: PosingProblem, count: int, *, seed: int = 3) -> FloatArray:
