@@ -3,7 +3,6 @@
 #include <cmath>
 #include <vector>
 
-
 namespace snapspace::online {
 
 /// Where a drag along a straight line of weights arrives next: on the parabola through its last
