@@ -125,7 +125,8 @@ def accurate_model(
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
-        Of a material whose reduced energy is a cubature.
+        The reduced energy of its material should be a cubature: where solutions are not unique, as
+        with St.Venant-Kirchhoff, no number of samples meets a target.
     target_error : float, default 0.003 for motions, 0.005 for blends
         |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median of motions, and
         the mean of blends.

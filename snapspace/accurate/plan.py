@@ -75,7 +75,7 @@ MOTIONS = Plan(
 
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
-    """That of its kind. Of two poses `blends` has the middle only once, and uniform points else."""
+    """That of its kind. With two poses `blends` has little but uniform points: Sobol points then."""
     if isinstance(problem, PosingProblem):
         return MOTIONS
     return BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")

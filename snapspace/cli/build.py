@@ -83,7 +83,7 @@ def build(
 
     Samples and dimension follow from the error of motions that the model was not made of, see
     --accuracy, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C
-    keeps the finished samples beside the model; the same command goes on from there.
+    keeps the finished samples beside the model; the same command resumes from there.
 
     \b
     Examples:

@@ -32,7 +32,7 @@ class BlendingSession(Session[InterpolationModel]):
     -----
     A solve starts from the last frame's shape or from the nearest sample that the model was trained
     with, whichever has the lower energy: from afar a descent could end in another minimum. A drag
-    along a straight line goes on from where its last three frames say that it arrives.
+    along a straight line continues where its last three frames say that it arrives.
 
     Examples
     --------

@@ -50,7 +50,7 @@ def posed(problem: PosingProblem, scale: float) -> np.ndarray:
 
 @pytest.mark.parametrize(("scale", "mu"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 1e6)])
 def test_a_model_is_the_same_in_any_unit(scale: float, mu: float) -> None:
-    """Of millimetres, metres and kilometres, and of pressures: up to the solvers' tolerance."""
+    """Millimetres, metres and kilometres, and other pressures, up to the solvers' tolerance."""
     apart = np.abs(posed(bar(scale, mu=mu), scale) - posed(bar(1.0), 1.0)).max()
     assert apart < 1e-3
 
