@@ -75,7 +75,7 @@ MOTIONS = Plan(
 
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
-    """That of its kind. With two poses `blends` has little but uniform points: Sobol points then."""
+    """That of its kind; two poses take Sobol points, since `blends` adds only their middle."""
     if isinstance(problem, PosingProblem):
         return MOTIONS
     return BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")
