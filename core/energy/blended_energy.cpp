@@ -79,12 +79,13 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
   const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;
   if constexpr (Blend::kCollapses) {
     Real sums[kNumbers];
-    const Real* numbers = blend + static_cast<std::size_t>(tet) * kNumbers;
-    if (poses() <= kFewPoses) {
+    const Real* numbers = sums;
+    if (poses() > kFewPoses) {
+      numbers = blend + static_cast<std::size_t>(tet) * kNumbers;
+    } else {
       for (int i = 0; i < kNumbers; ++i) sums[i] = blend[0] * Real(pose[i]);
       for (int k = 1; k < poses(); ++k)
         for (int i = 0; i < kNumbers; ++i) sums[i] += blend[k] * Real(pose[k * kNumbers + i]);
-      numbers = sums;
     }
     return widened(Density::Blend::value_and_stress(numbers, G, P));
   } else {

@@ -48,7 +48,7 @@ class Step:
         motions
     error : of their reduced solutions, the same
     mean, ninth : mean and 90th percentile of the latter
-    unseen : what was held out, for people
+    unseen, typical : what was held out, and what of its errors `error` is, for people
     """
 
     samples: int
@@ -58,6 +58,7 @@ class Step:
     mean: float
     ninth: float
     unseen: str
+    typical: str
 
     def __str__(self) -> str:
         return (
@@ -192,6 +193,7 @@ def accurate_model(
                 mean=float(errors.mean()),
                 ninth=float(np.quantile(errors, 0.9)),
                 unseen=plan.unseen_name,
+                typical=plan.typical_name,
             )
             say(str(step))
             steps.append(step)

@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +19,9 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
-from .pipeline import Built, stage, telling_what_is_kept
+from .pipeline import Built, build_model, stage, telling_what_is_kept
 from .progress import spinner
-from .recipe import made_by
+from .recipe import Recipe, made_by
 
 #: Options that decide samples or subspace: with one of them nothing is chosen by error.
 DECIDING = (
@@ -87,6 +88,24 @@ class AccurateRecipe:
         return run_key(problem, none, {**solver_key(self.solver, problem), **choice})
 
 
+def chosen_build(
+    problem: PosingProblem | InterpolationProblem,
+    recipe: Recipe,
+    *,
+    by_hand: bool,
+    accuracy: float,
+    seed: int,
+    solver: SolverOptions,
+) -> partial[Built]:
+    """`build_model` by the recipe where it was decided by hand, else `build_accurate_model`."""
+    if by_hand:
+        return partial(build_model, problem, recipe)
+    accurate = AccurateRecipe(
+        target_error=accuracy, seed=seed, solver=solver, threads=recipe.threads
+    )
+    return partial(build_accurate_model, problem, accurate)
+
+
 def build_accurate_model(
     problem: PosingProblem | InterpolationProblem,
     recipe: AccurateRecipe,
@@ -140,11 +159,10 @@ def _tell_outcome(built: AccurateModel) -> None:
     if built.reached:
         return
     step = built.step
-    typical = "mean" if step.unseen == "blends" else "median"
     cure = "leave out poses that differ most" if step.unseen == "blends" else "make the box smaller"
     notice(
-        f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {typical}, more "
-        f"than the {100 * built.target:.2g} % of --accuracy; it takes more than "
+        f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {step.typical}, "
+        f"more than the {100 * built.target:.2g} % of --accuracy; it takes more than "
         f"{len(built.snapshots)} samples or {built.model.dimension} dimensions: give --samples and "
         f"--dimension, or {cure}"
     )

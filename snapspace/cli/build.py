@@ -6,7 +6,6 @@ import json
 import os
 import time
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import click
@@ -16,13 +15,12 @@ from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import ENERGIES, Energy
-from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
+from .accurate_pipeline import chosen_build, decided_by_hand
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
 from .options import FILE, dask_option, json_option, threads_option
-from .pipeline import build_model
 from .summary import print_summary
 
 DIMENSION = 40
@@ -109,16 +107,14 @@ def build(
     )
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
-    if by_hand:
-        make = partial(build_model, problem, recipe)
-    else:
-        accurate = AccurateRecipe(
-            target_error=accuracy,
-            seed=choices.seed,
-            solver=choices.solver_options(),
-            threads=threads,
-        )
-        make = partial(build_accurate_model, problem, accurate)
+    make = chosen_build(
+        problem,
+        recipe,
+        by_hand=by_hand,
+        accuracy=accuracy,
+        seed=choices.seed,
+        solver=choices.solver_options(),
+    )
     built = make(output, source=source, surface=surface, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from functools import partial
 from pathlib import Path
 
 import click
@@ -20,12 +19,11 @@ from ..reduction import PosingModel
 from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
-from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
+from .accurate_pipeline import chosen_build, decided_by_hand
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
 from .options import FILE, json_option, threads_option
-from .pipeline import build_model
 from .pose import write_shape
 from .progress import sample_progress, spinner
 from .recipe import Recipe, check_dimension
@@ -101,21 +99,22 @@ def demo(
         path.write_text(json.dumps(PROBLEM, indent=1) + "\n", encoding="utf-8")
 
     problem = read_problem(files["json"])
-    if decided_by_hand():
-        given = GivenSamples(sample(problem.domain, samples, method="sobol", seed=seed))
-        recipe = Recipe(
-            samples=given,
-            sampling=sampling_record(given, "sobol", asked=samples, seed=seed, scramble=True),
-            solver=SolverOptions(),
-            dimension=dimension,
-            threads=threads,
-        )
-        build = partial(build_model, problem, recipe)
-    else:
-        accurate = AccurateRecipe(
-            target_error=MOTIONS.target, seed=seed, solver=SolverOptions(), threads=threads
-        )
-        build = partial(build_accurate_model, problem, accurate)
+    given = GivenSamples(sample(problem.domain, samples, method="sobol", seed=seed))
+    recipe = Recipe(
+        samples=given,
+        sampling=sampling_record(given, "sobol", asked=samples, seed=seed, scramble=True),
+        solver=SolverOptions(),
+        dimension=dimension,
+        threads=threads,
+    )
+    build = chosen_build(
+        problem,
+        recipe,
+        by_hand=decided_by_hand(),
+        accuracy=MOTIONS.target,
+        seed=seed,
+        solver=recipe.solver,
+    )
     source = {"problem": files["json"].name, "mesh": files["msh"].name}
     built = build(files["snapspace"], source=source, begin=begin)
     print_summary(built, include_unconverged=False)

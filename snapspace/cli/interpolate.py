@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, replace
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +19,7 @@ from ..material import MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
-from .accurate_pipeline import AccurateRecipe, build_accurate_model, decided_by_hand
+from .accurate_pipeline import chosen_build, decided_by_hand
 from .build import check_output
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
@@ -28,7 +27,6 @@ from .dask_cluster import dask_executor
 from .files import make_folder
 from .fit_cache import FitCache
 from .options import FILE, dask_option, json_option, threads_option
-from .pipeline import build_model
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .summary import print_summary
 
@@ -190,16 +188,14 @@ def interpolate(
         "fits": [asdict(fit) for fit in pose_set.fits],
         "pose_seconds": pose_set.seconds,
     }
-    if by_hand:
-        build = partial(build_model, problem, recipe)
-    else:
-        accurate = AccurateRecipe(
-            target_error=accuracy,
-            seed=choices.seed,
-            solver=choices.solver_options(),
-            threads=threads,
-        )
-        build = partial(build_accurate_model, problem, accurate)
+    build = chosen_build(
+        problem,
+        recipe,
+        by_hand=by_hand,
+        accuracy=accuracy,
+        seed=choices.seed,
+        solver=choices.solver_options(),
+    )
     try:
         built = build(
             output,

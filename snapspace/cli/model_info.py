@@ -91,11 +91,10 @@ def accuracy_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
     if not isinstance(accurate, dict) or not isinstance(accurate.get("step"), dict):
         return []
     step = accurate["step"]
-    if not {"unseen", "ninth"} <= step.keys():
+    if not {"unseen", "typical", "ninth"} <= step.keys():
         return []
-    typical = "mean" if step["unseen"] == "blends" else "median"
     text = (
-        f"unseen {step['unseen']} are off by {_percent(step['error'])} in the {typical}, "
+        f"unseen {step['unseen']} are off by {_percent(step['error'])} in the {step['typical']}, "
         f"{_percent(accurate['target_error'])} asked; nine of ten by less than "
         f"{_percent(step['ninth'])}; {step['samples']} samples"
     )

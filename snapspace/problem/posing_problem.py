@@ -69,8 +69,9 @@ class PosingProblem:
         self.handles = handles
         self.material = DEFAULT_MATERIAL() if material is None else material
         self.material.check_tets(len(mesh.tets), "PosingProblem")
-        usual = usual_stiffness(mesh, self.material)
-        self.stiffness = usual if stiffness is None else float(stiffness)
+        if stiffness is None:
+            stiffness = usual_stiffness(mesh, self.material)
+        self.stiffness = float(stiffness)
         self.domain = replace(domain, moving=len(handles) - 1)
         if not (math.isfinite(self.stiffness) and self.stiffness > 0):
             raise ValueError(f"PosingProblem: stiffness is {stiffness}, but it must be positive")
