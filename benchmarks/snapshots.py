@@ -1,7 +1,6 @@
-"""The snapshot engine: speed, first model, hardware limits, growth with the mesh, all problems.
+"""The snapshot engine: speed, hardware limits, growth with the mesh, all problems.
 
     python benchmarks/snapshots.py --part speed      # against Newton's method, and the subspace
-    python benchmarks/snapshots.py --part first      # from handles to the first usable model
     python benchmarks/snapshots.py --part limits     # of the processor, and how near the loops are
     python benchmarks/snapshots.py --part growth     # cost of a sample, 25k to 1M tets
     python benchmarks/snapshots.py --part problems   # every problem of the meshes' folder
@@ -89,35 +88,6 @@ def fast_and_newton(args: argparse.Namespace) -> tuple[ss.Snapshots, list[float]
         newton_seconds.append(time.perf_counter() - begin)
         newton = few if newton is None else newton.joined(few)
     return fast, fast_seconds, newton_seconds
-
-
-def first(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """Models of more and more samples, with the time at which they are there."""
-    problem = common.read_problem(args.problem)
-    samples = ss.sample(problem.domain, args.samples, seed=args.seed)
-    fresh = common.read_problem(args.problem)  # nothing of it is computed yet
-    models = list(ss.growing_models(fresh, samples, dimension=40))
-    reference = common.references(problem, 30)
-    result: dict[str, Any] = {"models": []}
-    rows: Rows = []
-    for growth in models:
-        errors = common.reduced_errors(growth.model, reference)
-        entry = {
-            "seconds": growth.seconds,
-            "samples": len(growth.snapshots),
-            "dimension": growth.model.dimension,
-            "median": float(np.median(errors)),
-            "mean": float(errors.mean()),
-        }
-        result["models"].append(entry)
-        label = f"{entry['samples']} samples, d = {entry['dimension']}"
-        is_first = growth is models[0]
-        rows.append((f"{label}: s since the start", growth.seconds, "<= 3" if is_first else ""))
-        rows.append(
-            (f"{label}: reduced error, median", entry["median"], "<= 0.1" if is_first else "")
-        )
-        rows.append((f"{label}: reduced error, mean", entry["mean"], ""))
-    return result, rows
 
 
 def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
@@ -267,7 +237,7 @@ def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     return result, rows
 
 
-PARTS = {f.__name__: f for f in (speed, first, limits, growth, problems, handles)}
+PARTS = {f.__name__: f for f in (speed, limits, growth, problems, handles)}
 
 
 def main() -> None:
@@ -289,9 +259,7 @@ def main() -> None:
     if args.samples is None:
         args.samples = {"growth": 100, "problems": 64}.get(args.part, 300)
     result, rows = PARTS[args.part](args)
-    title = (
-        f"{args.part}: {args.problem}" if args.part in ("speed", "first", "limits") else args.part
-    )
+    title = f"{args.part}: {args.problem}" if args.part in ("speed", "limits") else args.part
     common.show(title, rows, {"part": args.part, **result}, args.json)
 
 

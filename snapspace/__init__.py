@@ -2,7 +2,7 @@
 
 from importlib.metadata import version as _version
 
-from .accurate import AccurateModel, accurate_model
+from .accurate import AccurateModel, Growth, accurate_model, growing_models
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
@@ -11,7 +11,6 @@ from .energy import ElasticEnergy
 from .filling import fill_surface, stuff_surface
 from .fitting import PoseFit, PoseFits, fit_poses
 from .greedy import greedy_snapshots
-from .growing import Growth, growing_models
 from .material import (
     ARAP,
     MATERIALS,

@@ -95,9 +95,9 @@ def test_a_run_of_samples_gives_what_is_finished() -> None:
 def test_growth_tells_its_parts_in_order() -> None:
     problem = posing_bar(6, 2, 2)
     told: list[str] = []
-    stages = list(growing_models(problem, parameters(problem, 40), dimension=8, begins=told.append))
+    stages = list(growing_models(problem, target_error=0.5, most_samples=24, begins=told.append))
     assert told == ["snapshots", "subspace", "energy"] * 2
-    assert [growth.loose for growth in stages] == [True, False]
+    assert [growth.final for growth in stages] == [False, True]
 
 
 def test_a_filling_process_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

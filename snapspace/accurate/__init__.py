@@ -1,14 +1,21 @@
 """Models as accurate as is asked: samples and dimension follow from measured errors."""
 
-from .accurate_model import AccurateModel, Step, accurate_model, check_target
+from .accurate_model import AccurateModel, accurate_model
+from .checks import check_budget, check_most, check_target
+from .growing_models import Growth, growing_models
 from .plan import BLENDS, MOTIONS, usual_most_samples
+from .step import Step
 
 __all__ = [
     "BLENDS",
     "MOTIONS",
     "AccurateModel",
+    "Growth",
     "Step",
     "accurate_model",
+    "check_budget",
+    "check_most",
     "check_target",
+    "growing_models",
     "usual_most_samples",
 ]

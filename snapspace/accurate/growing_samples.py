@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from concurrent.futures import Executor
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,19 +10,10 @@ from ..greedy import batch_checkpoint, reduced_solutions
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
 from ..reduction import InterpolationModel, PosingModel
 from ..sampling import Method, sample
-from ..snapshots import (
-    Checkpoint,
-    Progress,
-    SampleReport,
-    Snapshots,
-    SolverOptions,
-    solve_snapshots,
-)
+from ..snapshots import SampleReport, Snapshots, solve_snapshots
+from .solving import Solving
 
 FloatArray = NDArray[np.float64]
-
-#: Tolerance of held-out samples, relative to that of the others.
-JUDGING = 0.01
 
 
 class GrowingSamples:
@@ -56,6 +44,7 @@ class GrowingSamples:
         self.parameters = sample(problem.domain, most, method=method, seed=seed)
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
+        self._first_known: Snapshots | None = None  # where the first solves start
         self._gram = SnapshotGram.of(problem)
 
     @property
@@ -86,28 +75,32 @@ class GrowingSamples:
         """How many solutions a basis comes from, those known without solving among them."""
         return int(self._masks()[0].sum()) + len(self._known())
 
-    def solve_up_to(
-        self,
-        count: int,
-        *,
-        options: SolverOptions | None,
-        threads: int | None,
-        progress: Progress | None,
-        checkpoint: Checkpoint | None,
-        executor: Executor | None,
-        model: PosingModel | InterpolationModel | None,
-    ) -> None:
-        """Solves the samples before `count` that are not; arguments as for `solve_snapshots`.
+    def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:
+        """The first samples, for a first impression; their solves begin there later.
 
-        Those that are held out are solved more tightly: along soft modes the others are off by as
-        much as a model. The solves start from the reduced solutions of `model`, where there is one,
-        and take half as many iterations.
+        known : where they start themselves, as for `solve_snapshots`
         """
-        usual = options or SolverOptions()
-        tolerance = usual.resolved(self.problem).tolerance
-        judging = replace(
-            usual, tolerance=JUDGING * tolerance, settling=None, precision=None, max_iterations=5000
+        loose = solve_snapshots(
+            self.problem,
+            self.parameters[:count],
+            options=solving.loose(self.problem),
+            threads=solving.threads,
+            progress=solving.progress,
+            executor=solving.executor,
+            known=known,
         )
+        self._first_known = loose if known is None else loose.joined(known)
+        return loose
+
+    def solve_up_to(
+        self, count: int, solving: Solving, *, model: PosingModel | InterpolationModel | None
+    ) -> None:
+        """Solves the samples before `count` that are not.
+
+        The solves start from the reduced solutions of `model`, where there is one, and take half as
+        many iterations.
+        """
+        usual, judging = solving.usual, solving.judging(self.problem)
         parts = ((self._judges.start, usual), (self._judges.stop, judging), (count, usual))
         for end, chosen in parts:
             before = 0 if self._snapshots is None else len(self._snapshots)
@@ -118,21 +111,23 @@ class GrowingSamples:
                 self.problem,
                 wanted,
                 options=chosen,
-                threads=threads,
-                progress=progress,
-                checkpoint=batch_checkpoint(checkpoint, before, self.problem, wanted, chosen),
-                executor=executor,
+                threads=solving.threads,
+                progress=solving.counting(before, count),
+                checkpoint=batch_checkpoint(
+                    solving.checkpoint, before, self.problem, wanted, chosen
+                ),
+                executor=solving.executor,
                 known=self._starts(model, wanted),
             )
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
-            self._gram.add(list(solved.displacements), threads=threads or 0)
+            self._gram.add(list(solved.displacements), threads=solving.threads or 0)
 
     def _starts(
         self, model: PosingModel | InterpolationModel | None, parameters: FloatArray
     ) -> Snapshots | None:
         """What is solved, and what a model of it says of samples that are not."""
         if model is None:
-            return self._snapshots
+            return self._first_known if self._snapshots is None else self._snapshots
         shapes = reduced_solutions(model, parameters) + self.problem.base
         guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
         reports = [guess] * len(parameters)

@@ -30,6 +30,8 @@ class Plan:
     first_ratio : errors of reduced solutions over those of projections, before it is measured; too
         low a one costs models that miss the target
     most_dimensions : so that a frame of a drag takes up to a millisecond
+    impression, impression_dimension : loosely solved samples of a first impression, see
+        `growing_models`, and the dimension of its model
     most_vertices : of all samples together, where that is less than 640 and more than 160 samples:
         half a minute on two cores
     """
@@ -43,6 +45,8 @@ class Plan:
     held_out: int
     first_ratio: float
     most_dimensions: int
+    impression: int
+    impression_dimension: int
     most_vertices: int
 
 
@@ -57,6 +61,8 @@ BLENDS = Plan(
     held_out=12,
     first_ratio=8.0,
     most_dimensions=200,
+    impression=0,
+    impression_dimension=0,
     most_vertices=2_000_000,
 )
 #: Ratios of motions are 3 to 7.
@@ -70,6 +76,8 @@ MOTIONS = Plan(
     held_out=16,
     first_ratio=4.0,
     most_dimensions=160,
+    impression=36,
+    impression_dimension=28,
     most_vertices=6_000_000,
 )
 

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import click
 
-from ..accurate import MOTIONS, check_target
+from ..accurate import MOTIONS, check_budget, check_target
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import ENERGIES, Energy
-from .accurate_pipeline import chosen_build, decided_by_hand
+from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
@@ -44,6 +44,7 @@ DIMENSION = 40
     "--dimension, --energy-fraction, --sampling, --target-error, --energy, --tets is given, except "
     "for stvk.",
 )
+@budget_option
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
     "--energy",
@@ -72,6 +73,7 @@ def build(
     tets: int | None,
     repair: bool,
     accuracy: float,
+    budget: float | None,
     choices: Choices,
     threads: int | None,
     dask: str | None,
@@ -93,6 +95,7 @@ def build(
     begin = time.perf_counter()
     check_output(output)
     check_target(accuracy)
+    check_budget(budget)
     problem, surface, source = _read(problem_file, mesh, repair=repair)
     exact = problem.material.exact_degree == 4
     by_hand = decided_by_hand(exact=exact, others=("energy", "tets"))
@@ -112,6 +115,7 @@ def build(
         recipe,
         by_hand=by_hand,
         accuracy=accuracy,
+        budget=budget,
         seed=choices.seed,
         solver=choices.solver_options(),
     )

@@ -12,14 +12,14 @@ import click
 from rich import box
 from rich.table import Table
 
-from ..accurate import BLENDS, check_target
+from ..accurate import BLENDS, check_budget, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..material import MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
-from .accurate_pipeline import chosen_build, decided_by_hand
+from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build import check_output
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
@@ -99,6 +99,7 @@ SAMPLES, DIMENSION = 40, 30
     "--dimension, --energy-fraction, --sampling, --target-error, --extrapolation is given, except "
     "for stvk.",
 )
+@budget_option
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
 @click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
 @threads_option
@@ -118,6 +119,7 @@ def interpolate(
     lam: float,
     mu: float,
     accuracy: float,
+    budget: float | None,
     choices: Choices,
     repair: bool,
     threads: int | None,
@@ -152,6 +154,7 @@ def interpolate(
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
     check_target(accuracy)
+    check_budget(budget)
     by_hand = decided_by_hand(exact=material.exact_degree == 4, others=("extrapolation",))
     if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
         raise ValueError(
@@ -193,6 +196,7 @@ def interpolate(
         recipe,
         by_hand=by_hand,
         accuracy=accuracy,
+        budget=budget,
         seed=choices.seed,
         solver=choices.solver_options(),
     )

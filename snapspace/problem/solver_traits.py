@@ -73,8 +73,8 @@ def posing_traits(
     lower by that, against lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6 leaves live
     errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 they are 0.0135 and 0.0067 (d = 80).
 
-    36 loose samples of the Dragon, d = 16, make a model with the same live error as samples of a
-    tenth of the tolerance: 0.067 and 0.064 with stable neo-Hookean.
+    36 loose samples of the Dragon, d = 28, make a model with a live error of 0.048 (median, stable
+    neo-Hookean); with a loose tolerance of 1e-2 it is 0.060, and 3 % of the time are saved.
 
     Guesses may have inverted tets. Where their energy is infinite, samples start from the lowest of
     what is known.
@@ -87,7 +87,7 @@ def posing_traits(
     settles = material.exact_degree == 4
     return SolverTraits(
         tolerance=1e-5 if settles else 1e-7 * _shear_share(material),
-        loose_tolerance=1e-2,
+        loose_tolerance=1e-3,
         settling=1e-2 if settles else 0.0,
         patience=None,
         projection=_projection(material),

@@ -90,15 +90,15 @@ class Compute:
 
     Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
 
-    samples, dimension, seed : of the last model
+    target_error, most_samples, seed : as for `growing_models`; null: as many samples as usual
     stiffness : of the handles, as in a problem file
     material : kind of the material; null: that of the problem file, or the default one
     poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or of lam = mu
     """
 
     request: int
-    samples: int
-    dimension: int
+    target_error: float
+    most_samples: int | None = None
     seed: int
     stiffness: float
     material: str | None = None
@@ -160,7 +160,7 @@ class Workspace:
     up : axis that points up at first, x, y or z
     handles, translation, angle : chosen at first
     diagonal : of the mesh; 0 if there is none
-    samples, dimension, seed, stiffness, material, poisson : computed with unless the page asks
+    target_error, seed, stiffness, material, poisson : computed with unless the page asks for others
     materials : that can be chosen
     folder : where `Save` writes, for the reader
     upload_limit : bytes
@@ -175,8 +175,7 @@ class Workspace:
     translation: Vector
     angle: Vector
     diagonal: float
-    samples: int
-    dimension: int
+    target_error: float
     seed: int
     stiffness: float
     materials: tuple[MaterialChoice, ...]
@@ -203,7 +202,7 @@ class Progress:
     done, total : samples; 0 of 0 where nothing is counted
     seconds : since the work began
     eta : until the stage ends; null if not known
-    error : expected relative error of samples that were not solved for; null if not known
+    error : of the newest model, as there; null if not known yet
     """
 
     request: int
@@ -222,7 +221,7 @@ class Model:
     number : increases; that of the newest model is in its address
     address : of the packed model; it stays until two newer ones are there
     dimension, samples : of this model
-    error : expected relative error of samples that were not solved for; null if not known
+    error : relative error of motions that it is not made of, the median; null if not known yet
     seconds : since the computation began
     """
 

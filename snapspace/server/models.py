@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..problem import Problem
 from ..reduction import ReducedModel
 
 #: A page fetches a model while the next one may come.
@@ -37,12 +38,9 @@ class Models:
         """The last model; None before the first."""
         return self._kept[-1] if self._kept else None
 
-    def has_as_good(self, model: ReducedModel) -> bool:
-        """Whether the newest model is of the same problem and no smaller."""
-        newest = self.newest
-        if newest is None or newest.model.problem is not model.problem:
-            return False
-        return _size(newest.model) >= _size(model)
+    def is_of(self, problem: Problem) -> bool:
+        """Whether the newest model is of this problem."""
+        return self.newest is not None and self.newest.model.problem is problem
 
     def find(self, number: int) -> Kept | None:
         """A model by number; None if it is not there any more."""
@@ -51,7 +49,3 @@ class Models:
     def clear(self) -> None:
         """Lets go of all."""
         self._kept = ()
-
-
-def _size(model: ReducedModel) -> tuple[int, int]:
-    return model.dimension, len(model.training_parameters)

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from ..growing import Growth
+from ..accurate import MOTIONS, Growth
 from ..material import DEFAULT_MATERIAL
 from ..page import packed
 from ..reduction import ReducedModel
@@ -29,7 +29,6 @@ from .site import Site
 
 #: How long the end of stopped work is waited for: solvers ask between the parts of an iteration.
 STOP_SECONDS = 0.4
-SAMPLES, DIMENSION = 300, 40
 
 
 class Workspace:
@@ -146,9 +145,9 @@ class Workspace:
     def _compute(self, order: messages.Compute) -> None:
         bench, request = self._bench_now(), order.request
 
-        def publish(growth: Growth, error: float | None, seconds: float) -> None:
-            if self._models.has_as_good(growth.model) and not growth.final:
-                return  # computed again: what the page has is from the last time
+        def publish(growth: Growth, seconds: float) -> None:
+            if growth.step is None and self._models.is_of(growth.model.problem):
+                return  # computed again: what the page has is better than an impression
             content = packed(growth.model, name=bench.body.name, up=self._site.up)
             check_stop()
             number = self._models.add(growth.model, content)
@@ -159,7 +158,7 @@ class Workspace:
                     address=self._address("model", number),
                     dimension=growth.model.dimension,
                     samples=len(growth.snapshots),
-                    error=error,
+                    error=None if growth.step is None else growth.step.error,
                     final=growth.final,
                     seconds=seconds,
                 )
@@ -232,8 +231,7 @@ class Workspace:
             translation=(0.0, 0.0, 0.0),
             angle=(0.0, 0.0, 0.0),
             diagonal=0.0,
-            samples=SAMPLES,
-            dimension=DIMENSION,
+            target_error=MOTIONS.target,
             seed=0,
             stiffness=1000.0,
             materials=material_choices(),

@@ -63,7 +63,6 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "subspace",
     },
-    "growing": {"interruptible", "mesh", "problem", "snapshots", "subspace", "reduction"},
     "greedy": {
         "_core",
         "displacements",
@@ -104,8 +103,8 @@ ALLOWED: dict[str, set[str]] = {
     },
     "page": {"certificate", "mesh", "model_file", "reduction"},
     "server": {
+        "accurate",
         "filling",
-        "growing",
         "interruptible",
         "material",
         "mesh",
@@ -121,6 +120,7 @@ ALLOWED: dict[str, set[str]] = {
     "accurate": {
         "displacements",
         "greedy",
+        "interruptible",
         "mesh",
         "problem",
         "reduction",

@@ -45,12 +45,24 @@ def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...
     assert load(path).dimension == 6
 
 
+def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "m.snapspace"
+    words = ("--accuracy", 1e-6, "--budget", 0.01)
+    result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
+    told = " ".join(result.err.split())
+    assert "would take longer than the budget of 0.01 s" in told and "raise --budget" in told
+    record = load(path).provenance["accurate"]
+    assert not record["reached"] and record["step"]["samples"] == 96
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         (("--accuracy", 0), "must be positive and finite"),
         (("--accuracy", 0.01, "--samples", 24), "--accuracy chooses what --samples decides"),
         (("--accuracy", 0.01, "--tets", 24), "--accuracy chooses what --tets decides"),
+        (("--budget", 0), "the budget is 0.0 seconds, but it must be positive and finite"),
+        (("--budget", 9, "--dimension", 6), "--budget chooses what --dimension decides"),
     ],
 )
 def test_what_has_no_effect_is_refused(

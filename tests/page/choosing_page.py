@@ -79,8 +79,8 @@ def bar_with_ends(opened: OpenPage, address: str) -> Page:
     return page
 
 
-def set_number(page: Page, label: str, value: int) -> None:
-    """Types a number among the motions and samples."""
+def set_number(page: Page, label: str, value: float) -> None:
+    """Types a number among motions and accuracy."""
     field = page.page.get_by_label(label)
     if not field.is_visible():
         page.page.locator("summary").click()

@@ -58,8 +58,7 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     foot = vertices[sorted(chosen["foot"]), 0]
     assert foot.max() < 1.7 and len(foot) >= np.count_nonzero(vertices[:, 0] < 0.5)
 
-    set_number(page, "Samples", 40)
-    set_number(page, "Dimensions", 16)
+    set_number(page, "Samples, at most", 30)
     press(page, "Compute")
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Done in")

@@ -42,8 +42,8 @@ POLISH = m.Polish(
     [
         CHOOSE,
         POLISH,
-        m.Compute(request=1, samples=10, dimension=4, seed=0, stiffness=3.0, material="arap"),
-        m.Compute(request=1, samples=10, dimension=4, seed=0, stiffness=3.0, poisson=0.4),
+        m.Compute(request=1, target_error=0.1, seed=0, stiffness=3.0, material="arap"),
+        m.Compute(request=1, target_error=0.1, most_samples=30, seed=0, stiffness=3.0),
         m.Cancel(request=2),
         m.Save(request=2, name="a name"),
     ],

@@ -46,7 +46,8 @@ def choose(*parts: PartChoice) -> Choose:
 
 
 def compute(**options: object) -> Compute:
-    return replace(Compute(request=1, samples=8, dimension=4, seed=0, stiffness=50.0), **options)  # type: ignore[arg-type]
+    order = Compute(request=1, target_error=0.5, most_samples=20, seed=0, stiffness=50.0)
+    return replace(order, **options)  # type: ignore[arg-type]
 
 
 def bench_of(folder: Path, problem: PosingProblem | None = None) -> Bench:

@@ -13,7 +13,7 @@ from snapspace.mesh import compact_surface, write_surface
 
 from .running import Running
 
-ORDER = {"samples": 40, "dimension": 8, "seed": 0, "stiffness": 1000.0}
+ORDER = {"target_error": 0.5, "most_samples": 24, "seed": 0, "stiffness": 1000.0}
 
 
 @pytest.fixture(scope="module")

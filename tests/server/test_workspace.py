@@ -21,7 +21,7 @@ from snapspace.server.workspace import Workspace
 from ..shapes import bar_problem
 
 PATIENCE = 60.0
-ORDER = Compute(request=1, samples=12, dimension=4, seed=0, stiffness=100.0)
+ORDER = Compute(request=1, target_error=0.5, most_samples=20, seed=0, stiffness=100.0)
 
 
 class Mailbox:

@@ -69,7 +69,7 @@ export interface Choose {
  *
  * Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
  *
- * samples, dimension, seed : of the last model
+ * target_error, most_samples, seed : as for `growing_models`; null: as many samples as usual
  * stiffness : of the handles, as in a problem file
  * material : kind of the material; null: that of the problem file, or the default one
  * poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or of lam = mu
@@ -77,8 +77,8 @@ export interface Choose {
 export interface Compute {
   readonly type: "compute";
   readonly request: number;
-  readonly samples: number;
-  readonly dimension: number;
+  readonly target_error: number;
+  readonly most_samples?: number | null;
   readonly seed: number;
   readonly stiffness: number;
   readonly material?: string | null;
@@ -135,7 +135,7 @@ export interface Polish {
  * up : axis that points up at first, x, y or z
  * handles, translation, angle : chosen at first
  * diagonal : of the mesh; 0 if there is none
- * samples, dimension, seed, stiffness, material, poisson : computed with unless the page asks
+ * target_error, seed, stiffness, material, poisson : computed with unless the page asks for others
  * materials : that can be chosen
  * folder : where `Save` writes, for the reader
  * upload_limit : bytes
@@ -151,8 +151,7 @@ export interface Workspace {
   readonly translation: Vector;
   readonly angle: Vector;
   readonly diagonal: number;
-  readonly samples: number;
-  readonly dimension: number;
+  readonly target_error: number;
   readonly seed: number;
   readonly stiffness: number;
   readonly materials: readonly MaterialChoice[];
@@ -176,7 +175,7 @@ export interface Chosen {
  * done, total : samples; 0 of 0 where nothing is counted
  * seconds : since the work began
  * eta : until the stage ends; null if not known
- * error : expected relative error of samples that were not solved for; null if not known
+ * error : of the newest model, as there; null if not known yet
  */
 export interface Progress {
   readonly type: "progress";
@@ -194,7 +193,7 @@ export interface Progress {
  * number : increases; that of the newest model is in its address
  * address : of the packed model; it stays until two newer ones are there
  * dimension, samples : of this model
- * error : expected relative error of samples that were not solved for; null if not known
+ * error : relative error of motions that it is not made of, the median; null if not known yet
  * seconds : since the computation began
  */
 export interface Model {

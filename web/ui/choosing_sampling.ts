@@ -6,8 +6,10 @@ import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
 export interface Sampling {
   translation: Vector;
   angle: Vector;
-  samples: number;
-  dimension: number;
+  /** Of unseen motions, the median that is good enough. */
+  target_error: number;
+  /** Null: as many as usual. */
+  most_samples: number | null;
   seed: number;
   stiffness: number;
   material: string;
@@ -18,29 +20,31 @@ export interface Sampling {
 export type CommonRanges = () => Pick<Sampling, "translation" | "angle">;
 
 export function samplingOf(given: Workspace): Sampling {
-  const { translation, angle, samples, dimension, seed, stiffness, material } = given;
-  return { translation, angle, samples, dimension, seed, stiffness, material, poisson: null };
+  const { translation, angle, target_error, seed, stiffness, material } = given;
+  return { translation, angle, target_error, most_samples: null, seed, stiffness, material, poisson: null };
 }
 
-/** How far handles move, how many samples; folded under one line that tells it. Changes `sampling`. */
+/** How far handles move, how accurate the model is; folded under one line that tells it. Changes `sampling`. */
 export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement {
   const told = h("span", { className: "told" });
   const tell = () => {
     const percent = shareOf(diagonal).factor * Math.max(...sampling.translation);
     const degrees = DEGREES.factor * Math.max(...sampling.angle);
-    told.textContent = `±${percent.toFixed(0)} %, ±${degrees.toFixed(0)}°, ${sampling.samples} samples`;
+    const error = 100 * sampling.target_error;
+    told.textContent = `±${percent.toFixed(0)} %, ±${degrees.toFixed(0)}°, error ${Number(error.toPrecision(2))} %`;
   };
   tell();
   const number = (
     label: string,
-    limits: { min: number; max: number; step: number | "any" },
-    key: "samples" | "dimension" | "stiffness",
+    limits: Partial<HTMLInputElement>,
+    value: number | null,
+    take: (value: number | null) => void,
   ) => {
-    const input = h("input", { type: "number", required: true, ...limits });
-    input.value = String(Number(sampling[key].toPrecision(4)));
+    const input = h("input", { type: "number", required: value !== null, ...limits });
+    if (value !== null) input.value = String(Number(value.toPrecision(4)));
     input.addEventListener("input", () => {
       if (!input.validity.valid) return;
-      sampling[key] = input.valueAsNumber;
+      take(input.value === "" ? null : input.valueAsNumber);
       tell();
     });
     return h("label", { className: "field" }, h("span", {}, label), input);
@@ -50,7 +54,7 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
     tell();
   };
   return section(
-    "Motions and samples",
+    "Motions and accuracy",
     h(
       "details",
       {},
@@ -62,9 +66,24 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
       ),
       rangeFields(shareOf(diagonal), sampling.translation, set("translation")),
       rangeFields(DEGREES, sampling.angle, set("angle")),
-      number("Samples", { min: 8, max: 20_000, step: 1 }, "samples"),
-      number("Dimensions", { min: 1, max: 100, step: 1 }, "dimension"),
-      number("Handles' stiffness", { min: 1e-6, max: 1e9, step: "any" }, "stiffness"),
+      number(
+        "Error of unseen motions, %",
+        { min: "0.01", max: "50", step: "any" },
+        100 * sampling.target_error,
+        (value) => (sampling.target_error = value! / 100),
+      ),
+      number(
+        "Samples, at most",
+        { min: "20", max: "20000", step: "1", placeholder: "as many as it takes" },
+        sampling.most_samples,
+        (value) => (sampling.most_samples = value),
+      ),
+      number(
+        "Handles' stiffness",
+        { min: "1e-6", max: "1e9", step: "any" },
+        sampling.stiffness,
+        (value) => (sampling.stiffness = value!),
+      ),
     ),
   );
 }

@@ -84,7 +84,7 @@ export class ComputePanel {
 
   model({ samples, dimension, error, final, seconds }: Model): void {
     const parts = [`${samples} samples`, `${dimension} dimensions`];
-    if (error !== null) parts.push(`error ${percent(error)}`);
+    if (error !== null) parts.push(`unseen motions ${percent(error)} off`);
     const head = final ? `Done in ${duration(seconds)}` : "Ready to pose, and improving";
     this.#model.textContent = `${head}: ${parts.join(", ")}.`;
     this.#model.hidden = false;

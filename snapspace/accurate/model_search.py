@@ -1,0 +1,244 @@
+"""ModelSearch: more samples and dimensions until a model of some samples meets a target."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from ..interruptible import begin_abandonable
+from ..mesh import EmbeddedSurface
+from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import InterpolationModel, PosingModel, reduce, training_tolerance
+from ..snapshots import Snapshots, SolverOptions
+from ..subspace import snapshot_pca
+from ..validation import unseen_errors
+from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
+from .growing_samples import GrowingSamples
+from .plan import Plan, plan_of, usual_most_samples
+from .solving import Solving
+from .step import Step
+from .tries import Tries
+
+Model = PosingModel | InterpolationModel
+#: Gets a line for people.
+Tell = Callable[[str], None]
+#: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
+Begins = Callable[[str], None]
+
+#: Growth of the samples that train, from stage to stage.
+MORE_SAMPLES = 1.5
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A model that was tried, and its errors."""
+
+    step: Step
+    model: Model
+
+
+@dataclass(frozen=True, kw_only=True)
+class Aim:
+    """What is looked for; None stands for the default.
+
+    target_error, most_samples, budget, seed : as for `accurate_model`
+    """
+
+    target_error: float | None = None
+    most_samples: int | None = None
+    budget: float | None = None
+    seed: int = 0
+
+
+class ModelSearch:
+    """What `accurate_model` and `growing_models` do alike.
+
+    Parameters
+    ----------
+    problem : PosingProblem or InterpolationProblem
+    aim : Aim
+    solving : Solving
+    surface : as for `reduce`
+    tell, begins : callable
+
+    Raises
+    ------
+    ValueError
+        As for `accurate_model`.
+    """
+
+    def __init__(
+        self,
+        problem: PosingProblem | InterpolationProblem,
+        aim: Aim,
+        solving: Solving,
+        *,
+        surface: EmbeddedSurface | None = None,
+        tell: Tell | None = None,
+        begins: Begins | None = None,
+    ) -> None:
+        self._begin = time.perf_counter()
+        usual = plan_of(problem)
+        self.target = usual.target if aim.target_error is None else aim.target_error
+        self._most = usual_most_samples(problem) if aim.most_samples is None else aim.most_samples
+        check_target(self.target)
+        check_most(self._most)
+        check_budget(aim.budget)
+        self._budget = aim.budget
+        self._plan = _fitting(usual, self._most)
+        if solving.options is None:
+            tolerance = training_tolerance(problem, self._plan.most_dimensions)
+            solving = replace(solving, options=SolverOptions(tolerance=tolerance))
+        self._solving, self._surface = solving, surface
+        self._tell = tell or (lambda line: None)
+        self._begins = begins or (lambda part: None)
+        self.samples = GrowingSamples(
+            problem,
+            self._most,
+            method=self._plan.sampling,
+            seed=aim.seed,
+            first=self._plan.first,
+            held_out=self._plan.held_out,
+        )
+        self.steps: list[Step] = []
+        self.best: Trial | None = None
+        self._model_seconds = 0.0  # of the last model
+        self._finish_parts = begin_abandonable(lambda: _make_parts(problem))
+
+    @property
+    def seconds(self) -> float:
+        """Since the search began."""
+        return time.perf_counter() - self._begin
+
+    def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
+        """The loose samples of a first impression, where later solves begin; None if it has none.
+
+        known : where they start, as for `solve_snapshots`
+        """
+        count = min(self._plan.impression, self._plan.first)
+        self._begins("snapshots")
+        return self.samples.solve_loosely(count, self._solving, known=known) if count else None
+
+    def impression(self, loose: Snapshots) -> Model:
+        """The model of a first impression."""
+        return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
+
+    @property
+    def chosen(self) -> Trial:
+        """The best, once all trials are made; what was asked for and tried is in its provenance."""
+        best = self.best
+        assert best is not None  # the last stage tries one at least
+        record = {
+            "target_error": self.target,
+            "reached": best.step.error <= self.target,
+            "step": asdict(best.step),
+            "steps": [asdict(step) for step in self.steps],
+        }
+        provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
+        return replace(best, model=replace(best.model, provenance=provenance))
+
+    def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
+        """The models that are tried, and `best` is the one to take in the end.
+
+        one_a_stage : also a model of a stage that is known not to meet the target, for whoever
+            looks on. It does not count otherwise.
+        """
+        stages = _stages(self._plan, self._most)
+        for stage, count in enumerate(stages):
+            self._begins("snapshots")
+            self.samples.solve_up_to(
+                count, self._solving, model=self.best.model if self.best else None
+            )
+            last = count == self._most or self._is_too_late(count, stages[stage + 1])
+            # the least: where more dimensions do not help the ratio grows, and says nothing
+            ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
+            tries = Tries(self.samples, self._plan, self.target, ratio)
+            for dimension in tries.dimensions(last=last):
+                trial = self._try(count, dimension, tries)
+                self._tell(str(trial.step))
+                self.steps.append(trial.step)
+                tries.add(trial.step)
+                if self.best is None or trial.step.error < self.best.step.error:
+                    self.best = trial
+                yield trial
+            if last or (self.best is not None and self.best.step.error <= self.target):
+                break
+            if one_a_stage and not tries.steps:
+                yield self._try(count, tries.most, tries)
+            target = f"{100 * self.target:.2g} %"
+            self._tell(f"no dimension of {count} samples meets {target}: more samples")
+
+    def _try(self, count: int, dimension: int, tries: Tries) -> Trial:
+        begin = time.perf_counter()
+        model = self._model(self.samples.trained, dimension)
+        errors = unseen_errors(model, self.samples.unseen)
+        self._model_seconds = time.perf_counter() - begin
+        plan = self._plan
+        step = Step(
+            samples=count,
+            dimension=dimension,
+            projection=tries.projection(dimension),
+            error=plan.typical(errors),
+            mean=float(errors.mean()),
+            ninth=float(np.quantile(errors, 0.9)),
+            unseen=plan.unseen_name,
+            typical=plan.typical_name,
+        )
+        return Trial(step, model)
+
+    def _model(self, snapshots: Snapshots, dimension: int) -> Model:
+        self._begins("subspace")
+        self._finish_parts()
+        subspace = snapshot_pca(snapshots, dimension=dimension)
+        self._begins("energy")
+        threads = self._solving.threads
+        return reduce(
+            self.samples.problem,
+            subspace,
+            snapshots=snapshots,
+            surface=self._surface,
+            threads=threads,
+        )
+
+    def _is_too_late(self, count: int, following: int) -> bool:
+        """Whether the samples of the next stage and a model would end after the budget."""
+        if self._budget is None:
+            return False
+        wanted = self.seconds / count * (following - count) + self._model_seconds
+        if self.seconds + wanted <= self._budget:
+            return False
+        self._tell(
+            f"{following} samples would take longer than the budget of {self._budget:g} s: these "
+            f"{count} must do"
+        )
+        return True
+
+
+def _make_parts(problem: PosingProblem | InterpolationProblem) -> None:
+    """Makes what every stage needs beside the system, and what can be made without it."""
+    _ = problem.mesh.surface
+    if isinstance(problem, PosingProblem):  # others have the mass of the mean, a solution
+        problem.mass()
+
+
+def _fitting(plan: Plan, most: int) -> Plan:
+    """With fewer samples than the first stage has, both parts shrink alike."""
+    together = plan.first + plan.held_out
+    if most >= together:
+        return plan
+    held_out = max(FEWEST_HELD_OUT, plan.held_out * most // together)
+    return replace(plan, first=most - held_out, held_out=held_out)
+
+
+def _stages(plan: Plan, most: int) -> list[int]:
+    """Numbers of samples."""
+    training = float(plan.first)
+    stages = [plan.first + plan.held_out]
+    while stages[-1] < most:
+        training *= MORE_SAMPLES
+        stages.append(min(round(training) + plan.held_out, most))
+    return stages
