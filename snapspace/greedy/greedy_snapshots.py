@@ -95,8 +95,8 @@ def greedy_snapshots(
     Notes
     -----
     With the same number of samples it is some percent better or worse than the sequence itself, and
-    in the same time it is worse, see docs/benchmarks.md: PCA minimises a mean over the samples, and
-    for the mean over the domain those are best that are spread like the domain.
+    in the same time it is worse, see docs/notes/sampling.md: PCA minimises a mean over the samples,
+    and for the mean over the domain those are best that are spread like the domain.
     """
     _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
     check_target(target)
