@@ -11,7 +11,8 @@ FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 # Shares of pairs, triples and the inside, until every pair had its first point, and from then on.
-# They were chosen on three generated sets of poses and judged on others, see docs/notes/sampling.md.
+# They were chosen on three generated sets of poses and judged on others, see
+# docs/notes/sampling.md.
 _FIRST_SWEEP = (0.9, 0.0, 0.1)
 _AFTERWARDS = (0.2, 0.3, 0.5)
 _PAIR, _TRIPLE, _INSIDE = range(3)
