@@ -29,7 +29,9 @@ AXES = ("x", "y", "z")
 FloatArray = NDArray[np.float64]
 
 
-def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
+def packed(
+    model: ReducedModel, *, name: str, up: str = "z", before: PosingModel | None = None
+) -> bytes:
     """The model as the page reads it: surface only, modes in 16 bits, coefficients in single.
 
     Parameters
@@ -39,6 +41,8 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         Shown as the title.
     up : "x", "y" or "z", default "z"
         Axis that points up at first.
+    before : PosingModel, optional
+        Of the same body and handles: its shapes go over into those of a posing model.
 
     Returns
     -------
@@ -57,6 +61,8 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
         kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
+        if before is not None:
+            arrays["from_before"] = _carrying_over(before, model)
     elif isinstance(model, InterpolationModel):
         kind, arrays = "interpolation", _interpolation_arrays(model)
         about = {
@@ -80,6 +86,13 @@ def packed(model: ReducedModel, *, name: str, up: str = "z") -> bytes:
         "about": json.dumps(about, sort_keys=True),
     }
     return container_bytes(arrays | estimator_arrays(model), header)
+
+
+def _carrying_over(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
+    """What the modes (d', 3n) of a model are in those of another, (d, d'), by least squares in M."""
+    subspace = model.subspace
+    shapes = before.subspace.basis + subspace.tau[:, None]
+    return np.ascontiguousarray(subspace.coordinates(shapes), np.float32)
 
 
 def _posing_about(model: PosingModel) -> dict[str, Any]:

@@ -13,7 +13,7 @@ from pathlib import Path
 from ..accurate import MOTIONS, Growth
 from ..material import DEFAULT_MATERIAL
 from ..page import packed
-from ..reduction import ReducedModel
+from ..reduction import PosingModel, ReducedModel
 from ..stopping import check_stop
 from . import messages
 from .bench import Bench
@@ -148,7 +148,11 @@ class Workspace:
         def publish(growth: Growth, seconds: float) -> None:
             if growth.step is None and self._models.is_of(growth.model.problem):
                 return  # computed again: what the page has is better than an impression
-            content = packed(growth.model, name=bench.body.name, up=self._site.up)
+            newest = self._models.newest
+            before = newest.model if newest and self._models.is_of(growth.model.problem) else None
+            assert before is None or isinstance(before, PosingModel)
+            name, up = bench.body.name, self._site.up
+            content = packed(growth.model, name=name, up=up, before=before)
             check_stop()
             number = self._models.add(growth.model, content)
             self._tell(

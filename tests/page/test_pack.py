@@ -20,9 +20,11 @@ from snapspace.page.shape_space import quantised
 from .material_models import material_model
 
 
-def unpacked(model: ReducedModel, folder: Path) -> tuple[Arrays, dict[str, str]]:
+def unpacked(
+    model: ReducedModel, folder: Path, before: PosingModel | None = None
+) -> tuple[Arrays, dict[str, str]]:
     path = folder / "packed"
-    path.write_bytes(packed(model, name="a name"))
+    path.write_bytes(packed(model, name="a name", before=before))
     return read_container(path)
 
 
@@ -102,6 +104,19 @@ def test_the_bytes_are_the_same_and_small(posing_model: PosingModel) -> None:
     assert isinstance(elastic, Quartic)
     coefficients = 4 * elastic.coefficients.size
     assert len(content) < 6 * d * s + coefficients + 12 * s + 80_000
+
+
+def test_shapes_of_the_model_before_are_carried_over(
+    cubature_model: PosingModel, tmp_path: Path
+) -> None:
+    """Those of a smaller model are shapes of the larger one, and back they are the nearest ones."""
+    small = cubature_model.leading(5)
+    d = cubature_model.dimension
+    larger, _ = unpacked(cubature_model, tmp_path, before=small)
+    np.testing.assert_allclose(larger["from_before"], np.eye(d)[:, :5], atol=1e-6)
+    smaller, _ = unpacked(small, tmp_path, before=cubature_model)
+    np.testing.assert_allclose(smaller["from_before"], np.eye(d)[:5], atol=1e-6)
+    assert "from_before" not in unpacked(small, tmp_path)[0]
 
 
 def test_a_cubature_keeps_its_tets(cubature_model: PosingModel, tmp_path: Path) -> None:

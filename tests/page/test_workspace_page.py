@@ -55,6 +55,21 @@ def page(address: str, opened: OpenPage) -> Page:
     return bar_with_ends(opened, address)
 
 
+#: From picture to picture, how far the vertex that moves farthest has moved.
+RECORDING = """window.recorded = [];
+let last = snapspace.shown();
+const record = () => {
+    if (snapspace.kind !== "posing") return;
+    const now = snapspace.shown();
+    const step = now.reduce((most, x, i) => Math.max(most, Math.abs(x - last[i])), 0);
+    if (step > 0) window.recorded.push(step);
+    last = now;
+    requestAnimationFrame(record);
+};
+requestAnimationFrame(record);
+undefined"""
+
+
 def compute(page: Page, most_samples: int = 40, percent: float = 50.0) -> None:
     set_number(page, "Error of unseen motions, %", percent)
     set_number(page, "Samples, at most", most_samples)
@@ -77,7 +92,11 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     page.settle()
     before = page.motions()[1][1]
     assert np.linalg.norm(before) > 0.02
+    page.run(RECORDING)
     page.wait(f"snapspace.session.model.dimension > {first}")
+    page.page.wait_for_timeout(600)
+    steps = np.array(page.run("window.recorded"))
+    assert steps.max() < 0.8 * steps.sum(), "the better shape comes on the way, in no single jump"
     assert page.motions()[1][1] == before, "the drag went on where it was"
     mouse.move(x + 50, y - 40, steps=4)
     mouse.up()

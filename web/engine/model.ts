@@ -52,6 +52,8 @@ export interface PosingModel extends Common {
   readonly K: Float64Array<ArrayBuffer>;
   readonly L: Float64Array<ArrayBuffer>;
   readonly S: Float64Array<ArrayBuffer>;
+  /** The modes of the model before in this one, dimension x its dimension, where a server sent that one. */
+  readonly fromBefore: Float32Array<ArrayBuffer> | null;
 }
 
 /** The exact reduced energy, a polynomial. */

@@ -43,6 +43,7 @@ export function readPacked(container: Container): Model {
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),
       S: container.doubles("handle_S", count, 4, 4),
+      fromBefore: readFromBefore(container, dimension),
     };
   }
   if (container.header["kind"] !== "interpolation")
@@ -60,6 +61,11 @@ export function readPacked(container: Container): Model {
     sampleWeights: container.doubles("sample_weights", samples, poses.length),
     sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
   };
+}
+
+function readFromBefore(container: Container, dimension: number): Float32Array<ArrayBuffer> | null {
+  if (!container.has("from_before")) return null;
+  return container.floats("from_before", dimension, container.shape("from_before", 2)[1]);
 }
 
 interface Known {

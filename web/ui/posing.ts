@@ -8,6 +8,7 @@ import {
   type PosingSession,
 } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
+import { carriedOver, Fade } from "./fade.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
@@ -35,6 +36,8 @@ export class Posing {
   #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
   #history: History<Motion[]>;
+  /** From the shape of the model before. */
+  #fade: Fade | null = null;
 
   constructor(stage: Stage, session: PosingSession, surface: Surface) {
     this.stage = stage;
@@ -53,12 +56,19 @@ export class Posing {
     return this.#surface;
   }
 
-  /** Goes on with another model of the same handles: their motions, the selection and what was before stay. */
+  /** Goes on with another model of the same handles: their motions, the selection and what was before stay.
+   *
+   * The shape goes over into that of the model, if this knows the modes of the one before. */
   replace(session: PosingSession, surface: Surface): void {
-    const motions = this.motions;
+    const [motions, shown, { fromBefore }] = [this.motions, this.#shown, session.model];
     [this.#session, this.#surface] = [session, surface];
     this.#paint();
+    this.#fade = null;
     this.#approach(motions);
+    if (fromBefore?.length === session.q.length * shown.length) {
+      this.#fade = new Fade(carriedOver(fromBefore, shown), session.q);
+      this.#show();
+    }
     this.onChange();
   }
 
@@ -123,6 +133,19 @@ export class Posing {
     this.#solved(report);
   }
 
+  /** Shows the next step of the way from the model before; before each picture. */
+  advance(seconds: number): void {
+    if (!this.#fade) return;
+    this.#fade.advance(seconds);
+    if (this.#fade.isOver) this.#fade = null;
+    this.#show();
+  }
+
+  /** Whether more pictures are wanted, although nothing is asked for. */
+  get isOnTheWay(): boolean {
+    return this.#fade !== null;
+  }
+
   /** The end of a drag: a step of undo. */
   commit(): void {
     this.solveWishes();
@@ -183,8 +206,14 @@ export class Posing {
     this.stage.draw();
   }
 
+  /** Coordinates of the shape that is shown. */
+  get #shown(): Float64Array {
+    const { q } = this.session;
+    return this.#fade?.at(q) ?? q;
+  }
+
   #show(): void {
-    this.surface.show(this.session.q);
+    this.surface.show(this.#shown);
     const { rotation: R, shift: t } = this.session.carriedBy;
     const { matrix } = this.surface.object;
     matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);

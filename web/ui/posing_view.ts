@@ -105,13 +105,14 @@ export async function posingView(
   if (start.every((motion) => motion !== undefined)) posing.begin(start);
   stage.beforeFrame = (seconds) => {
     posing.solveWishes();
+    posing.advance(seconds);
     polishing?.advance();
     look.legend.look();
     hud.frame(seconds);
     readout.advance();
   };
   stage.afterFrame = () => {
-    if (polishing?.isOnTheWay) stage.draw();
+    if (posing.isOnTheWay || polishing?.isOnTheWay) stage.draw();
   };
 
   const polish = toggle(
