@@ -89,7 +89,7 @@ def packed(
 
 
 def _carrying_over(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
-    """What the modes (d', 3n) of a model are in those of another, (d, d'), by least squares in M."""
+    """What d' modes of a model are in those of another, (d, d'): the nearest in the M-norm."""
     subspace = model.subspace
     shapes = before.subspace.basis + subspace.tau[:, None]
     return np.ascontiguousarray(subspace.coordinates(shapes), np.float32)

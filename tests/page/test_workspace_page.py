@@ -67,7 +67,7 @@ const record = () => {
     requestAnimationFrame(record);
 };
 requestAnimationFrame(record);
-undefined"""
+snapspace.session.model.dimension"""
 
 
 def compute(page: Page, most_samples: int = 40, percent: float = 50.0) -> None:
@@ -80,10 +80,9 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=120, percent=0.01)
+    compute(page, most_samples=250, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
-    first = page.run("snapspace.session.model.dimension")
     x, y = page.run("snapspace.handle(1)")
     mouse = page.page.mouse
     mouse.move(x, y)
@@ -92,7 +91,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     page.settle()
     before = page.motions()[1][1]
     assert np.linalg.norm(before) > 0.02
-    page.run(RECORDING)
+    first = page.run(RECORDING)
     page.wait(f"snapspace.session.model.dimension > {first}")
     page.page.wait_for_timeout(600)
     steps = np.array(page.run("window.recorded"))
@@ -112,7 +111,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     np.testing.assert_allclose(problem.domain.half_widths[3:], np.deg2rad(30.0))
     model = load(folder / "bar.snapspace")
     assert isinstance(model, PosingModel) and model.dimension > first
-    assert model.provenance["accurate"]["step"]["samples"] == 120
+    assert model.provenance["accurate"]["step"]["samples"] == 250
     press(page, "Polish")  # off: the live shape
     assert_shown(model, page)
 
