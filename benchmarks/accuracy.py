@@ -37,7 +37,7 @@ def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
     body = common.with_material(problems.read(name), KIND)
     begin = time.perf_counter()
     built = ss.accurate_model(
-        body, target_error=args.accuracy, tell=lambda line: print(name, line, file=sys.stderr)
+        body, target_error=args.target_error, tell=lambda line: print(name, line, file=sys.stderr)
     )
     seconds = time.perf_counter() - begin
     fresh = common.with_material(problems.read(name), KIND)  # nothing of it is computed yet
@@ -86,7 +86,7 @@ def main() -> None:
     parser.add_argument(
         "--problem", nargs="+", choices=problems.NAMES, default=list(problems.NAMES)
     )
-    parser.add_argument("--accuracy", type=float, help="as of `snapspace build`")
+    parser.add_argument("--target-error", type=float, help="as of `snapspace build`")
     parser.add_argument("--validate", type=int, default=30, help="unseen motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -29,7 +29,6 @@ DECIDING = (
     "dimension",
     "energy_fraction",
     "sampling",
-    "target_error",
     "no_scramble",
     "solver",
     "lumped",
@@ -41,8 +40,8 @@ budget_option = click.option(
     "--budget",
     type=float,
     metavar="SECONDS",
-    help="With --accuracy: samples that would probably take longer are not solved. The first 96 "
-    "samples, 44 of blends, always are. The model then depends on the machine's speed.",
+    help="With --target-error: samples that would probably take longer are not solved. The first "
+    "96, of blends 44, always are. The model then depends on the machine's speed.",
 )
 
 
@@ -57,7 +56,7 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
     Raises
     ------
     ValueError
-        If --accuracy or --budget is given as well, which would be of no effect.
+        If --target-error or --budget is given as well, which would be of no effect.
     """
     context = click.get_current_context()
     given = {
@@ -66,7 +65,7 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
         if context.get_parameter_source(option.name or "") is click.core.ParameterSource.COMMANDLINE
     }
     deciding = [given[name] for name in (*DECIDING, *others) if name in given]
-    chooses = next((given[name] for name in ("accuracy", "budget") if name in given), None)
+    chooses = next((given[name] for name in ("target_error", "budget") if name in given), None)
     if chooses and deciding:
         raise ValueError(f"{chooses} chooses what {deciding[0]} decides; leave one of them out")
     if chooses and exact:
@@ -104,7 +103,7 @@ def chosen_build(
     recipe: Recipe,
     *,
     by_hand: bool,
-    accuracy: float,
+    target_error: float,
     budget: float | None = None,
     seed: int,
     solver: SolverOptions,
@@ -113,7 +112,7 @@ def chosen_build(
     if by_hand:
         return partial(build_model, problem, recipe)
     accurate = AccurateRecipe(
-        target_error=accuracy, budget=budget, seed=seed, solver=solver, threads=recipe.threads
+        target_error=target_error, budget=budget, seed=seed, solver=solver, threads=recipe.threads
     )
     return partial(build_accurate_model, problem, accurate)
 
@@ -177,6 +176,6 @@ def _tell_outcome(built: AccurateModel, budget: float | None) -> None:
         more = "raise --budget"
     notice(
         f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {step.typical}, "
-        f"more than the {100 * built.target:.2g} % of --accuracy; it takes more than "
+        f"more than the {100 * built.target:.2g} % of --target-error; it takes more than "
         f"{len(built.snapshots)} samples or {built.model.dimension} dimensions: {more}, or {cure}"
     )

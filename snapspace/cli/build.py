@@ -35,13 +35,13 @@ DIMENSION = 40
     "-o", "--output", type=FILE, required=True, metavar="M.snapspace", help="Model file to write."
 )
 @click.option(
-    "--accuracy",
+    "--target-error",
     type=float,
     default=MOTIONS.target,
     show_default=True,
     metavar="SHARE",
     help="Median error of unseen motions. Decides samples and dimension where none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --target-error, --energy, --tets is given, except "
+    "--dimension, --energy-fraction, --sampling, --energy, --tets is given, except "
     "for stvk.",
 )
 @budget_option
@@ -72,7 +72,7 @@ def build(
     energy: Energy,
     tets: int | None,
     repair: bool,
-    accuracy: float,
+    target_error: float,
     budget: float | None,
     choices: Choices,
     threads: int | None,
@@ -82,7 +82,7 @@ def build(
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
     Samples and dimension follow from the error of motions that the model was not made of, see
-    --accuracy, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C
+    --target-error, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C
     keeps the finished samples beside the model; the same command resumes from there.
 
     \b
@@ -94,7 +94,7 @@ def build(
     """
     begin = time.perf_counter()
     check_output(output)
-    check_target(accuracy)
+    check_target(target_error)
     check_budget(budget)
     problem, surface, source = _read(problem_file, mesh, repair=repair)
     exact = problem.material.exact_degree == 4
@@ -114,7 +114,7 @@ def build(
         problem,
         recipe,
         by_hand=by_hand,
-        accuracy=accuracy,
+        target_error=target_error,
         budget=budget,
         seed=choices.seed,
         solver=choices.solver_options(),

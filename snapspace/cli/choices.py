@@ -9,7 +9,6 @@ from typing import Any, Literal
 
 import click
 
-from ..greedy import CANDIDATES, check_target
 from ..problem import Projection
 from ..sampling import ANYWHERE, METHODS, BlendDomain, Domain, Method, sample
 from ..snapshots import PROJECTIONS, SOLVERS, SolverOptions
@@ -22,7 +21,7 @@ Sampling = Method | Literal["greedy"]
 #: Of handle motions, and of weights of poses.
 MOTION_SAMPLINGS: tuple[Sampling, ...] = (*ANYWHERE, "greedy")
 WEIGHT_SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
-# The fewest poses whose uniform blends say little about blends of two, see docs/benchmarks.md.
+# The fewest poses whose uniform blends say little about blends of two, see docs/notes/sampling.md.
 _MANY_POSES = 5
 
 
@@ -34,7 +33,6 @@ class Choices:
     dimension: int | None
     energy_fraction: float | None
     sampling: Sampling | None
-    target_error: float | None
     no_scramble: bool
     seed: int
     solver: Solver
@@ -102,12 +100,10 @@ class Choices:
         if domain.dimension == 1:
             return "grid"  # in one dimension even spacing beats all other ways
         many = isinstance(domain, BlendDomain) and domain.dimension + 1 >= _MANY_POSES
-        # a target ends the samples anywhere, and greedy sampling counts on uniform ones
-        return "blends" if many and self.target_error is None else "sobol"
+        return "blends" if many else "sobol"
 
     def _samples(self, domain: Domain, method: Sampling, dimension: int) -> Samples:
-        check_target(self.target_error)
-        if method != "greedy" and self.target_error is None:
+        if method != "greedy":
             parameters = sample(
                 domain,
                 self.samples,
@@ -116,19 +112,10 @@ class Choices:
                 scramble=not self.no_scramble,
             )
             return GivenSamples(parameters)
-        if method not in ("greedy", "sobol"):
-            raise ValueError(
-                f"--target-error needs samples that can end anywhere: --sampling sobol or greedy, "
-                f"not {method}"
-            )
         if self.no_scramble:
-            raise ValueError("--no-scramble is for sobol samples without --target-error")
+            raise ValueError("--no-scramble is for sobol samples, not for --sampling greedy")
         return ChosenSamples(
-            count=self.samples,
-            seed=self.seed,
-            candidates=CANDIDATES if method == "greedy" else 1,
-            dimension=self.dimension or dimension,
-            target=self.target_error,
+            count=self.samples, seed=self.seed, dimension=self.dimension or dimension
         )
 
 
@@ -165,13 +152,13 @@ def _options(
             "--samples",
             type=click.IntRange(min=1),
             default=samples,
-            show_default=f"--accuracy decides; {samples} with other choices",
+            show_default=f"--target-error decides; {samples} with other choices",
             help="Number of snapshots. A grid takes the most that fill its axes evenly.",
         ),
         click.option(
             "--dimension",
             type=click.IntRange(min=1),
-            help="Modes of the subspace [default: --accuracy decides; "
+            help="Modes of the subspace [default: --target-error decides; "
             f"{dimension} with other choices].",
         ),
         click.option(
@@ -185,13 +172,6 @@ def _options(
             default=sampling,
             show_default=sampling or "grid for two poses, blends for five and more, else sobol",
             help=_sampling_help(samplings),
-        ),
-        click.option(
-            "--target-error",
-            type=float,
-            metavar="SHARE",
-            help="End before --samples once new ones are within this share of the subspace of "
-            "those before, such as 0.01. For sobol and greedy.",
         ),
         click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence."),
         click.option(

@@ -111,7 +111,7 @@ def demo(
         problem,
         recipe,
         by_hand=decided_by_hand(),
-        accuracy=MOTIONS.target,
+        target_error=MOTIONS.target,
         seed=seed,
         solver=recipe.solver,
     )
@@ -151,7 +151,7 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
     head = ["--handle", "head", "--euler", "0,-30,20", "--translate", "0.1,0,0.1"]
     tail = ["--handle", "tail", "--euler", "-35,0,20", "--translate", "0,-0.3,0"]
     outputs = ["-o", str(folder / "mine.obj"), "--png", str(folder / "mine.png")]
-    finer = ["--accuracy", "0.002", "-o", str(folder / "finer.snapspace")]
+    finer = ["--target-error", "0.002", "-o", str(folder / "finer.snapspace")]
     return [
         ("drag it in the browser", ["view", model]),
         ("a pose of your own", ["pose", model, *head, *tail, *outputs]),

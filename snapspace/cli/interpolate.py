@@ -90,13 +90,13 @@ SAMPLES, DIMENSION = 40, 30
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
 @click.option(
-    "--accuracy",
+    "--target-error",
     type=float,
     default=BLENDS.target,
     show_default=True,
     metavar="SHARE",
     help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --target-error, --extrapolation is given, except "
+    "--dimension, --energy-fraction, --sampling, --extrapolation is given, except "
     "for stvk.",
 )
 @budget_option
@@ -118,7 +118,7 @@ def interpolate(
     kind: str,
     lam: float,
     mu: float,
-    accuracy: float,
+    target_error: float,
     budget: float | None,
     choices: Choices,
     repair: bool,
@@ -133,7 +133,7 @@ def interpolate(
     own. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
 
     Samples and dimension follow from the error of blends that the model was not made of, see
-    --accuracy, unless you give them.
+    --target-error, unless you give them.
 
     Ctrl-C keeps finished poses and samples beside the model; the same command goes on from there.
 
@@ -153,7 +153,7 @@ def interpolate(
     material = material_class(kind).from_lame(lam=lam, mu=mu)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
-    check_target(accuracy)
+    check_target(target_error)
     check_budget(budget)
     by_hand = decided_by_hand(exact=material.exact_degree == 4, others=("extrapolation",))
     if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
@@ -195,7 +195,7 @@ def interpolate(
         problem,
         recipe,
         by_hand=by_hand,
-        accuracy=accuracy,
+        target_error=target_error,
         budget=budget,
         seed=choices.seed,
         solver=choices.solver_options(),

@@ -9,19 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..greedy import BATCH, finished_samples, greedy_key, greedy_snapshots
+from ..greedy import BATCH, CANDIDATES, finished_samples, greedy_key, greedy_snapshots
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import (
     Checkpoint,
     Progress,
     Snapshots,
-    SolveProgress,
     SolverOptions,
     run_key,
     solve_snapshots,
     solver_key,
 )
-from .console import notice
 
 
 @dataclass(frozen=True)
@@ -70,17 +68,15 @@ class GivenSamples:
 
 @dataclass(frozen=True, kw_only=True)
 class ChosenSamples:
-    """Samples in batches, until the target is reached; as for `greedy_snapshots`."""
+    """Samples in batches, where the model so far is worst; as for `greedy_snapshots`."""
 
     count: int
     seed: int
-    candidates: int
     dimension: int
-    target: float | None
 
     def key(self, problem: PosingProblem | InterpolationProblem, options: SolverOptions) -> str:
         """Hash of what the choice and its solutions depend on."""
-        return greedy_key(problem, options, seed=self.seed, batch=BATCH, candidates=self.candidates)
+        return greedy_key(problem, options, seed=self.seed, batch=BATCH, candidates=CANDIDATES)
 
     def finished(self, checkpoint: Checkpoint) -> int:
         """How many are saved."""
@@ -96,45 +92,21 @@ class ChosenSamples:
         checkpoint: Checkpoint,
         executor: Executor | None,
     ) -> Snapshots:
-        """As `greedy_snapshots`, with a line that says whether the target was reached."""
-        error: float | None = None
-
-        def told(state: SolveProgress) -> None:
-            nonlocal error
-            error = state.held_out_error
-            progress(state)
-
-        snapshots = greedy_snapshots(
+        """As `greedy_snapshots`."""
+        return greedy_snapshots(
             problem,
             self.count,
-            target=self.target,
             dimension=self.dimension,
-            candidates=self.candidates,
             seed=self.seed,
             options=options,
             threads=threads,
-            progress=told,
+            progress=progress,
             checkpoint=checkpoint,
             executor=executor,
         )
-        if self.target is not None:
-            notice(_outcome(self.target, error, len(snapshots)))
-        return snapshots
 
 
 Samples = GivenSamples | ChosenSamples
-
-
-def _outcome(target: float, error: float | None, samples: int) -> str:
-    if error is None:
-        return f"notice: {samples} samples are one batch, so there are none to test the target with"
-    last = f"the last samples are within {100 * error:.2g} % of the subspace of those before"
-    if error < target:
-        return f"{samples} samples reach the target: {last}"
-    return (
-        f"notice: {samples} samples do not reach the target of {100 * target:.2g} %: {last}; raise "
-        "--samples or --dimension"
-    )
 
 
 def sampling_record(
@@ -148,9 +120,5 @@ def sampling_record(
         "scramble": scramble,
     }
     if isinstance(samples, ChosenSamples):
-        record |= {
-            "batch": BATCH,
-            "candidates": samples.candidates,
-            "target_error": samples.target,
-        }
+        record |= {"batch": BATCH, "candidates": CANDIDATES}
     return record

@@ -24,7 +24,7 @@ def neo_hookean(folder: Path) -> Path:
 
 def test_it_says_what_it_tried_and_what_came_of_it(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
-    result = run("build", "--problem", neo_hookean(tmp_path), "--accuracy", 0.05, "-o", path)
+    result = run("build", "--problem", neo_hookean(tmp_path), "--target-error", 0.05, "-o", path)
     assert "error of unseen motions" in result.err
     record = load(path).provenance["accurate"]
     assert record["reached"] and record["step"]["error"] <= record["target_error"] == 0.05
@@ -47,7 +47,7 @@ def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...
 
 def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
-    words = ("--accuracy", 1e-6, "--budget", 0.01)
+    words = ("--target-error", 1e-6, "--budget", 0.01)
     result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
     told = " ".join(result.err.split())
     assert "would take longer than the budget of 0.01 s" in told and "raise --budget" in told
@@ -58,9 +58,12 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--accuracy", 0), "must be positive and finite"),
-        (("--accuracy", 0.01, "--samples", 24), "--accuracy chooses what --samples decides"),
-        (("--accuracy", 0.01, "--tets", 24), "--accuracy chooses what --tets decides"),
+        (("--target-error", 0), "must be positive and finite"),
+        (
+            ("--target-error", 0.01, "--samples", 24),
+            "--target-error chooses what --samples decides",
+        ),
+        (("--target-error", 0.01, "--tets", 24), "--target-error chooses what --tets decides"),
         (("--budget", 0), "the budget is 0.0 seconds, but it must be positive and finite"),
         (("--budget", 9, "--dimension", 6), "--budget chooses what --dimension decides"),
     ],
@@ -79,5 +82,5 @@ def test_the_papers_material_has_no_accuracy_to_ask_for(run: Run, tmp_path: Path
     problem = json.loads(file.read_text())
     problem["material"] = {"model": "stvk", "lam": 1.0, "mu": 1.0}
     file.write_text(json.dumps(problem))
-    result = run("build", "--problem", file, "--accuracy", 0.01, "-o", tmp_path / "m.snapspace")
+    result = run("build", "--problem", file, "--target-error", 0.01, "-o", tmp_path / "m.snapspace")
     assert result.code == 2 and "not for St.Venant-Kirchhoff" in " ".join(result.err.split())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -31,30 +30,10 @@ def test_a_greedy_build_has_the_samples_of_the_library_and_says_so(
         "scramble": True,
         "batch": 32,
         "candidates": 3,
-        "target_error": None,
     }
     wanted = greedy_snapshots(read_problem(problem), 70, seed=4)
     assert (model.training_parameters == wanted.parameters).all()
     assert not list(tmp_path.glob("*.partial-*"))
-
-
-@pytest.mark.parametrize("method", ["sobol", "greedy"])
-def test_a_build_ends_at_its_target(run: Run, tmp_path: Path, method: str) -> None:
-    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
-    words = ("build", "--problem", problem, *SIZE, "--sampling", method, "-o", path)
-    result = run(*words, "--target-error", 0.9, "--json")
-    assert result.json["samples"] == 64
-    assert re.search(r"64 samples reach the target: the last samples are within \d", result.err)
-    assert load(path).provenance["sampling"]["target_error"] == 0.9
-
-    result = run(*words, "--target-error", 1e-6, "--json")
-    assert result.json["samples"] == 70
-    assert "70 samples do not reach the target of 0.0001 %" in result.err
-    few = run("build", "--problem", problem, "--samples", 9, *SIZE[2:], *words[-4:], *TARGET)
-    assert "9 samples are one batch, so there are none to test the target with" in few.err
-
-
-TARGET = ("--target-error", 0.1)
 
 
 def test_poses_are_blended_from_greedy_samples(run: Run, tmp_path: Path) -> None:
@@ -88,11 +67,7 @@ def test_an_interrupted_greedy_build_goes_on_to_the_same_model(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--sampling", "random", *TARGET), "--target-error needs samples that can end anywhere"),
-        (("--sampling", "grid", *TARGET), "--target-error needs samples that can end anywhere"),
         (("--sampling", "greedy", "--no-scramble"), "--no-scramble is for sobol samples"),
-        (("--target-error", "nan"), "the target error is nan, but it must be between 0 and 1"),
-        (("--target-error", "2"), "the target error is 2.0, but it must be between 0 and 1"),
     ],
 )
 def test_choices_that_do_not_fit_are_refused_before_the_work(

@@ -25,8 +25,8 @@ def test_it_says_what_it_tried_and_keeps_the_record(run: Run, tmp_path: Path) ->
 
 def test_a_target_that_is_not_met_is_said(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
-    result = run("interpolate", *write_tet_poses(tmp_path), "--accuracy", 1e-12, "-o", path)
-    assert "unseen blends are" in result.err and "of --accuracy" in result.err
+    result = run("interpolate", *write_tet_poses(tmp_path), "--target-error", 1e-12, "-o", path)
+    assert "unseen blends are" in result.err and "of --target-error" in result.err
     assert not load(path).provenance["accurate"]["reached"]
 
 
@@ -42,7 +42,7 @@ def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...
 
 @pytest.mark.parametrize("share", ["0", "-1", "nan"])
 def test_an_accuracy_must_be_positive(run: Run, tmp_path: Path, share: str) -> None:
-    words = ("--accuracy", share, "-o", tmp_path / "m.snapspace")
+    words = ("--target-error", share, "-o", tmp_path / "m.snapspace")
     result = run("interpolate", *write_tet_poses(tmp_path), *words)
     assert result.code == 2
     assert "must be positive and finite" in result.err

@@ -51,17 +51,6 @@ def test_the_method_follows_the_number_of_poses(
     np.testing.assert_array_equal(model.training_parameters[:12], wanted)
 
 
-def test_a_target_takes_uniform_samples(run: Run, tmp_path: Path) -> None:
-    model = built(run, tmp_path, 5, "--target-error", 0.5)
-    assert model.provenance["sampling"]["method"] == "sobol"
-
-
-def test_blends_do_not_end_at_a_target(run: Run, tmp_path: Path) -> None:
-    words = ("--sampling", "blends", "--target-error", 0.1, "-o", tmp_path / "m.snapspace")
-    result = run("interpolate", *write_lizards(tmp_path, 3), *SMALL, *words)
-    assert "--target-error needs samples that can end anywhere" in result.error
-
-
 def test_handle_motions_are_not_blended(run: Run, tmp_path: Path) -> None:
     words = ("--sampling", "blends", "-o", tmp_path / "m.snapspace")
     result = run("build", "--problem", tmp_path / "none.json", *words)
