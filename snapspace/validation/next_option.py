@@ -1,0 +1,112 @@
+"""next_option: what to build next for a smaller error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+from ..problem import InterpolationProblem
+from ..reduction import (
+    BlendedCubature,
+    Cubature,
+    InterpolationModel,
+    PosingModel,
+    ReducedModel,
+    default_blended_tets,
+    default_tets,
+)
+from .error_split import ErrorSplit, Part
+
+#: An error of more than so many projection errors is worth an advice: motions of default models
+#: have three to seven, blends two to fourteen.
+FACTOR = 3.0
+#: Growth of tets and of samples, and of the dimension.
+MORE, LARGER = 2.0, 1.5
+
+
+@dataclass(frozen=True)
+class NextOption:
+    """The part of a model's error that is largest, and what to build next for it.
+
+    part : "subspace", "stiffness" or "cubature", see `ErrorSplit`
+    samples, dimension : those of the model where only its tets are too few, else larger ones
+    tets : of a cubature; None for an exact energy, and for the default of `reduce`
+    blends : whether it is a model of poses
+    """
+
+    part: Part
+    samples: int
+    dimension: int
+    tets: int | None
+    blends: bool
+
+    @property
+    def reason(self) -> str:
+        """What the largest part means, for people."""
+        return {
+            "subspace": "the subspace does not hold the shapes",
+            "stiffness": "the subspace is too stiff: it cannot relax as the full mesh does",
+            "cubature": "the tets of the cubature are too few",
+        }[self.part]
+
+    @property
+    def python(self) -> str:
+        """The calls that build it, for a problem and a model at hand."""
+        method = ', method="blends"' if self.blends else ""
+        tets = "" if self.tets is None else f", tets={self.tets}"
+        energy = "" if self.tets is None else ', energy="cubature"'
+        return (
+            f"parameters = sample(problem.domain, {self.samples}{method}); "
+            "snapshots = solve_snapshots(problem, parameters); "
+            f"model = reduce(problem, snapshot_pca(snapshots, dimension={self.dimension}), "
+            f"snapshots=snapshots{energy}{tets})"
+        )
+
+
+def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
+    """The option that the largest part of the error asks for.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    split : ErrorSplit of this model
+
+    Returns
+    -------
+    NextOption
+        For the cubature, twice as many tets, at least as many as `reduce` takes by default, with
+        the same samples and dimension. Otherwise a dimension larger by half, from twice as many
+        samples, and at least two for each mode: a larger subspace of the same samples would fit
+        these alone.
+    """
+    blends, tets = isinstance(model.problem, InterpolationProblem), _tets(model)
+    solved = max(_solved(model), model.dimension)
+    part = split.largest
+    if part == "cubature" and tets is not None:
+        usual = default_blended_tets if blends else default_tets
+        most = len(model.problem.mesh.tets)
+        wanted = min(max(ceil(MORE * tets), usual(model.dimension)), most)
+        return NextOption(part, solved, model.dimension, wanted, blends)
+    dimension = ceil(LARGER * model.dimension)
+    samples = max(ceil(MORE * solved), 2 * dimension)
+    return NextOption(part, samples, dimension, None, blends)
+
+
+def needs_advice(error: float, projection: float) -> bool:
+    """Whether a median error is more than three times that of the projections."""
+    return bool(error > FACTOR * projection)
+
+
+def _solved(model: ReducedModel) -> int:
+    """Samples that were solved for the model: those known beforehand do not count."""
+    known = len(model.problem.poses) if isinstance(model.problem, InterpolationProblem) else 0
+    return max(len(model.training_parameters) - known, 0)
+
+
+def _tets(model: ReducedModel) -> int | None:
+    """Of the cubature; None for an exact energy."""
+    if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
+        return len(model.elastic.tets)
+    if isinstance(model, InterpolationModel) and isinstance(model.blends, BlendedCubature):
+        return len(model.blends.tets)
+    return None
