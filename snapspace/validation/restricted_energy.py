@@ -18,7 +18,8 @@ STEP = 1e-4
 #: A minimiser is found when twice the decrease still predicted is below this share of the energy's
 #: scale: its square root, 1e-6, is far below the errors of any model.
 TOLERANCE = 1e-12
-MOST_STEPS = 60
+#: Blends without handles have soft directions: those of the helix at d = 70 take hundreds of steps.
+MOST_STEPS = 2000
 #: Curvatures are raised to this share of the largest.
 LEAST_CURVATURE = 1e-10
 #: Sufficient decrease, and how often a step is halved (Nocedal & Wright, 3.1).
