@@ -18,8 +18,6 @@ Model = PosingModel | InterpolationModel
 
 #: The error that is aimed at, relative to the present one.
 BETTER = 0.5
-#: Dimensions up to which quartics are exact, if that is asked for.
-EXACT = 60
 _DECIDING = {f"--{name.replace('_', '-')}" for name in (*DECIDING, "energy", "tets")}
 
 
@@ -79,7 +77,8 @@ def _options(
     option: NextOption, model: Model, error: float, given: dict[str, Any]
 ) -> dict[str, Any]:
     """The options of the model with those that the advice changes."""
-    tets = "--cubature-tets" if option.blends else "--tets"
+    blends = isinstance(model, InterpolationModel)
+    tets = "--cubature-tets" if blends else "--tets"
     if option.part == "cubature":
         given.pop("--accuracy", None)
         if not _DECIDING & given.keys():
@@ -92,8 +91,7 @@ def _options(
         return {**kept, "--accuracy": _target(model, error)}
     for name in ("--energy-fraction", "--target-error", "--accuracy"):
         given.pop(name, None)
-    exact = model.problem.material.exact_degree == 4 and not option.blends
-    if exact and option.tets is None and option.dimension <= EXACT:
+    if option.energy == "exact" and not blends:
         given["--energy"] = "exact"
     return {**given, "--samples": option.samples, "--dimension": option.dimension}
 

@@ -105,7 +105,10 @@ def validate(
         save_snapshots(validation.reference, save_reference)
         notice(f"{save_reference}: {len(validation.reference)} full solutions")
     curve = _curve(model, validation.reference, plot)
-    split, found = _split(model, validation, model_file, asked=with_split, threads=threads)
+    fewer = dimension is not None and dimension < load_leading(model_file, None).dimension
+    split, found = _split(
+        model, validation, model_file, asked=with_split, fewer=fewer, threads=threads
+    )
     if as_json:
         print_json(
             {
@@ -148,9 +151,18 @@ def _curve(model: Model, reference: Snapshots, plot: Path | None) -> ErrorCurve 
 
 
 def _split(
-    model: Model, validation: Validation, file: Path, *, asked: bool, threads: int | None
+    model: Model,
+    validation: Validation,
+    file: Path,
+    *,
+    asked: bool,
+    fewer: bool,
+    threads: int | None,
 ) -> tuple[ErrorSplit | None, Advice | None]:
-    """The parts of the error if they are asked for, or if an advice needs them; and that."""
+    """The parts of the error if they are asked for, or if an advice needs them; and that.
+
+    `fewer` tells that the file has more modes than the model.
+    """
     error, least = (float(np.median(e)) for e in (validation.error, validation.projection_error))
     needed = needs_advice(error, least)
     if not (asked or needed):
@@ -161,6 +173,9 @@ def _split(
     if not needed or split is None:
         return split, None
     notice(f"notice: the median error is {error / least:.2g} times that of the projections")
+    if fewer:
+        notice("the model has more modes: give a larger --dimension, or leave it out")
+        return split, None
     found = advice(model, validation, split, file)
     found.tell()
     if found.suggestions:

@@ -5,16 +5,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
-from ..problem import InterpolationProblem
+from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import (
     BlendedCubature,
     Cubature,
+    Energy,
     InterpolationModel,
     PosingModel,
     ReducedModel,
     default_blended_tets,
     default_tets,
+    training_tolerance,
 )
+from ..sampling import Method
 from .error_split import ErrorSplit, Part
 
 #: An error of more than so many projection errors is worth an advice: motions of default models
@@ -22,6 +25,8 @@ from .error_split import ErrorSplit, Part
 FACTOR = 3.0
 #: Growth of tets and of samples, and of the dimension.
 MORE, LARGER = 2.0, 1.5
+#: Up to so many modes an exact energy stays exact.
+MOST_EXACT = 60
 
 
 @dataclass(frozen=True)
@@ -31,14 +36,18 @@ class NextOption:
     part : "subspace", "stiffness" or "cubature", see `ErrorSplit`
     samples, dimension : those of the model where only its tets are too few, else larger ones
     tets : of a cubature; None for an exact energy, and for the default of `reduce`
-    blends : whether it is a model of poses
+    energy : of `reduce`, "auto" where that says the same
+    tolerance : of the samples, where their problem's own is not tight enough for a cubature
+    method : of `sample`
     """
 
     part: Part
     samples: int
     dimension: int
     tets: int | None
-    blends: bool
+    energy: Energy = "auto"
+    tolerance: float | None = None
+    method: Method = "sobol"
 
     @property
     def reason(self) -> str:
@@ -52,12 +61,13 @@ class NextOption:
     @property
     def python(self) -> str:
         """The calls that build it, for a problem and a model at hand."""
-        method = ', method="blends"' if self.blends else ""
+        method = "" if self.method == "sobol" else f', method="{self.method}"'
+        tight = "" if self.tolerance is None else _tight(self.tolerance)
+        energy = "" if self.energy == "auto" else f', energy="{self.energy}"'
         tets = "" if self.tets is None else f", tets={self.tets}"
-        energy = "" if self.tets is None else ', energy="cubature"'
         return (
             f"parameters = sample(problem.domain, {self.samples}{method}); "
-            "snapshots = solve_snapshots(problem, parameters); "
+            f"snapshots = solve_snapshots(problem, parameters{tight}); "
             f"model = reduce(problem, snapshot_pca(snapshots, dimension={self.dimension}), "
             f"snapshots=snapshots{energy}{tets})"
         )
@@ -79,22 +89,41 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
         samples, and at least two for each mode: a larger subspace of the same samples would fit
         these alone.
     """
-    blends, tets = isinstance(model.problem, InterpolationProblem), _tets(model)
-    solved = max(_solved(model), model.dimension)
-    part = split.largest
-    if part == "cubature" and tets is not None:
-        usual = default_blended_tets if blends else default_tets
-        most = len(model.problem.mesh.tets)
-        wanted = min(max(ceil(MORE * tets), usual(model.dimension)), most)
-        return NextOption(part, solved, model.dimension, wanted, blends)
+    problem, tets = model.problem, _tets(model)
+    part, solved = split.largest, max(_solved(model), model.dimension)
+    method: Method = "sobol"
+    usual = default_tets(model.dimension)
+    if isinstance(problem, InterpolationProblem):
+        # of two poses `blends` would add no more than the middle
+        method = "blends" if problem.parameter_count > 2 else "sobol"
+        usual = default_blended_tets(model.dimension)
+    if part == "cubature" and tets is not None and tets < len(problem.mesh.tets):
+        wanted = min(max(ceil(MORE * tets), usual), len(problem.mesh.tets))
+        tolerance = _tolerance(model, model.dimension, "cubature")
+        return NextOption(part, solved, model.dimension, wanted, "cubature", tolerance, method)
     dimension = ceil(LARGER * model.dimension)
     samples = max(ceil(MORE * solved), 2 * dimension)
-    return NextOption(part, samples, dimension, None, blends)
+    energy: Energy = "exact" if tets is None and dimension <= MOST_EXACT else "auto"
+    tolerance = _tolerance(model, dimension, energy)
+    return NextOption(part, samples, dimension, None, energy, tolerance, method)
 
 
 def needs_advice(error: float, projection: float) -> bool:
     """Whether a median error is more than three times that of the projections."""
     return bool(error > FACTOR * projection)
+
+
+def _tight(tolerance: float) -> str:
+    return f", options=SolverOptions(tolerance={tolerance:g})"
+
+
+def _tolerance(model: ReducedModel, dimension: int, energy: Energy) -> float | None:
+    """Of the samples for a cubature, where the usual ones are for an exact energy."""
+    problem = model.problem
+    assert isinstance(problem, PosingProblem | InterpolationProblem)
+    if problem.material.exact_degree != 4:
+        return None
+    return training_tolerance(problem, dimension, energy)
 
 
 def _solved(model: ReducedModel) -> int:

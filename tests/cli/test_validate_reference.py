@@ -74,6 +74,12 @@ def test_the_advised_command_runs_and_lowers_the_error(run: Run, tmp_path: Path)
     assert shlex.join([program, *command]) in before.err
 
 
+def test_fewer_modes_than_there_are_ask_for_no_other_model(run: Run, tmp_path: Path) -> None:
+    result = run("validate", few_tets(run, tmp_path), "--samples", 8, "--dimension", 20, "--json")
+    assert "the model has more modes: give a larger --dimension" in result.err
+    assert result.json["next"] is None
+
+
 def test_without_the_files_the_advice_is_in_python(run: Run, tmp_path: Path) -> None:
     path = few_tets(run, tmp_path)
     elsewhere = tmp_path / "elsewhere"

@@ -52,7 +52,7 @@ def test_a_poor_subspace_asks_for_samples_and_dimensions(model: PosingModel, par
 
 def test_poses_are_no_solved_samples(blended_cubature_model: InterpolationModel) -> None:
     option = next_option(blended_cubature_model, split_with("stiffness"))
-    assert (option.samples, option.dimension, option.blends) == (60, 18, True)
+    assert (option.samples, option.dimension, option.method) == (60, 18, "blends")
     assert 'method="blends"' in option.python
 
 
@@ -76,6 +76,31 @@ def built_by(calls: str, problem: ss.PosingProblem) -> PosingModel:
     model = names["model"]
     assert isinstance(model, PosingModel)
     return model
+
+
+def test_two_poses_take_sobol_points(helix_model: InterpolationModel) -> None:
+    assert "method" not in next_option(helix_model, split_with("stiffness")).python
+
+
+def test_an_exact_energy_stays_exact_while_it_can(posing_model: PosingModel) -> None:
+    option = next_option(posing_model, split_with("stiffness"))
+    assert (option.dimension, option.energy, option.tolerance) == (30, "exact", None)
+    assert 'energy="exact"' in option.python
+
+
+def test_samples_for_a_cubature_are_solved_tightly(cubature_model: PosingModel) -> None:
+    """Usual samples of the paper's material settle far from equilibrium: no forces to train on."""
+    option = next_option(cubature_model, split_with("cubature"))
+    assert option.tolerance == cubature_model.problem.solving.tolerance
+    assert "options=SolverOptions(tolerance=1e-05)" in option.python
+
+
+def test_with_all_tets_more_are_no_cure(model: PosingModel) -> None:
+    every = np.arange(len(model.problem.mesh.tets), dtype=np.int32)
+    volumes = model.problem.mesh.volumes
+    whole = ss.Cubature.of_tets(model.problem, model.subspace, every, volumes)
+    option = next_option(replace(model, elastic=whole), split_with("cubature"))
+    assert (option.dimension, option.tets) == (36, None)
 
 
 def test_advice_begins_above_three_projection_errors() -> None:
