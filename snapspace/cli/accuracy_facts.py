@@ -48,17 +48,16 @@ def _errors(figures: dict[str, Any], asked: str = "") -> str:
 def _inverted(unseen: dict[str, Any]) -> str:
     """In how many shapes, and the most of one."""
     counts = unseen["inverted_tets"]
-    names = {
-        "samples": "samples",
-        "frames": f"frames of unseen {unseen['name']}",
-        "unseen": "of their full solutions",
-    }
-    return ", ".join(_shapes(counts[key], name) for key, name in names.items())
+    return (
+        f"in {_shapes(counts['samples'], 'samples')}; in "
+        f"{_shapes(counts['frames'], 'frames of unseen ' + unseen['name'])}; in "
+        f"{_shapes(counts['unseen'], 'full solutions of these')}"
+    )
 
 
 def _shapes(counts: dict[str, Any], name: str) -> str:
     most = f", at most {counts['max']}" if counts["max"] else ""
-    return f"in {counts['with_some']} of {counts['shapes']} {name}{most}"
+    return f"{counts['with_some']} of {counts['shapes']} {name}{most}"
 
 
 def _percent(share: float) -> str:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import shlex
+import shutil
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
 from snapspace import load, load_snapshots
+from snapspace.cli import main
 
 from .conftest import Run
 from .files import write_problem
@@ -17,13 +19,22 @@ from .files import write_problem
 FIGURES = ("samples", "error", "projection_error", "energy_ratio", "inverted_tets")
 
 
-def few_tets(run: Run, folder: Path) -> Path:
-    """A bar of the default material, with a tet for each mode."""
+@pytest.fixture(scope="module")
+def built_few(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A bar of the default material, with a tet for each mode. Not to be written to."""
+    folder = tmp_path_factory.mktemp("few")
     problem = write_problem(folder, material={"model": "stable-neo-hookean"})
     path = folder / "few.snapspace"
-    words = ("--samples", 60, "--dimension", 24, "--tets", 24)
-    assert run("build", "--problem", problem, *words, "-o", path).code == 0
+    words = ["--samples", "60", "--dimension", "24", "--tets", "24"]
+    assert main(["build", "--problem", str(problem), *words, "-o", str(path)]) == 0
     return path
+
+
+@pytest.fixture
+def few_tets(built_few: Path, tmp_path: Path) -> Path:
+    """A copy of the model and its problem in a folder of their own."""
+    shutil.copytree(built_few.parent, tmp_path / "few")
+    return tmp_path / "few" / built_few.name
 
 
 def test_a_saved_reference_gives_the_same_figures(run: Run, model: Path, tmp_path: Path) -> None:
@@ -60,8 +71,10 @@ def test_parts_are_shown_when_asked_for(run: Run, model: Path, blend_model: Path
     assert 0 < blends["subspace"]["median"] <= blends["error_of_all_tets"]["median"]
 
 
-def test_the_advised_command_runs_and_lowers_the_error(run: Run, tmp_path: Path) -> None:
-    path, kept = few_tets(run, tmp_path), tmp_path / "bar.samples"
+def test_the_advised_command_runs_and_lowers_the_error(
+    run: Run, few_tets: Path, tmp_path: Path
+) -> None:
+    path, kept = few_tets, tmp_path / "bar.samples"
     words = ("--samples", 8, "--save-reference", kept, "--json")
     before = run("validate", path, *words)
     found = before.json["next"]
@@ -74,17 +87,18 @@ def test_the_advised_command_runs_and_lowers_the_error(run: Run, tmp_path: Path)
     assert shlex.join([program, *command]) in before.err
 
 
-def test_fewer_modes_than_there_are_ask_for_no_other_model(run: Run, tmp_path: Path) -> None:
-    result = run("validate", few_tets(run, tmp_path), "--samples", 8, "--dimension", 20, "--json")
+def test_fewer_modes_than_there_are_ask_for_no_other_model(run: Run, few_tets: Path) -> None:
+    result = run("validate", few_tets, "--samples", 8, "--dimension", 20, "--json")
     assert "the model has more modes: give a larger --dimension" in result.err
     assert result.json["next"] is None
 
 
-def test_without_the_files_the_advice_is_in_python(run: Run, tmp_path: Path) -> None:
-    path = few_tets(run, tmp_path)
+def test_without_the_files_the_advice_is_in_python(
+    run: Run, few_tets: Path, tmp_path: Path
+) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    moved = path.rename(elsewhere / path.name)
+    moved = few_tets.rename(elsewhere / few_tets.name)
     result = run("validate", moved, "--samples", 8, "--json")
     assert result.json["next"]["command"] is None
     assert "in Python: parameters = sample(problem.domain, 60)" in result.err
@@ -114,16 +128,15 @@ def test_a_reference_of_another_problem_is_refused(
     assert "blends.samples: these samples are of another problem" in error
 
 
-def test_a_build_ends_with_errors_that_validate_finds_too(run: Run, tmp_path: Path) -> None:
+def test_a_build_ends_with_errors_that_validate_finds_too(run: Run, few_tets: Path) -> None:
     """It solves the first of the same samples; the record is in the model, and `info` shows it."""
-    path = few_tets(run, tmp_path)
-    record = load(path).provenance["unseen"]
-    figures = run("validate", path, "--samples", record["samples"], "--json").json
+    record = load(few_tets).provenance["unseen"]
+    figures = run("validate", few_tets, "--samples", record["samples"], "--json").json
     for ours, theirs in (("median", "median"), ("mean", "mean"), ("ninth", "ninth")):
         assert record[ours] == pytest.approx(figures["error"][theirs], rel=1e-9)
     assert record["inverted_tets"]["frames"]["max"] == figures["inverted_tets"]["frames_max"]
     assert record["inverted_tets"]["samples"]["shapes"] == 60
-    told = " ".join(run("info", path).err.split())
+    told = " ".join(run("info", few_tets).err.split())
     assert "unseen motions are off by" in told and "inverted tets" in told
     json.dumps(record)
 

@@ -62,7 +62,7 @@ def test_the_advised_calls_run_and_lower_the_error(tets: int | None, model: Posi
     if tets is None:
         option = next_option(model, split_with("cubature"))
         model = built_by(option.python, model.problem)
-    reference = solved_reference(model.problem, samples=8, threads=1)
+    reference = solved_reference(model.problem, samples=6, threads=1)
     before = validate(model, reference=reference)
     option = next_option(model, split_errors(model, reference))
     assert option.part == ("cubature" if tets else "stiffness")
