@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import time
 from typing import Any
 
 import numpy as np
@@ -53,10 +54,14 @@ def trial(
     tets: int | None,
 ) -> dict[str, Any]:
     """Errors before and after, and what was advised."""
+    begin = time.perf_counter()
     reference = solved_reference(problem, samples=12)
+    full_seconds = (time.perf_counter() - begin) / len(reference)
     model = poor_model(problem, samples, d, tets)
     before = ss.validate(model, reference=reference)
+    begin = time.perf_counter()
     split = ss.split_errors(model, reference.select(np.arange(len(reference)) < 5))
+    split_seconds = (time.perf_counter() - begin) / len(split.error)
     option = ss.next_option(model, split)
     names: dict[str, Any] = {**vars(ss), "problem": problem}
     exec(option.python, names)
@@ -68,6 +73,8 @@ def trial(
         "tets": tets,
         "parts": {part: float(np.median(getattr(split, part))) for part in ss.validation.PARTS},
         "part": option.part,
+        "full_seconds": full_seconds,
+        "split_seconds": split_seconds,
         "next": {"samples": option.samples, "dimension": option.dimension, "tets": option.tets},
         "error_before": float(np.median(before.error)),
         "projection_before": float(np.median(before.projection_error)),
@@ -102,15 +109,18 @@ def main() -> None:
     if asked.json:
         print(json.dumps(rows))
         return
-    table = Table("problem", "built", "parts: subspace / stiffness / cubature", "next", "error")
+    table = Table(
+        "problem", "built", "parts: subspace / stiffness / cubature", "next", "error", "s / sample"
+    )
     for row in rows:
         parts = " / ".join(f"{value:.2g}" for value in row["parts"].values())
         built = f"{row['samples']}, d = {row['dimension']}, tets {row['tets'] or 'default'}"
         after = row["next"]
         following = f"{after['samples']}, d = {after['dimension']}, tets {after['tets'] or '-'}"
         errors = f"{row['error_before']:.2g} -> {row['error_after']:.2g}"
-        table.add_row(row["problem"], built, parts, following, errors)
-    Console(width=130).print(table)
+        seconds = f"{row['full_seconds']:.2g} full, {row['split_seconds']:.2g} split"
+        table.add_row(row["problem"], built, parts, following, errors, seconds)
+    Console(width=150).print(table)
 
 
 if __name__ == "__main__":

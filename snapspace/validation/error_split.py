@@ -73,8 +73,9 @@ def split_errors(
     model : PosingModel or InterpolationModel
     reference : Snapshots
         Full solutions that the model has not seen, as for `validate`. A few are enough: for a
-        cubature each takes about 2 d + 20 evaluations of the full energy, as much as a few hundred
-        iterations of a full solve. An exact energy takes none.
+        cubature each takes 2 d evaluations of the full energy, and one for each step of a descent:
+        0.2 to 3.3 times the seconds of its full solution (benchmarks/next_options.py). An exact
+        energy takes none.
     threads : int, optional
         Default: all. The result does not depend on it.
 
