@@ -71,10 +71,21 @@ from .snapshots import (
     SolverOptions,
     UnsavedSamplesError,
     carried,
+    load_snapshots,
+    save_snapshots,
     solve_snapshots,
 )
 from .subspace import AffineSubspace, affine_subspace, pca, snapshot_pca
-from .validation import Validation, validate
+from .validation import (
+    ErrorCurve,
+    ErrorSplit,
+    NextOption,
+    Validation,
+    error_curve,
+    next_option,
+    split_errors,
+    validate,
+)
 
 __version__ = _version("snapspace")
 
@@ -94,7 +105,9 @@ __all__ = [
     "DisplacementRows",
     "ElasticEnergy",
     "EmbeddedSurface",
+    "ErrorCurve",
     "ErrorEstimator",
+    "ErrorSplit",
     "FrameReport",
     "Growth",
     "Handle",
@@ -107,6 +120,7 @@ __all__ = [
     "Material",
     "MeshNotice",
     "MooneyRivlin",
+    "NextOption",
     "Polished",
     "PoseFit",
     "PoseFits",
@@ -136,6 +150,7 @@ __all__ = [
     "calibrated",
     "carried",
     "embed_surface",
+    "error_curve",
     "export_html",
     "fill_surface",
     "fit_poses",
@@ -144,8 +159,10 @@ __all__ = [
     "in_box",
     "in_sphere",
     "load",
+    "load_snapshots",
     "mass_matrix",
     "matched_scales",
+    "next_option",
     "pca",
     "read_problem",
     "read_problem_surface",
@@ -157,8 +174,10 @@ __all__ = [
     "rigid_registration",
     "sample",
     "save_model",
+    "save_snapshots",
     "snapshot_pca",
     "solve_snapshots",
+    "split_errors",
     "stuff_surface",
     "validate",
     "write_surface",

@@ -22,6 +22,7 @@ from .console import notice
 from .pipeline import Built, build_model, stage, telling_what_is_kept
 from .progress import spinner
 from .recipe import Recipe, made_by
+from .unseen import judged, unseen_record
 
 #: Options that decide samples or subspace: with one of them nothing is chosen by error.
 DECIDING = (
@@ -154,16 +155,21 @@ def build_accurate_model(
                 tell=notice,
             )
         _tell_outcome(built, recipe.budget)
-        record = {
+        unseen = built.held_out & built.snapshots.converged
+        known = built.snapshots.select(unseen) if unseen.any() else None
+        validation = judged(built.model, known, threads=recipe.threads)
+        record: dict[str, Any] = {
             **source,
             **made_by(recipe.solver, built.snapshots),
             "seconds": dict(seconds),
         }
+        if validation is not None:
+            record["unseen"] = unseen_record(built.model, validation, built.snapshots)
         model = replace(built.model, provenance={**built.model.provenance, **record})
         model.save(output)
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
-    return Built(model, built.snapshots, output, seconds)
+    return Built(model, built.snapshots, output, seconds, validation)
 
 
 def _tell_outcome(built: AccurateModel, budget: float | None) -> None:

@@ -7,6 +7,7 @@ import os
 import time
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -16,10 +17,12 @@ from ..model_file import check_model_path
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import ENERGIES, Energy
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
+from .build_advice import tell_what_to_do
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
+from .given_options import given_options
 from .options import FILE, dask_option, json_option, threads_option
 from .summary import print_summary
 
@@ -110,6 +113,7 @@ def build(
     )
     recipe = replace(recipe, energy=energy, tets=tets)
     executor = click.get_current_context().with_resource(dask_executor(dask))
+    source["options"] = given_options()
     make = chosen_build(
         problem,
         recipe,
@@ -121,13 +125,15 @@ def build(
     )
     built = make(output, source=source, surface=surface, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
+    folders = [file.parent for file in (problem_file, mesh) if file is not None]
+    better = tell_what_to_do(built, folders=folders, threads=threads)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [
         ("drag it in the browser", ["view", output]),
         ("how far it is from the full solution", ["validate", output]),
         ("one pose", ["pose", output, *turn]),
     ]
-    print_next(suggestions)
+    print_next([*suggestions, *better])
     if as_json:
         print_json(built.as_json())
 
@@ -143,7 +149,7 @@ def check_output(output: Path) -> None:
 
 def _read(
     problem_file: Path, mesh_file: Path | None, *, repair: bool
-) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, str]]:
+) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, Any]]:
     """The problem, the surface that it names, and the names of its files without folders."""
     mesh: TetMesh | None = None if mesh_file is None else read_tets(mesh_file, repair=repair)
     problem = read_problem(problem_file, mesh=mesh, repair=repair)

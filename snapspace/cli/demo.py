@@ -20,6 +20,7 @@ from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
 from .accurate_pipeline import chosen_build, decided_by_hand
+from .build_advice import tell_what_to_do
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
@@ -30,7 +31,7 @@ from .recipe import Recipe, check_dimension
 from .samples import GivenSamples, sampling_record
 from .summary import print_summary
 from .units import in_time
-from .validate import print_validation
+from .validation_tables import print_validation
 
 VALIDATION_SAMPLES = 10
 
@@ -107,17 +108,23 @@ def demo(
         dimension=dimension,
         threads=threads,
     )
+    by_hand = decided_by_hand()
     build = chosen_build(
         problem,
         recipe,
-        by_hand=decided_by_hand(),
+        by_hand=by_hand,
         target_error=MOTIONS.target,
         seed=seed,
         solver=recipe.solver,
     )
-    source = {"problem": files["json"].name, "mesh": files["msh"].name}
+    source = {
+        "problem": files["json"].name,
+        "mesh": files["msh"].name,
+        "options": {"--samples": samples, "--dimension": dimension} if by_hand else {},
+    }
     built = build(files["snapspace"], source=source, begin=begin)
     print_summary(built, include_unconverged=False)
+    better = tell_what_to_do(built, folders=[output], threads=threads)
     with sample_progress("full solutions", total=VALIDATION_SAMPLES) as progress:
         validation = validate(
             built.model, samples=VALIDATION_SAMPLES, threads=threads, progress=progress
@@ -133,7 +140,7 @@ def demo(
     seconds = time.perf_counter() - begin
     notice(f"done in {in_time(seconds)}: {', '.join(str(path) for path in files.values())}")
     notice(f"open {files['html']} in a browser and drag the head")
-    print_next(_suggestions(files))
+    print_next([*_suggestions(files), *better])
     if as_json:
         print_json(
             {

@@ -21,11 +21,13 @@ from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build import check_output
+from .build_advice import Suggestions, tell_what_to_do
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
 from .dask_cluster import dask_executor
 from .files import make_folder
 from .fit_cache import FitCache
+from .given_options import given_options
 from .options import FILE, dask_option, json_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .summary import print_summary
@@ -96,8 +98,14 @@ SAMPLES, DIMENSION = 40, 30
     show_default=True,
     metavar="SHARE",
     help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "
-    "--dimension, --energy-fraction, --sampling, --extrapolation is given, except "
-    "for stvk.",
+    "--dimension, --energy-fraction, --sampling, --extrapolation, "
+    "--cubature-tets is given, except for stvk.",
+)
+@click.option(
+    "--cubature-tets",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Of the reduced energy, a sum over few tets [default: 15 for each mode, at most 1000].",
 )
 @budget_option
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
@@ -120,6 +128,7 @@ def interpolate(
     mu: float,
     target_error: float,
     budget: float | None,
+    cubature_tets: int | None,
     choices: Choices,
     repair: bool,
     threads: int | None,
@@ -155,8 +164,15 @@ def interpolate(
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
     check_target(target_error)
     check_budget(budget)
-    by_hand = decided_by_hand(exact=material.exact_degree == 4, others=("extrapolation",))
-    if material.exact_degree != 4 and choices.samples < FEWEST_BLENDS:
+    recipe = replace(recipe, tets=cubature_tets)
+    exact = material.exact_degree == 4
+    if exact and cubature_tets is not None:
+        raise ValueError(
+            "--cubature-tets is for materials whose reduced energy is a sum over few tets; that of "
+            "stvk is exact"
+        )
+    by_hand = decided_by_hand(exact=exact, others=("extrapolation", "cubature_tets"))
+    if not exact and choices.samples < FEWEST_BLENDS:
         raise ValueError(
             f"the energy is a cubature, which is trained on {FEWEST_BLENDS} samples or more, but "
             f"there is {choices.samples}; raise --samples, or take --material stvk"
@@ -190,6 +206,7 @@ def interpolate(
         "tets": None if tets is None else tets.name,
         "fits": [asdict(fit) for fit in pose_set.fits],
         "pose_seconds": pose_set.seconds,
+        "options": given_options(),
     }
     build = chosen_build(
         problem,
@@ -214,7 +231,9 @@ def interpolate(
     built = replace(built, seconds={**pose_set.seconds, **built.seconds})
     cache.remove()
     print_summary(built, include_unconverged=choices.include_unconverged)
-    _print_next(output, len(pose_set.poses))
+    inputs = [*files, *([] if tets is None else [tets])]
+    better = tell_what_to_do(built, folders=[file.parent for file in inputs], threads=threads)
+    _print_next(output, len(pose_set.poses), better)
     if as_json:
         print_json({**built.as_json(), "poses": len(pose_set.poses), "fits": source["fits"]})
 
@@ -254,7 +273,7 @@ def _save_poses(folder: Path, pose_set: PoseSet) -> None:
         write_tets(file, poses.reference, vertices=shape)
 
 
-def _print_next(output: Path, poses: int) -> None:
+def _print_next(output: Path, poses: int, better: Suggestions) -> None:
     equal = ",".join(["0.5", "0.5", *["0"] * (poses - 2)])
     print_next(
         [
@@ -265,5 +284,6 @@ def _print_next(output: Path, poses: int) -> None:
                 "a path through all poses, beside the straight one",
                 ["blend", output, "--path", "30", "-o", "frames", "--linear", "--png", "path.png"],
             ),
+            *better,
         ]
     )

@@ -16,6 +16,7 @@ from ..reduction import (
     PosingModel,
     ReducedModel,
 )
+from .accuracy_facts import accuracy_facts
 from .mesh_info import Info, mesh_facts, mesh_figures
 from .poses_info import poses_facts, poses_figures
 from .problem_info import problem_facts, problem_figures
@@ -83,22 +84,6 @@ def _decay(eigenvalues: NDArray[np.float64] | None, dimension: int) -> str:
 
 def _percent(share: float) -> str:
     return f"{100 * share:.2g} %"
-
-
-def accuracy_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
-    """How far unseen motions or blends are off, if the record has it."""
-    accurate = record.get("accurate")
-    if not isinstance(accurate, dict) or not isinstance(accurate.get("step"), dict):
-        return []
-    step = accurate["step"]
-    if not {"unseen", "typical", "ninth"} <= step.keys():
-        return []
-    text = (
-        f"unseen {step['unseen']} are off by {_percent(step['error'])} in the {step['typical']}, "
-        f"{_percent(accurate['target_error'])} asked; nine of ten by less than "
-        f"{_percent(step['ninth'])}; {step['samples']} samples"
-    )
-    return [("accuracy", text)]
 
 
 def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:

@@ -18,21 +18,27 @@ from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Checkpoint, Snapshots
 from ..stopping import ctrl_c_as_itself
 from ..subspace import AffineSubspace, snapshot_pca
+from ..validation import Validation
 from .console import notice
 from .energy import EnergyChoice
 from .memory import peak_memory_bytes
 from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
+from .unseen import judged, unseen_record
 
 
 @dataclass(frozen=True)
 class Built:
-    """A model, the snapshots it comes from, its file, and seconds by stage."""
+    """A model, the snapshots it comes from, its file, and seconds by stage.
+
+    validation : at unseen parameters; None if no full solution converged there
+    """
 
     model: PosingModel | InterpolationModel
     snapshots: Snapshots
     path: Path
     seconds: dict[str, float]
+    validation: Validation | None
 
     def as_json(self) -> dict[str, Any]:
         """The figures with the keys of `snapspace build --json`."""
@@ -50,6 +56,7 @@ class Built:
                 "iterations_mean": float(np.mean([report.iterations for report in reports])),
                 "inverted_tets_max": max(report.inverted_tets for report in reports),
             },
+            "unseen": self.model.provenance.get("unseen"),
             "model_bytes": self.path.stat().st_size,
             "peak_memory_bytes": peak_memory_bytes(),
         }
@@ -65,7 +72,7 @@ def build_model(
     begin: float | None = None,
     executor: Executor | None = None,
 ) -> Built:
-    """Solves the samples, makes subspace and reduced model, and writes the model file.
+    """Solves the samples, makes subspace and reduced model, judges it, and writes the model file.
 
     Finished samples are in a folder beside `output` until the file is written; the same call goes
     on from them.
@@ -117,12 +124,16 @@ def build_model(
                 surface=surface,
                 threads=recipe.threads,
             )
+        with stage(seconds, "unseen samples"):
+            validation = judged(model, None, threads=recipe.threads)
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
+        if validation is not None:
+            record["unseen"] = unseen_record(model, validation, snapshots)
         model = replace(model, provenance={**model.provenance, **record})
         model.save(output)
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin
-    return Built(model, snapshots, output, seconds)
+    return Built(model, snapshots, output, seconds, validation)
 
 
 @contextmanager

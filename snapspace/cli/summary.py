@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..problem import PosingProblem, handle_misses, usual_stiffness
+from .accuracy_facts import accuracy_facts
 from .console import notice, print_facts
-from .model_info import accuracy_facts, energy_text
+from .model_info import energy_text
 from .pipeline import Built
 from .units import in_bytes, in_time
 

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import click
-from rich import box
-from rich.table import Table
+import numpy as np
 
-from ..validation import Validation
+from ..mesh.input_path import writable_path
+from ..reduction import InterpolationModel, PosingModel
+from ..snapshots import SAMPLES_SUFFIX, Snapshots, load_snapshots, save_snapshots
+from ..validation import ErrorCurve, ErrorSplit, Validation, error_curve, needs_advice
 from ..validation import validate as compare
-from .console import console, notice, print_json
+from .advice import Advice, advice, split_of_some
+from .console import notice, print_json, print_next
+from .error_plot import save_error_plot
 from .loading import load_leading
 from .options import FILE, json_option, leading_option, threads_option
-from .progress import sample_progress
+from .progress import sample_progress, spinner
+from .validation_tables import print_curve, print_split, print_validation
 
-_ROWS = {
-    "error": "error",
-    "projection_error": "projection error",
-    "energy_ratio": "energy, reduced / full",
-    "iterations": "iterations",
-    "solve_ms": "solve, ms",
-    "frame_ms": "frame, ms",
-}
+SAMPLES, SEED = 30, 1
+
+Model = PosingModel | InterpolationModel
 
 
 @click.command(short_help="Measure the error of a model.")
@@ -31,24 +30,49 @@ _ROWS = {
 @click.option(
     "--samples",
     type=click.IntRange(min=1),
-    default=30,
-    show_default=True,
-    help="Unseen parameters to compare at.",
+    help=f"Unseen parameters to compare at [default: {SAMPLES}].",
 )
 @click.option(
     "--seed",
     type=click.IntRange(min=0),
-    default=1,
-    show_default=True,
-    help="Of the unseen parameters, which no seed of build ever draws.",
+    help=f"Of the unseen parameters, which no seed of build ever draws [default: {SEED}].",
+)
+@click.option(
+    "--reference",
+    type=FILE,
+    metavar="R.samples",
+    help="Known full solutions in place of new ones, as --save-reference writes them.",
+)
+@click.option(
+    "--save-reference",
+    type=FILE,
+    metavar="R.samples",
+    help="Keep the full solutions for the next validation of this problem.",
+)
+@click.option(
+    "--split",
+    "with_split",
+    is_flag=True,
+    help="Split the errors of the first five samples into subspace, stiffness and cubature.",
+)
+@click.option(
+    "--plot",
+    type=FILE,
+    metavar="FILE.png",
+    help="Picture of the error against the dimension and against milliseconds, with the same full "
+    "solutions for all dimensions.",
 )
 @leading_option
 @threads_option
 @json_option
 def validate(
     model_file: Path,
-    samples: int,
-    seed: int,
+    samples: int | None,
+    seed: int | None,
+    reference: Path | None,
+    save_reference: Path | None,
+    with_split: bool,
+    plot: Path | None,
     dimension: int | None,
     threads: int | None,
     as_json: bool,
@@ -57,40 +81,103 @@ def validate(
 
     \b
     Errors are relative, in the mass norm: |reduced - full| / |full - rest|. The projection error is
-    the least that the subspace allows. A frame is a solve from rest and all vertices.
+    the least that the subspace allows. A frame is a solve from rest and all vertices. Where the
+    median error is more than three times that of the projections, the next better option is named.
 
     \b
     Examples:
       snapspace validate dragon.snapspace --samples 30 --seed 1
+      snapspace validate dragon.snapspace --save-reference dragon.samples --plot error.png
+      snapspace validate dragon60.snapspace --reference dragon.samples --split
       snapspace validate dragon.snapspace --dimension 20 --json > error20.json
     """
+    if plot is not None:
+        writable_path(plot, known=[".png"])
+    if save_reference is not None:
+        writable_path(save_reference, known=[SAMPLES_SUFFIX])
+    _check_source(reference, samples, seed)
     model = load_leading(model_file, dimension)
-    with sample_progress("full solutions", total=samples) as progress:
-        validation = compare(model, samples=samples, seed=seed, threads=threads, progress=progress)
-    print_validation(validation, model.dimension, asked=samples)
-    if as_json:
-        print_json(validation.as_json(model.dimension))
-
-
-def print_validation(validation: Validation, dimension: int, *, asked: int) -> None:
-    """The figures as a table on standard error."""
-    figures: dict[str, Any] = validation.as_json(dimension)
-    used = figures["samples"]
-    table = Table(
-        title=f"{used} unseen samples, dimension {dimension}",
-        title_justify="left",
-        title_style="bold",
-        box=box.SIMPLE_HEAD,
+    asked = SAMPLES if samples is None else samples
+    validation = _validated(model, reference, samples=asked, seed=seed, threads=threads)
+    known = len(validation.reference) if reference is not None else asked
+    print_validation(validation, model.dimension, asked=known)
+    if save_reference is not None:
+        save_snapshots(validation.reference, save_reference)
+        notice(f"{save_reference}: {len(validation.reference)} full solutions")
+    curve = _curve(model, validation.reference, plot)
+    fewer = dimension is not None and dimension < load_leading(model_file, None).dimension
+    split, found = _split(
+        model, validation, model_file, asked=with_split, fewer=fewer, threads=threads
     )
-    table.add_column("")
-    for name in ("mean", "median", "std", "max"):
-        table.add_column(name, justify="right")
-    for key, label in _ROWS.items():
-        values = figures[key]
-        cells = (values.get(name) for name in ("mean", "median", "std", "max"))
-        table.add_row(label, *("" if value is None else f"{value:.3g}" for value in cells))
-    console().print(table)
-    if used < asked:
-        notice(
-            f"notice: {asked - used} of {asked} full solutions did not converge and are left out"
+    if as_json:
+        print_json(
+            {
+                **validation.as_json(model.dimension),
+                "split": split.as_json() if split is not None and with_split else None,
+                "curve": None if curve is None else curve.as_json(),
+                "next": None if found is None else found.as_json(),
+            }
         )
+
+
+def _check_source(reference: Path | None, samples: int | None, seed: int | None) -> None:
+    given = [
+        name for name, value in (("--samples", samples), ("--seed", seed)) if value is not None
+    ]
+    if reference is not None and given:
+        raise ValueError(
+            f"the parameters come from --reference, so {given[0]} is of no effect; leave one of "
+            "them out"
+        )
+
+
+def _validated(
+    model: Model, reference: Path | None, *, samples: int, seed: int | None, threads: int | None
+) -> Validation:
+    if reference is not None:
+        return compare(model, reference=load_snapshots(reference, model.problem))
+    with sample_progress("full solutions", total=samples) as progress:
+        return compare(model, samples=samples, seed=seed, threads=threads, progress=progress)
+
+
+def _curve(model: Model, reference: Snapshots, plot: Path | None) -> ErrorCurve | None:
+    if plot is None:
+        return None
+    with spinner("errors of smaller dimensions"):
+        curve = error_curve(model, reference=reference)
+    print_curve(curve)
+    notice(f"{save_error_plot(plot, curve)}: error against dimension and milliseconds")
+    return curve
+
+
+def _split(
+    model: Model,
+    validation: Validation,
+    file: Path,
+    *,
+    asked: bool,
+    fewer: bool,
+    threads: int | None,
+) -> tuple[ErrorSplit | None, Advice | None]:
+    """The parts of the error if they are asked for, or if an advice needs them; and that.
+
+    `fewer` tells that the file has more modes than the model.
+    """
+    error, least = (float(np.median(e)) for e in (validation.error, validation.projection_error))
+    needed = needs_advice(error, least)
+    if not (asked or needed):
+        return None, None
+    split = split_of_some(model, validation, threads=threads)
+    if asked and split is not None:
+        print_split(split)
+    if not needed or split is None:
+        return split, None
+    notice(f"notice: the median error is {error / least:.2g} times that of the projections")
+    if fewer:
+        notice("the model has more modes: give a larger --dimension, or leave it out")
+        return split, None
+    found = advice(model, validation, split, file)
+    found.tell()
+    if found.suggestions:
+        print_next(found.suggestions)
+    return split, found

@@ -6,6 +6,7 @@ from .held_out_errors import CubatureErrors
 from .train import (
     FEWEST_BLENDS,
     FEWEST_SNAPSHOTS,
+    default_blended_tets,
     default_tets,
     train_blended_cubature,
     train_cubature,
@@ -18,6 +19,7 @@ __all__ = [
     "Cubature",
     "CubatureErrors",
     "WeightedCubature",
+    "default_blended_tets",
     "default_tets",
     "train_blended_cubature",
     "train_cubature",

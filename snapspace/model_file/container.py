@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
-from safetensors.numpy import save
 
 from ..mesh.atomic_file import atomic_file
+from ..mesh.safetensors_bytes import safetensors_bytes
 
 Arrays = dict[str, NDArray[Any]]
 
@@ -29,8 +28,7 @@ def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
 
 def container_bytes(arrays: Arrays, header: dict[str, str]) -> bytes:
     """Arrays and header in safetensors layout; the same bytes for the same content."""
-    whole = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
-    return _sorted_header(save(whole, header))
+    return safetensors_bytes(arrays, header)
 
 
 def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
@@ -75,11 +73,3 @@ def checksum(arrays: Arrays, header: dict[str, str]) -> str:
         digest.update(f"{name} {array.dtype.str} {array.shape}\n".encode())
         digest.update(array.tobytes())
     return digest.hexdigest()
-
-
-def _sorted_header(content: bytes) -> bytes:
-    """The same safetensors file with its header in order: the library writes it in a random one."""
-    size = int.from_bytes(content[:8], "little")
-    header = json.dumps(json.loads(content[8 : 8 + size]), sort_keys=True).encode()
-    header += b" " * (-len(header) % 8)  # the arrays stay aligned
-    return len(header).to_bytes(8, "little") + header + content[8 + size :]

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from .chart import Curve, chart
 from .colormap import colormap, tint
 from .render import render
 from .row import render_row
 from .save import save_png
 
-__all__ = ["colormap", "render", "render_row", "save_png", "tint"]
+__all__ = ["Curve", "chart", "colormap", "render", "render_row", "save_png", "tint"]

@@ -1,6 +1,12 @@
 """Reduced energies and models."""
 
-from ..cubature import BlendedCubature, Cubature, CubatureErrors
+from ..cubature import (
+    BlendedCubature,
+    Cubature,
+    CubatureErrors,
+    default_blended_tets,
+    default_tets,
+)
 from .energy_choice import (
     ENERGIES,
     Energy,
@@ -35,6 +41,8 @@ __all__ = [
     "ReducedModel",
     "chosen_energy",
     "coefficient_count",
+    "default_blended_tets",
+    "default_tets",
     "fewest_snapshots",
     "handle_quadric",
     "pose_quartics",

@@ -3,6 +3,7 @@
 from .carry import carried
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .run import Interrupted
+from .snapshot_file import SAMPLES_SUFFIX, load_snapshots, save_snapshots
 from .snapshots import SampleReport, Snapshots
 from .solve import solve_snapshots, solver_key
 from .solve_progress import Progress, SolveProgress
@@ -11,6 +12,7 @@ from .solver_options import PRECISIONS, PROJECTIONS, SOLVERS, SolverOptions
 __all__ = [
     "PRECISIONS",
     "PROJECTIONS",
+    "SAMPLES_SUFFIX",
     "SOLVERS",
     "Checkpoint",
     "CheckpointNotice",
@@ -22,7 +24,9 @@ __all__ = [
     "SolverOptions",
     "UnsavedSamplesError",
     "carried",
+    "load_snapshots",
     "run_key",
+    "save_snapshots",
     "solve_snapshots",
     "solver_key",
 ]

@@ -129,7 +129,16 @@ ALLOWED: dict[str, set[str]] = {
         "subspace",
         "validation",
     },
-    "validation": {"mesh", "problem", "snapshots", "subspace", "reduction", "session", "sampling"},
+    "validation": {
+        "blas",
+        "mesh",
+        "problem",
+        "snapshots",
+        "subspace",
+        "reduction",
+        "session",
+        "sampling",
+    },
 }
 
 #: `model.session()`, `save()` and `show()` reach up, inside of the method, for the user's comfort;

@@ -49,6 +49,7 @@ def test_demo(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None
         "validate",
         "info",
         "build",
+        "build",
     ]
     monkeypatch.chdir(tmp_path)
     assert run(*commands[3].split()[1:]).code == 0

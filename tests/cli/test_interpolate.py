@@ -59,9 +59,9 @@ def test_json_has_the_agreed_keys_and_plausible_figures(run: Run, tmp_path: Path
     figures = run("interpolate", *words).json
     assert list(figures) == [
         *("vertices", "tets", "parameters", "samples", "dimension", "energy_fraction"),
-        *("seconds", "snapshots", "model_bytes", "peak_memory_bytes", "poses", "fits"),
+        *("seconds", "snapshots", "unseen", "model_bytes", "peak_memory_bytes", "poses", "fits"),
     ]
-    stages = ["mean shape", "snapshots", "basis", "reduction"]
+    stages = ["mean shape", "snapshots", "basis", "reduction", "unseen samples"]
     assert list(figures["seconds"]) == [*stages, "total"]
     assert sum(figures["seconds"][name] for name in stages) <= figures["seconds"]["total"]
     mesh = bar_mesh()

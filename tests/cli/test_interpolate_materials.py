@@ -18,6 +18,7 @@ SMALL = ("--samples", 12, "--dimension", 5)
     ("options", "material", "energy"),
     [
         ((), "stable-neo-hookean", "cubature of"),
+        (("--cubature-tets", 9), "stable-neo-hookean", "cubature of 9 tets"),
         (("--material", "arap", "--mu", 2), "arap", "cubature of"),
         (("--material", "stvk"), "stvk", "exact quartics of 3 poses"),
     ],
@@ -37,6 +38,8 @@ def test_the_summary_says_what_the_energy_is(
     [
         (("--material", "rubber"), "'rubber' is not one of 'arap'"),
         (("--mu", -1), "StableNeoHookean: mu is -1.0, but it must be positive"),
+        (("--material", "stvk", "--cubature-tets", 9), "that of stvk is exact"),
+        (("--target-error", 0.01, "--cubature-tets", 9), "chooses what --cubature-tets decides"),
         (("--samples", 1, "--dimension", 1), "trained on 2 samples or more, but there is 1"),
     ],
 )

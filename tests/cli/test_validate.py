@@ -8,14 +8,14 @@ from snapspace import load, validate
 
 from .conftest import Run
 
-STATISTICS = ["mean", "median", "std", "max"]
+STATISTICS = ["mean", "median", "ninth", "std", "max"]
 
 
 def test_json_has_the_agreed_keys_and_the_figures_of_the_library(run: Run, model: Path) -> None:
     figures = run("validate", model, "--samples", 5, "--seed", 1, "--json").json
     assert list(figures) == [
         *("samples", "dimension", "error", "projection_error", "energy_ratio", "iterations"),
-        *("solve_ms", "frame_ms"),
+        *("solve_ms", "frame_ms", "inverted_tets", "split", "curve", "next"),
     ]
     for name in ("error", "projection_error", "energy_ratio", "iterations"):
         assert list(figures[name]) == STATISTICS

@@ -1,0 +1,64 @@
+"""What a model's record says of its errors, for `info` and the end of a build."""
+
+from __future__ import annotations
+
+from typing import Any
+
+Facts = list[tuple[str, str]]
+
+
+def accuracy_facts(record: dict[str, Any]) -> Facts:
+    """How far unseen motions or blends are off, and inverted tets, as far as they are recorded."""
+    unseen = record.get("unseen")
+    known = isinstance(unseen, dict) and isinstance(unseen.get("inverted_tets"), dict)
+    facts = _of_accuracy(record)
+    if not isinstance(unseen, dict) or not known:
+        return facts
+    if not facts:
+        facts = [("accuracy", f"{_errors(unseen)}; {unseen['samples']} unseen samples")]
+    return [*facts, ("inverted tets", _inverted(unseen))]
+
+
+def _of_accuracy(record: dict[str, Any]) -> Facts:
+    """Of models that were built to be as accurate as was asked."""
+    accurate = record.get("accurate")
+    if not isinstance(accurate, dict) or not isinstance(accurate.get("step"), dict):
+        return []
+    step = accurate["step"]
+    if not {"unseen", "typical", "mean", "ninth"} <= step.keys():
+        return []
+    figures = {"name": step["unseen"], "ninth": step["ninth"], "mean": step["mean"]}
+    asked = f"{_percent(accurate['target_error'])} asked"
+    if step["typical"] == "median":
+        figures["median"] = step["error"]
+    return [("accuracy", f"{_errors(figures, asked)}; {step['samples']} samples")]
+
+
+def _errors(figures: dict[str, Any], asked: str = "") -> str:
+    averages = [
+        f"{_percent(figures[name])} in the {name}" for name in ("median", "mean") if name in figures
+    ]
+    words = ", ".join([*averages, asked] if asked else averages)
+    return (
+        f"unseen {figures['name']} are off by {words}; nine of ten by less than "
+        f"{_percent(figures['ninth'])}"
+    )
+
+
+def _inverted(unseen: dict[str, Any]) -> str:
+    """In how many shapes, and the most of one."""
+    counts = unseen["inverted_tets"]
+    return (
+        f"in {_shapes(counts['samples'], 'samples')}; in "
+        f"{_shapes(counts['frames'], 'frames of unseen ' + unseen['name'])}; in "
+        f"{_shapes(counts['unseen'], 'full solutions of these')}"
+    )
+
+
+def _shapes(counts: dict[str, Any], name: str) -> str:
+    most = f", at most {counts['max']}" if counts["max"] else ""
+    return f"{counts['with_some']} of {counts['shapes']} {name}{most}"
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} %"

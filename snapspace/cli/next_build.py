@@ -1,0 +1,112 @@
+"""next_build: the command that builds the next better model."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from math import floor, log10
+from pathlib import Path
+from typing import Any
+
+from ..accurate.plan import plan_of
+from ..reduction import InterpolationModel, PosingModel
+from ..validation import NextOption
+from .accurate_pipeline import DECIDING
+from .given_options import as_words
+
+Model = PosingModel | InterpolationModel
+
+#: The error that is aimed at, relative to the present one.
+BETTER = 0.5
+_DECIDING = {f"--{name.replace('_', '-')}" for name in (*DECIDING, "energy", "tets")}
+
+
+def next_build(
+    option: NextOption, model: Model, error: float, file: Path, *, folders: Sequence[Path] = ()
+) -> list[str] | None:
+    """The words after `snapspace` for an option; None where the model does not tell its files.
+
+    Parameters
+    ----------
+    option : NextOption of the model
+    model : PosingModel or InterpolationModel
+    error : typical error of unseen parameters, the median of motions or the mean of blends
+    file : Path
+        Of the model. The next one is written beside it, and its input is looked for there.
+    folders : of the input, beside this folder and the present one
+    """
+    record = model.provenance
+    inputs = _inputs(record, [*folders, file.parent, Path()])
+    given = record.get("options")
+    if inputs is None or not isinstance(given, dict):
+        return None
+    options = _options(option, model, error, dict(given))
+    output = file.with_name(f"{file.stem}-next{file.suffix}")
+    first = [name for name in ("--samples", "--dimension") if name in options]
+    ordered = {name: options[name] for name in dict.fromkeys([*first, *sorted(options)])}
+    return [*inputs, *as_words(ordered), "-o", str(output)]
+
+
+def _inputs(record: dict[str, Any], folders: Sequence[Path]) -> list[str] | None:
+    """The command with its files, None if one is not found."""
+    if isinstance(record.get("problem"), str):
+        problem = _found(record["problem"], folders)
+        if problem is None:
+            return None
+        words = ["build", "--problem", str(problem)]
+        if Path(json.loads(problem.read_text(encoding="utf-8"))["mesh"]).name == record.get("mesh"):
+            return words
+        mesh = _found(str(record.get("mesh")), folders)
+        return None if mesh is None else [*words, str(mesh)]
+    if not isinstance(record.get("poses"), list):
+        return None
+    tets = record.get("tets")
+    names = [*record["poses"], *([] if tets is None else [tets])]
+    files = [_found(str(name), folders) for name in names]
+    if None in files or len(set(names)) < len(names):
+        return None
+    poses = [str(file) for file in files[: len(record["poses"])]]
+    return ["interpolate", *poses, *([] if tets is None else ["--tets", str(files[-1])])]
+
+
+def _found(name: str, folders: Sequence[Path]) -> Path | None:
+    return next((folder / name for folder in folders if (folder / name).is_file()), None)
+
+
+def _options(
+    option: NextOption, model: Model, error: float, given: dict[str, Any]
+) -> dict[str, Any]:
+    """The options of the model with those that the advice changes."""
+    given.pop("--budget", None)
+    blends = isinstance(model, InterpolationModel)
+    tets = "--cubature-tets" if blends else "--tets"
+    if option.part == "cubature":
+        given.pop("--target-error", None)
+        if not _DECIDING & given.keys():
+            solved = model.provenance.get("snapshots", {}).get("solved", option.samples)
+            given |= {"--samples": solved, "--dimension": option.dimension}
+        return {**given, tets: option.tets}
+    given.pop(tets, None)
+    if _can_aim(model, given):
+        kept = {name: value for name, value in given.items() if name not in _DECIDING}
+        return {**kept, "--target-error": _target(model, error)}
+    for name in ("--energy-fraction", "--target-error"):
+        given.pop(name, None)
+    if option.energy == "exact" and not blends:
+        given["--energy"] = "exact"
+    return {**given, "--samples": option.samples, "--dimension": option.dimension}
+
+
+def _can_aim(model: Model, given: dict[str, Any]) -> bool:
+    """Whether --target-error may reach more: not where it failed, or where it is not possible."""
+    accurate = model.provenance.get("accurate")
+    failed = isinstance(accurate, dict) and not accurate.get("reached", False)
+    exact = model.problem.material.exact_degree == 4
+    return not (failed or exact or "--extrapolation" in given)
+
+
+def _target(model: Model, error: float) -> float:
+    """Half of the error in one digit, but no more than what is usual."""
+    wanted = min(BETTER * error, plan_of(model.problem).target)
+    digit = 10.0 ** floor(log10(wanted))
+    return float(f"{floor(wanted / digit + 1e-9) * digit:.1g}")

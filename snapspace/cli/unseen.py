@@ -1,0 +1,77 @@
+"""What every build ends with: its errors on parameters that it did not train on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..accurate.plan import plan_of
+from ..reduction import InterpolationModel, PosingModel
+from ..snapshots import Snapshots
+from ..validation import Validation, solved_reference, validate
+from .console import notice
+from .progress import sample_progress
+
+#: Full solutions that judge a model whose samples and dimension were given. They are solved as
+#: tightly as those of `validate`, each in two to four times the time of a sample.
+COUNT = 8
+
+
+def judged(
+    model: PosingModel | InterpolationModel, known: Snapshots | None, *, threads: int | None
+) -> Validation | None:
+    """The validation by known full solutions, or else by eight new ones; None if none converges.
+
+    The new ones are at the first parameters of `snapspace validate`, which no sample has.
+    """
+    if known is not None:
+        return validate(model, reference=known)
+    try:
+        with sample_progress("unseen samples", total=COUNT) as progress:
+            solved = solved_reference(
+                model.problem, samples=COUNT, threads=threads, progress=progress
+            )
+    except ValueError as error:
+        notice(f"notice: the errors of unseen samples are not known: {error}")
+        return None
+    return validate(model, reference=solved)
+
+
+def unseen_record(
+    model: PosingModel | InterpolationModel, validation: Validation, snapshots: Snapshots
+) -> dict[str, Any]:
+    """The entry "unseen" of a model's provenance.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    validation : of unseen samples
+    snapshots : those that were solved to train on, and what else was solved with them
+    """
+    plan = plan_of(model.problem)
+    full = [report.inverted_tets for report in validation.reference.reports]
+    return {
+        "name": plan.unseen_name,
+        "typical": plan.typical_name,
+        "samples": len(validation.error),
+        "median": float(np.median(validation.error)),
+        "mean": float(validation.error.mean()),
+        "ninth": float(np.quantile(validation.error, 0.9)),
+        "projection_median": float(np.median(validation.projection_error)),
+        "inverted_tets": {
+            "samples": _counts([report.inverted_tets for report in snapshots.reports]),
+            "unseen": _counts(full),
+            "frames": _counts(validation.inverted_tets.tolist()),
+        },
+    }
+
+
+def _counts(inverted: list[int]) -> dict[str, float]:
+    """How many shapes have inverted tets, the median and the most of one shape."""
+    return {
+        "shapes": len(inverted),
+        "with_some": sum(count > 0 for count in inverted),
+        "median": float(np.median(inverted)),
+        "max": max(inverted),
+    }

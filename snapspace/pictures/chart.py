@@ -1,0 +1,162 @@
+"""chart: curves over two logarithmic axes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, floor, log10
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+_INK, _GRID, _PAPER = (58, 56, 54), (226, 224, 220), (255, 255, 255)
+_COLORS = ((31, 95, 168), (200, 82, 36), (44, 132, 78), (120, 80, 150))
+#: Drawn so many times as large, and averaged: smooth lines.
+_FINER = 3
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Points (k,) of a curve, all positive, with its name, and a note beside each if any."""
+
+    name: str
+    x: Sequence[float]
+    y: Sequence[float]
+    notes: Sequence[str] = ()
+
+
+def chart(
+    curves: Sequence[Curve],
+    *,
+    title: str,
+    x_name: str,
+    y_name: str,
+    size: tuple[int, int] = (560, 420),
+) -> NDArray[np.uint8]:
+    """Picture of curves with markers, axes, ticks at 1, 2 and 5 of each decade, and a legend.
+
+    Parameters
+    ----------
+    curves : one to four Curves
+    title, x_name, y_name : with units, where there are any
+    size : (int, int), default (560, 420)
+        Width and height in pixels.
+
+    Returns
+    -------
+    ndarray, (height, width, 3) uint8
+        Bitwise the same for the same input.
+
+    Raises
+    ------
+    ValueError
+        Without a curve or with more than four, for points that are not positive and finite, or
+        another number of x than of y.
+    """
+    _check(curves)
+    paper = _Paper(size, curves)
+    paper.frame(title, x_name, y_name)
+    for curve, color in zip(curves, _COLORS, strict=False):
+        paper.curve(curve, color)
+    paper.legend([curve.name for curve in curves])
+    return np.asarray(paper.image.resize(size, Image.Resampling.BOX))
+
+
+class _Paper:
+    """An image with two axes."""
+
+    def __init__(self, size: tuple[int, int], curves: Sequence[Curve]) -> None:
+        width, height = (_FINER * length for length in size)
+        self.image = Image.new("RGB", (width, height), _PAPER)
+        self._pen = ImageDraw.Draw(self.image)
+        self._text = round(0.03 * height)
+        self._font = ImageFont.load_default(size=self._text)
+        room = 3.2 * self._text
+        self._left, self._right = 1.9 * room, width - 0.7 * room
+        self._top, self._bottom = room, height - 1.3 * room
+        self._x = _range([value for curve in curves for value in curve.x])
+        self._y = _range([value for curve in curves for value in curve.y])
+
+    def frame(self, title: str, x_name: str, y_name: str) -> None:
+        """Grid, ticks and names."""
+        pen, left, top, right, bottom = self._pen, self._left, self._top, self._right, self._bottom
+        for value in _ticks(*self._x):
+            x = self._place(value, 1.0)[0]
+            pen.line([(x, top), (x, bottom)], fill=_GRID, width=_FINER)
+            self._write((x, bottom + 0.4 * self._text), f"{value:g}", "ma")
+        for value in _ticks(*self._y):
+            y = self._place(1.0, value)[1]
+            pen.line([(left, y), (right, y)], fill=_GRID, width=_FINER)
+            self._write((left - 0.4 * self._text, y), f"{value:g}", "rm")
+        pen.rectangle([left, top, right, bottom], outline=_INK, width=_FINER)
+        self._write(((left + right) / 2, 0.9 * self._text), title, "ma")
+        self._write(((left + right) / 2, bottom + 2.1 * self._text), x_name, "ma")
+        self._write((0.5 * self._text, top - 1.5 * self._text), y_name, "la")
+
+    def curve(self, curve: Curve, color: tuple[int, int, int]) -> None:
+        """A line with a dot and a note at each point."""
+        points = [self._place(x, y) for x, y in zip(curve.x, curve.y, strict=True)]
+        if len(points) > 1:
+            self._pen.line(points, fill=color, width=2 * _FINER, joint="curve")
+        radius = 3 * _FINER
+        for x, y in points:
+            self._pen.ellipse([x - radius, y - radius, x + radius, y + radius], fill=color)
+        for (x, y), note in zip(points, curve.notes, strict=False):
+            self._write((x + 0.5 * self._text, y - 0.3 * self._text), note, "ls")
+
+    def legend(self, names: Sequence[str]) -> None:
+        """The names, each behind a line of its colour, in the lower left corner."""
+        for place, (name, color) in enumerate(_from_below(names)):
+            y = self._bottom - (1.0 + 1.5 * place) * self._text
+            x = self._left + 0.7 * self._text
+            self._pen.line([(x, y), (x + 1.5 * self._text, y)], fill=color, width=2 * _FINER)
+            self._write((x + 2.0 * self._text, y), name, "lm")
+
+    def _place(self, x: float, y: float) -> tuple[float, float]:
+        across = (log10(x) - self._x[0]) / (self._x[1] - self._x[0])
+        up = (log10(y) - self._y[0]) / (self._y[1] - self._y[0])
+        return (
+            self._left + across * (self._right - self._left),
+            self._bottom - up * (self._bottom - self._top),
+        )
+
+    def _write(self, place: tuple[float, float], text: str, anchor: str) -> None:
+        self._pen.text(place, text, fill=_INK, font=self._font, anchor=anchor)
+
+
+def _from_below(names: Sequence[str]) -> list[tuple[str, tuple[int, int, int]]]:
+    """Names with their colours, the last one first."""
+    return list(zip(names, _COLORS, strict=False))[::-1]
+
+
+def _range(values: Sequence[float]) -> tuple[float, float]:
+    """Decimal logarithms that the values lie well between."""
+    lower, upper = log10(min(values)), log10(max(values))
+    margin = max(0.08 * (upper - lower), 0.1)
+    return lower - margin, upper + margin
+
+
+def _ticks(lower: float, upper: float) -> list[float]:
+    """1, 2 and 5 times powers of ten between two decimal logarithms; over many decades fewer."""
+    factors = (1.0, 2.0, 5.0) if upper - lower < 2.5 else (1.0,)
+    powers = range(floor(lower), ceil(upper) + 1)
+    ticks = [float(f"{factor:g}e{power}") for power in powers for factor in factors]
+    return [tick for tick in ticks if lower <= log10(tick) <= upper]
+
+
+def _check(curves: Sequence[Curve]) -> None:
+    if not 1 <= len(curves) <= len(_COLORS):
+        raise ValueError(f"chart: got {len(curves)} curves, but it draws 1 to {len(_COLORS)}")
+    for curve in curves:
+        values = np.array([*curve.x, *curve.y], np.float64)
+        if len(curve.x) != len(curve.y) or not len(curve.x):
+            raise ValueError(
+                f"chart: '{curve.name}' has {len(curve.x)} x and {len(curve.y)} y; give as many of "
+                "each, one or more"
+            )
+        if not (np.isfinite(values) & (values > 0)).all():
+            raise ValueError(
+                f"chart: '{curve.name}' has a value that is not positive and finite, which has no "
+                "place on a logarithmic axis"
+            )

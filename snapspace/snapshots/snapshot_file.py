@@ -1,0 +1,121 @@
+"""Files of snapshots: full solutions with their parameters, for another run to use."""
+
+from __future__ import annotations
+
+import json
+import os
+import zlib
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from safetensors import SafetensorError, safe_open
+
+from ..displacements import DisplacementRows
+from ..mesh.atomic_file import atomic_file
+from ..mesh.input_path import existing_file, writable_path
+from ..mesh.safetensors_bytes import safetensors_bytes
+from ..problem import Problem
+from .snapshots import SampleReport, Snapshots
+
+Arrays = dict[str, NDArray[np.float64]]
+
+SAMPLES_SUFFIX = ".samples"
+FORMAT, VERSION = "snapspace-samples", "1"
+
+
+def save_snapshots(snapshots: Snapshots, path: str | os.PathLike[str]) -> Path:
+    """Writes full solutions with their parameters, reports and the fingerprint of their problem.
+
+    The layout is that of safetensors, with arrays `parameters` (k, p) and `displacements` (k, 3n)
+    in double precision and a checksum. The mesh is not in it.
+
+    Parameters
+    ----------
+    snapshots : Snapshots
+    path : path
+        Ends in .samples; its folder exists.
+
+    Returns
+    -------
+    Path
+        The file written: completely, or not at all.
+
+    Raises
+    ------
+    ValueError
+        For another extension, or if the file cannot be written.
+    """
+    target = writable_path(path, known=[SAMPLES_SUFFIX])
+    arrays = {
+        "parameters": np.ascontiguousarray(snapshots.parameters, "<f8"),
+        "displacements": np.ascontiguousarray(snapshots.displacements.array(), "<f8"),
+    }
+    header = {
+        "format": FORMAT,
+        "version": VERSION,
+        "fingerprint": snapshots.problem.fingerprint,
+        "reports": json.dumps([asdict(report) for report in snapshots.reports]),
+    }
+    header["crc32"] = _checksum(arrays, header)
+    with atomic_file(target) as temporary:
+        temporary.write_bytes(safetensors_bytes(arrays, header))
+    return target
+
+
+def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
+    """The snapshots of a file, as snapshots of a problem.
+
+    Parameters
+    ----------
+    path : path
+        Of `save_snapshots`.
+    problem : Problem
+        That they were solved for, or an equal one, such as `model.problem`.
+
+    Raises
+    ------
+    ValueError
+        If there is no such file, it is damaged or of another kind, or its samples are of another
+        problem: another mesh, material or domain, or other handles or poses.
+    """
+    file = existing_file(path, known=[SAMPLES_SUFFIX])
+    arrays, header = _read(file)
+    if header["fingerprint"] != problem.fingerprint:
+        raise ValueError(
+            f"{file}: these samples are of another problem than {problem!r}: mesh, material, "
+            "domain, handles or poses differ; solve them anew"
+        )
+    reports = [SampleReport(**entry) for entry in json.loads(header["reports"])]
+    rows = DisplacementRows(arrays["displacements"], problem.base.size)
+    return Snapshots(problem, arrays["parameters"], rows, reports)
+
+
+def _read(file: Path) -> tuple[Arrays, dict[str, str]]:
+    """Arrays and header after all checks that need no problem."""
+    try:
+        with safe_open(file, framework="np") as content:
+            arrays = {name: content.get_tensor(name) for name in content.keys()}
+            header = dict(content.metadata() or {})
+    except (SafetensorError, OSError, ValueError) as error:
+        raise ValueError(
+            f"{file}: not a complete file of samples ({error}); write it again"
+        ) from None
+    if header.get("format") != FORMAT or header.get("version") != VERSION:
+        raise ValueError(
+            f"{file}: not a file of samples of this version; `snapspace validate --save-reference` "
+            "writes one"
+        )
+    if header.get("crc32") != _checksum(arrays, header):
+        raise ValueError(f"{file}: its content has changed since it was written; write it again")
+    return arrays, header
+
+
+def _checksum(arrays: Arrays, header: dict[str, Any]) -> str:
+    words = [f"{key}={header[key]}\n" for key in sorted(header) if key != "crc32"]
+    checksum = zlib.crc32("".join(words).encode())
+    for name in sorted(arrays):
+        checksum = zlib.crc32(np.ascontiguousarray(arrays[name]).data.cast("B"), checksum)
+    return f"{checksum:08x}"

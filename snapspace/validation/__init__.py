@@ -1,0 +1,30 @@
+"""How far reduced models are from full solutions, where the error comes from, and what helps."""
+
+from .error_curve import ErrorCurve, error_curve, usual_dimensions
+from .error_split import PARTS, ErrorSplit, Part, split_errors
+from .given_reference import check_reference
+from .next_option import FACTOR, NextOption, needs_advice, next_option
+from .unseen import REFERENCE_TOLERANCE, solved_reference, unseen_parameters
+from .validate import unseen_errors, validate
+from .validation import Validation
+
+__all__ = [
+    "FACTOR",
+    "PARTS",
+    "REFERENCE_TOLERANCE",
+    "ErrorCurve",
+    "ErrorSplit",
+    "NextOption",
+    "Part",
+    "Validation",
+    "check_reference",
+    "error_curve",
+    "needs_advice",
+    "next_option",
+    "solved_reference",
+    "split_errors",
+    "unseen_errors",
+    "unseen_parameters",
+    "usual_dimensions",
+    "validate",
+]

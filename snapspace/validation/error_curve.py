@@ -1,0 +1,91 @@
+"""error_curve: errors and times of a model's leading dimensions, against one reference."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..reduction import ReducedModel
+from ..snapshots import Progress, Snapshots
+from .validate import given_or_solved, validate
+from .validation import Validation
+
+#: Dimensions of a curve by default, each larger than the one before by the same factor.
+POINTS, SMALLEST_SHARE = 8, 0.1
+
+
+@dataclass(frozen=True)
+class ErrorCurve:
+    """Validations of a model's leading dimensions.
+
+    dimensions : (c,) ascending
+    validations : one for each, all against the same full solutions
+    """
+
+    dimensions: NDArray[np.int64]
+    validations: tuple[Validation, ...]
+
+    @property
+    def reference(self) -> Snapshots:
+        """The full solutions."""
+        return self.validations[0].reference
+
+    def as_json(self) -> list[dict[str, Any]]:
+        """Per dimension, what `Validation.as_json` gives."""
+        pairs = zip(self.dimensions.tolist(), self.validations, strict=True)
+        return [validation.as_json(dimension) for dimension, validation in pairs]
+
+
+def usual_dimensions(dimension: int) -> list[int]:
+    """Eight dimensions or fewer, from a tenth of the largest up to it, in equal ratios."""
+    spread = np.geomspace(max(SMALLEST_SHARE * dimension, 1.0), dimension, POINTS)
+    return sorted({int(d) for d in np.rint(spread)})
+
+
+def error_curve(
+    model: ReducedModel,
+    *,
+    dimensions: Sequence[int] | None = None,
+    samples: int | None = None,
+    seed: int | None = None,
+    reference: Snapshots | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> ErrorCurve:
+    """Validates `model.leading(d)` for several d, with one set of full solutions.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    dimensions : sequence of int, optional
+        Between 1 and the model's. Default: `usual_dimensions`.
+    samples, seed, reference, threads, progress : as for `validate`
+
+    Returns
+    -------
+    ErrorCurve
+        Its projection errors never grow with d. The tets of a cubature were chosen for the whole
+        model: with fewer dimensions they are as many, so that its milliseconds fall with d and not
+        with d^2, and a model that is built for a small d has fewer and is faster.
+
+    Raises
+    ------
+    ValueError
+        As `validate`, and for a dimension that the model does not have, or none.
+    """
+    chosen = usual_dimensions(model.dimension) if dimensions is None else sorted(set(dimensions))
+    wrong = [d for d in chosen if not 1 <= d <= model.dimension]
+    if wrong or not chosen:
+        raise ValueError(
+            f"error_curve: dimensions are {chosen}, but one or more are needed, each between 1 and "
+            f"{model.dimension}, the model's"
+        )
+    reference = given_or_solved(
+        model, reference, samples=samples, seed=seed, threads=threads, progress=progress
+    )
+    validations = [validate(model.leading(d), reference=reference) for d in chosen]
+    return ErrorCurve(np.array(chosen, np.int64), tuple(validations))

@@ -1,0 +1,126 @@
+"""split_errors: which part of a model's error is whose fault."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import mass_norms
+from ..reduction import BlendedCubature, Cubature, InterpolationModel, PosingModel, ReducedModel
+from ..snapshots import Snapshots
+from .given_reference import check_reference
+from .restricted_energy import RestrictedEnergy
+
+FloatArray = NDArray[np.float64]
+Part = Literal["subspace", "stiffness", "cubature"]
+PARTS: tuple[Part, ...] = ("subspace", "stiffness", "cubature")
+
+
+@dataclass(frozen=True)
+class ErrorSplit:
+    """The way from full solutions to reduced ones, in three parts, (k,) each for k samples.
+
+    All are M-norms over |x_full - tau|_M. With P the M-projection into the subspace, and x_all the
+    reduced minimiser with the energy of all tets:
+
+    subspace : |P x_full - x_full|, the least error that the subspace allows
+    stiffness : |x_all - P x_full|: a subspace cannot relax as the full mesh does, and is too stiff
+    cubature : |x_red - x_all|, what the sum over few tets moves; zero for an exact energy
+    error_of_all_tets : |x_all - x_full|, what more tets can reach
+    error : |x_red - x_full|, as `Validation.error` without the last registration of blends
+
+    subspace^2 + stiffness^2 = error_of_all_tets^2, since the basis is M-orthonormal, and error is
+    at most error_of_all_tets + cubature.
+    """
+
+    subspace: FloatArray
+    stiffness: FloatArray
+    cubature: FloatArray
+    error_of_all_tets: FloatArray
+    error: FloatArray
+
+    @property
+    def largest(self) -> Part:
+        """The part with the largest median."""
+        return max(PARTS, key=lambda part: float(np.median(getattr(self, part))))
+
+    def as_json(self) -> dict[str, Any]:
+        """Medians and maxima, with the keys of `snapspace validate --split --json`."""
+        names = (*PARTS, "error_of_all_tets", "error")
+        figures = {
+            name: {
+                "median": float(np.median(getattr(self, name))),
+                "max": float(getattr(self, name).max()),
+            }
+            for name in names
+        }
+        return {"samples": len(self.error), "largest": self.largest, **figures}
+
+
+def split_errors(
+    model: ReducedModel,
+    reference: Snapshots,
+    *,
+    threads: int | None = None,
+) -> ErrorSplit:
+    """Splits the errors of a model at known full solutions.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    reference : Snapshots
+        Full solutions that the model has not seen, as for `validate`. A few are enough: for a
+        cubature each takes 2 d evaluations of the full energy, and one for each step of a descent:
+        0.2 to 3.3 times the seconds of its full solution (benchmarks/next_options.py). An exact
+        energy takes none.
+    threads : int, optional
+        Default: all. The result does not depend on it.
+
+    Returns
+    -------
+    ErrorSplit
+
+    Raises
+    ------
+    ValueError
+        For a reference that `validate` would refuse.
+    """
+    check_reference(model, reference, who="split_errors")
+    problem, subspace = model.problem, model.subspace
+    rows = reference.displacements.shifted(problem.base - subspace.tau)
+    projections = subspace.row_coordinates(rows)
+    session, cubature = model.session(), _is_cubature(model)
+    parts = np.empty((len(rows), 5))
+    samples = zip(parts, reference.parameters, rows, projections, strict=True)
+    for target, w, row, projection in samples:
+        session.reset()
+        session.set_parameters(w)
+        reduced = session.q.copy()
+        every = reduced
+        if cubature:
+            energy = RestrictedEnergy(problem, subspace, w, threads=threads)
+            every = energy.minimiser(
+                projection, value_scale=model.value_scale, scale=model.coordinate_scale
+            )
+        miss = row - (subspace.shape(projection) - subspace.tau)
+        size, least = mass_norms(subspace.mass, np.column_stack([row, miss]))
+        inside = [np.linalg.norm(a - b) for a, b in _pairs(projection, every, reduced)]
+        outside = [np.hypot(least, np.linalg.norm(q - projection)) for q in (every, reduced)]
+        target[:] = np.array([least, *inside, *outside]) / size
+    return ErrorSplit(*parts.T)
+
+
+def _pairs(
+    projection: FloatArray, every: FloatArray, reduced: FloatArray
+) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
+    """What the middle and the last part lie between."""
+    return (projection, every), (every, reduced)
+
+
+def _is_cubature(model: ReducedModel) -> bool:
+    if isinstance(model, PosingModel):
+        return isinstance(model.elastic, Cubature)
+    return isinstance(model, InterpolationModel) and isinstance(model.blends, BlendedCubature)

@@ -1,0 +1,62 @@
+"""Tight full solutions at parameters that no model was made of."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..problem import Problem
+from ..sampling import Domain
+from ..snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
+
+FloatArray = NDArray[np.float64]
+
+#: The reference is solved until twice the predicted decrease is below this share of F, or a
+#: hundredth of the tolerance that snapshots have. On the Dragon its shapes are then within 1e-4 of
+#: the limit, relative to the displacement.
+REFERENCE_TOLERANCE = 1e-10
+
+
+def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
+    """Uniform random parameters (count, p) from a stream that `sample` never draws from."""
+    if count < 1:
+        raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
+    stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
+    return domain.from_unit(stream.random((count, domain.dimension)))
+
+
+def solved_reference(
+    problem: Problem,
+    *,
+    samples: int = 30,
+    seed: int = 1,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Snapshots:
+    """Tightly converged full solutions at unseen parameters; those that converged.
+
+    Parameters
+    ----------
+    problem : Problem
+    samples : int, default 30
+    seed : int, default 1
+        See `unseen_parameters`.
+    threads, progress : as for `solve_snapshots`
+
+    Raises
+    ------
+    ValueError
+        If none converged.
+    """
+    parameters = unseen_parameters(problem.domain, samples, seed=seed)
+    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
+    options = SolverOptions(tolerance=tolerance, max_iterations=5000)
+    solved = solve_snapshots(
+        problem, parameters, options=options, threads=threads, progress=progress
+    )
+    reference = solved.select(solved.converged)
+    if len(reference) == 0:
+        raise ValueError(
+            "validate: no full solution converged, so there is nothing to compare with"
+        )
+    return reference

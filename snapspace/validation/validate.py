@@ -1,0 +1,146 @@
+"""validate: a reduced model against full solutions at parameters that it has not seen."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import mass_norms, tet_volumes
+from ..reduction import ReducedModel
+from ..session import FrameReport
+from ..snapshots import Progress, Snapshots
+from .given_reference import check_reference
+from .unseen import solved_reference
+from .validation import Validation
+
+FloatArray = NDArray[np.float64]
+
+#: Full solutions by default, and the seed of their parameters.
+SAMPLES, SEED = 30, 1
+
+
+def validate(
+    model: ReducedModel,
+    *,
+    samples: int | None = None,
+    seed: int | None = None,
+    reference: Snapshots | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Validation:
+    """Compares reduced solutions with tightly converged full ones at unseen parameters.
+
+    Parameters
+    ----------
+    model : ReducedModel
+    samples : int, default 30
+    seed : int, default 1
+        The parameters come from a stream that `sample` never draws from.
+    reference : Snapshots, optional
+        Known full solutions of the same problem in place of new ones, such as
+        `Validation.reference`, or those of `load_snapshots`. Errors are no more exact than these
+        are converged.
+    threads, progress : as for `solve_snapshots`
+
+    Returns
+    -------
+    Validation
+        The same figures for new and for known solutions, apart from milliseconds.
+
+    Raises
+    ------
+    ValueError
+        If no full solution converged; for samples or seed beside a reference; for a reference of
+        another problem, of no samples, with one that did not converge, or with one that the model
+        was made of.
+    """
+    reference = given_or_solved(
+        model, reference, samples=samples, seed=seed, threads=threads, progress=progress
+    )
+    errors, frames, inverted = _compared(model, reference)
+    full_values = np.array([report.value for report in reference.reports])
+    return Validation(
+        error=errors[:, 0],
+        projection_error=errors[:, 1],
+        energy_ratio=np.array([report.value for report, _ in frames]) / full_values,
+        iterations=np.array([report.iterations for report, _ in frames]),
+        solve_ms=np.array([1e3 * report.seconds for report, _ in frames]),
+        frame_ms=np.array([milliseconds for _, milliseconds in frames]),
+        inverted_tets=inverted,
+        reference=reference,
+    )
+
+
+def given_or_solved(
+    model: ReducedModel,
+    reference: Snapshots | None,
+    *,
+    samples: int | None,
+    seed: int | None,
+    threads: int | None,
+    progress: Progress | None,
+) -> Snapshots:
+    """The reference that was given, checked, or else a new one; as for `validate`."""
+    if reference is None:
+        return solved_reference(
+            model.problem,
+            samples=SAMPLES if samples is None else samples,
+            seed=SEED if seed is None else seed,
+            threads=threads,
+            progress=progress,
+        )
+    if samples is not None or seed is not None:
+        raise ValueError(
+            "validate: the parameters come from the reference, so samples and seed are of no "
+            "effect; leave them or the reference out"
+        )
+    check_reference(model, reference)
+    return reference
+
+
+def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
+    """Errors (k,) of reduced solves from tau against full solutions, as `Validation.error`.
+
+    Raises
+    ------
+    ValueError
+        If the reference is of another problem.
+    """
+    reference.check_known(model.problem, "unseen_errors")
+    errors: FloatArray = _compared(model, reference)[0][:, 0]
+    return errors
+
+
+def _compared(
+    model: ReducedModel, reference: Snapshots
+) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
+    """Errors (k, 2), see `_errors`, reports with the milliseconds of frames, and inverted tets."""
+    session, tets = model.session(), model.problem.mesh.tets
+    solutions, frames, inverted = [], [], []
+    for w in reference.parameters:
+        session.reset()
+        begin = time.perf_counter()
+        report = session.set_parameters(w)
+        vertices = session.vertices
+        frames.append((report, 1e3 * (time.perf_counter() - begin)))
+        inverted.append(int((tet_volumes(vertices, tets) <= 0).sum()))
+        solutions.append(session.q.copy())
+    return _errors(model, reference, np.array(solutions)), frames, np.array(inverted, np.int64)
+
+
+def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
+    """Errors of reduced solutions (k, d) and of projections, (k, 2); one shape at a time."""
+    problem, subspace = model.problem, model.subspace
+    rows = reference.displacements.shifted(problem.base - subspace.tau)
+    projections = subspace.row_coordinates(rows)
+    errors = np.empty((len(rows), 2))
+    for target, row, solution, projection in zip(errors, rows, solutions, projections, strict=True):
+        full = subspace.tau + row
+        reduced = problem.aligned(subspace.shape(solution), full)
+        projected = subspace.shape(projection)
+        misses = np.column_stack([reduced - full, projected - full, row])
+        norms = mass_norms(subspace.mass, misses)
+        target[:] = norms[:2] / norms[2]
+    return errors

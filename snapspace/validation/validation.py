@@ -1,0 +1,71 @@
+"""Validation: errors and costs of a model at unseen parameters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..snapshots import Snapshots
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Validation:
+    """Errors and costs on unseen parameters, (k,) for the k samples whose full solve converged.
+
+    error : |x_red - x_full|_M / |x_full - tau|_M of the reduced solve from tau, the rest or mean
+    shape; of interpolations after rigid registration
+    projection_error : the same for the M-projection of x_full into the subspace: the least possible
+    energy_ratio : objective of the reduced solution over that of the full one
+    iterations : of the session
+    solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
+    inverted_tets : tets of the reduced solution with no positive volume; those of the full
+    solutions are in `reference.reports`
+    reference : the full solutions, for the next validation: `save_snapshots` keeps them
+    """
+
+    error: FloatArray
+    projection_error: FloatArray
+    energy_ratio: FloatArray
+    iterations: NDArray[np.int64]
+    solve_ms: FloatArray
+    frame_ms: FloatArray
+    inverted_tets: NDArray[np.int64]
+    reference: Snapshots
+
+    def as_json(self, dimension: int) -> dict[str, Any]:
+        """The figures with the keys of `snapspace validate --json`."""
+        return {
+            "samples": len(self.error),
+            "dimension": dimension,
+            "error": _statistics(self.error),
+            "projection_error": _statistics(self.projection_error),
+            "energy_ratio": _statistics(self.energy_ratio),
+            "iterations": _statistics(self.iterations),
+            "solve_ms": {
+                "median": float(np.median(self.solve_ms)),
+                "max": float(self.solve_ms.max()),
+            },
+            "frame_ms": {
+                "median": float(np.median(self.frame_ms)),
+                "max": float(self.frame_ms.max()),
+            },
+            "inverted_tets": {
+                "frames_max": int(self.inverted_tets.max()),
+                "samples_max": max(report.inverted_tets for report in self.reference.reports),
+            },
+        }
+
+
+def _statistics(values: NDArray[Any]) -> dict[str, float]:
+    return {
+        "mean": float(np.mean(values)),
+        "median": float(np.median(values)),
+        "ninth": float(np.quantile(values, 0.9)),
+        "std": float(np.std(values)),
+        "max": float(np.max(values)),
+    }

@@ -1,0 +1,59 @@
+"""Charts: points are where their values are, and ticks are round numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace.pictures import Curve, chart
+
+BLUE = np.array([31, 95, 168])
+
+
+def drawn(*curves: Curve) -> NDArray[np.uint8]:
+    return chart(curves, title="errors", x_name="d", y_name="error", size=(420, 320))
+
+
+def dots(image: NDArray[np.uint8]) -> NDArray[np.float64]:
+    """Pixels (k, 2) as x and y that have the first colour, without those of the legend."""
+    y, x = np.nonzero((np.abs(image.astype(int) - BLUE) < 12).all(axis=2))
+    inside = ~((y > 240) & (x < 120))
+    return np.stack([x[inside], y[inside]], axis=1).astype(float)
+
+
+def test_equal_ratios_are_equal_lengths() -> None:
+    """A power law is a straight line in logarithms: the middle point is in the middle."""
+    ends = dots(drawn(Curve("a", [1, 100], [1.0, 0.01])))
+    middle = dots(drawn(Curve("a", [1, 10, 100], [1.0, 0.1, 0.01])))
+    assert middle.mean(axis=0) == pytest.approx(ends.mean(axis=0), abs=2.0)
+    low, high = ends[ends[:, 0].argmin()], ends[ends[:, 0].argmax()]
+    assert high[1] > low[1], "small values are below large ones"
+
+
+def test_the_same_curves_give_the_same_bytes() -> None:
+    curves = [Curve("a", [1, 2], [3, 4], ["n", "m"]), Curve("b", [1, 2], [5, 6])]
+    first, second = drawn(*curves), drawn(*curves)
+    assert first.shape == (320, 420, 3) and first.dtype == np.uint8
+    np.testing.assert_array_equal(first, second)
+    assert (drawn(curves[0]) != first).any()
+
+
+def test_one_point_has_a_place() -> None:
+    assert len(dots(drawn(Curve("a", [7], [0.1]))))
+
+
+@pytest.mark.parametrize(
+    ("curves", "message"),
+    [
+        ([], "got 0 curves"),
+        ([Curve("a", [1], [1])] * 5, "got 5 curves, but it draws 1 to 4"),
+        ([Curve("a", [1, 2], [1])], "'a' has 2 x and 1 y"),
+        ([Curve("a", [], [])], "'a' has 0 x and 0 y"),
+        ([Curve("a", [1, 0], [1, 1])], "'a' has a value that is not positive"),
+        ([Curve("a", [1, 2], [1, np.nan])], "'a' has a value that is not positive"),
+    ],
+)
+def test_what_has_no_place_is_refused(curves: list[Curve], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        drawn(*curves)

@@ -1,0 +1,143 @@
+"""The parts of an error, against the cubature of all tets and against Pythagoras."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from snapspace import (
+    Cubature,
+    ErrorSplit,
+    InterpolationModel,
+    PosingModel,
+    ReducedModel,
+    Snapshots,
+    StableNeoHookean,
+    reduce,
+    sample,
+    snapshot_pca,
+    solve_snapshots,
+    split_errors,
+    validate,
+)
+from snapspace.cubature import BlendedCubature
+from snapspace.validation import solved_reference
+
+from ..snapshots.bars import posing_bar
+
+COUNT = 4
+
+
+@pytest.fixture(scope="module")
+def stiff_in_part() -> PosingModel:
+    """A bar whose moduli differ from tet to tet, with far too few tets."""
+    count = len(posing_bar().mesh.tets)
+    material = StableNeoHookean(lam=1.5, mu=np.linspace(0.5, 2.0, count))
+    problem = posing_bar(bound=0.5, material=material)
+    snapshots = solve_snapshots(problem, sample(problem.domain, 60, seed=1), threads=1)
+    subspace = snapshot_pca(snapshots, dimension=24)
+    return reduce(problem, subspace, snapshots=snapshots, tets=24, threads=1)
+
+
+def reference(model: ReducedModel) -> Snapshots:
+    return solved_reference(model.problem, samples=COUNT, seed=2, threads=1)
+
+
+def with_all_tets(model: PosingModel | InterpolationModel) -> PosingModel | InterpolationModel:
+    """The same subspace with the energy of all tets, which is exact but for rounded rows."""
+    mesh = model.problem.mesh
+    every = np.arange(len(mesh.tets), dtype=np.int32)
+    if isinstance(model, PosingModel):
+        cubature = Cubature.of_tets(model.problem, model.subspace, every, mesh.volumes)
+        return replace(model, elastic=cubature)
+    blended = BlendedCubature.of_tets(model.problem, model.subspace, every, mesh.volumes)
+    return replace(model, blends=blended)
+
+
+@pytest.mark.parametrize("name", ["stiff_in_part", "blended_cubature_model"])
+def test_the_middle_part_is_what_a_cubature_of_all_tets_leaves(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    """An independent way to the same minimiser: a compiled loop on 9 d numbers for each tet."""
+    model = request.getfixturevalue(name)
+    full = reference(model)
+    split = split_errors(model, full)
+    exact = with_all_tets(model)
+    session = exact.session(tolerance=1e-13)
+    assert split.error_of_all_tets == pytest.approx(_errors(exact, full, session), rel=1e-3)
+    of_exact = split_errors(exact, full)
+    assert of_exact.cubature.max() < 0.05 * split.error.max(), "then there is nothing that tets add"
+    np.testing.assert_array_equal(of_exact.stiffness, split.stiffness)
+    np.testing.assert_array_equal(of_exact.subspace, split.subspace)
+
+
+def _errors(model: ReducedModel, full: Snapshots, session: object) -> np.ndarray:
+    assert hasattr(session, "reset") and hasattr(session, "set_parameters")
+    rows = full.displacements.shifted(model.problem.base - model.subspace.tau)
+    projections, errors = model.subspace.row_coordinates(rows), []
+    for w, row, projection in zip(full.parameters, rows, projections, strict=True):
+        session.reset()
+        session.set_parameters(w)
+        q = session.q  # type: ignore[attr-defined]
+        inside = model.subspace.basis @ projection
+        least = float(np.sqrt(_square(model, row - inside)))
+        away = np.hypot(least, np.linalg.norm(q - projection))
+        errors.append(away / np.sqrt(_square(model, row)))
+    return np.array(errors)
+
+
+def _square(model: ReducedModel, displacement: np.ndarray) -> float:
+    shape = displacement.reshape(-1, 3)
+    return float((shape * (model.subspace.mass @ shape)).sum())
+
+
+def test_the_first_two_parts_are_at_right_angles(stiff_in_part: PosingModel) -> None:
+    """And the last is at most the rest: the triangle inequality."""
+    split = split_errors(stiff_in_part, reference(stiff_in_part))
+    both = np.hypot(split.subspace, split.stiffness)
+    np.testing.assert_allclose(split.error_of_all_tets, both, rtol=1e-12)
+    assert (split.error <= split.error_of_all_tets + split.cubature + 1e-12).all()
+    assert split.largest == "cubature", "24 tets for 24 modes are too few"
+
+
+@pytest.mark.parametrize("name", ["stiff_in_part", "posing_model", "blending_model"])
+def test_the_whole_is_what_validate_measures(name: str, request: pytest.FixtureRequest) -> None:
+    model = request.getfixturevalue(name)
+    full = reference(model)
+    split, checked = split_errors(model, full), validate(model, reference=full)
+    np.testing.assert_allclose(split.error, checked.error, rtol=5e-3)
+    np.testing.assert_allclose(split.subspace, checked.projection_error, rtol=1e-4)
+
+
+@pytest.mark.parametrize("name", ["posing_model", "blending_model"])
+def test_an_exact_energy_has_no_part_of_a_cubature(
+    name: str, request: pytest.FixtureRequest
+) -> None:
+    model = request.getfixturevalue(name)
+    split = split_errors(model, reference(model))
+    np.testing.assert_array_equal(split.cubature, 0.0)
+    np.testing.assert_array_equal(split.error, split.error_of_all_tets)
+    assert split.largest != "cubature"
+
+
+def test_it_is_the_same_on_any_number_of_threads(stiff_in_part: PosingModel) -> None:
+    full = reference(stiff_in_part)
+    first, second = (split_errors(stiff_in_part, full, threads=n) for n in (1, 2))
+    for name in ErrorSplit.__dataclass_fields__:
+        np.testing.assert_array_equal(getattr(first, name), getattr(second, name))
+
+
+def test_json_names_the_largest_part(stiff_in_part: PosingModel) -> None:
+    split = split_errors(stiff_in_part, reference(stiff_in_part))
+    content = split.as_json()
+    assert (content["samples"], content["largest"]) == (COUNT, "cubature")
+    assert content["stiffness"]["median"] == np.median(split.stiffness)
+
+
+def test_a_reference_that_is_no_solution_is_refused(stiff_in_part: PosingModel) -> None:
+    full = reference(stiff_in_part)
+    reports = [replace(report, status="max_iterations") for report in full.reports]
+    with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are no full"):
+        split_errors(stiff_in_part, replace(full, reports=reports))
