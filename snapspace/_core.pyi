@@ -458,6 +458,20 @@ class Report:
 def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """tau + sum of q_i modes_i, (3n,)."""
 
+class ShapeRows:
+    """Shapes tau + U q of one basis, with modes in single precision."""
+
+    def __init__(self, tau: NDArray[numpy.float64], modes: NDArray[numpy.float64]) -> None: ...
+
+    @property
+    def bytes(self) -> int:
+        """What a shape of all modes reads."""
+
+    def shape(self, q: NDArray[numpy.float64], *, threads: int = 0) -> NDArray[numpy.float32]:
+        """
+        tau + U q (3n,) of the first coordinates in single precision, on so many threads (0: as many as pay).
+        """
+
 class ReducedFunction:
     """A function of reduced coordinates q (d,)."""
 

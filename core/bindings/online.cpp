@@ -1,5 +1,6 @@
 #include "bindings/live_loop.h"
 #include "live/reconstruct.h"
+#include "live/shape_rows.h"
 
 namespace snapspace {
 
@@ -148,6 +149,35 @@ void bind_blending(nb::module_& m) {
           nb::arg("weights"));
 }
 
+void bind_shape_rows(nb::module_& m) {
+  nb::class_<live::ShapeRows>(m, "ShapeRows",
+                              "Shapes tau + U q of one basis, with modes in single precision.")
+      .def(
+          "__init__",
+          [](live::ShapeRows* self, VectorIn tau, MatrixIn modes) {
+            require(modes.shape(1) == tau.size(), "tau (3n,) and modes (d, 3n) do not match");
+            new (self) live::ShapeRows(tau.size(), static_cast<int>(modes.shape(0)), tau.data(),
+                                       modes.data());
+          },
+          nb::arg("tau"), nb::arg("modes"))
+      .def_prop_ro("bytes", &live::ShapeRows::bytes, "What a shape of all modes reads.")
+      .def(
+          "shape",
+          [](const live::ShapeRows& self, VectorIn q, int threads) {
+            require(q.size() <= static_cast<std::size_t>(self.dimension()),
+                    "q must have an entry for each mode, or for the first ones");
+            auto shape = new_array<float>({self.size()});
+            {
+              const nb::gil_scoped_release release;
+              self.shape(q.data(), static_cast<int>(q.size()), threads, shape.data());
+            }
+            return shape;
+          },
+          nb::arg("q"), nb::kw_only(), nb::arg("threads") = 0,
+          "tau + U q (3n,) of the first coordinates in single precision, on so many threads (0: as "
+          "many as pay).");
+}
+
 }  // namespace
 
 void bind_online(nb::module_& m) {
@@ -163,6 +193,7 @@ void bind_online(nb::module_& m) {
         return shape;
       },
       nb::arg("tau"), nb::arg("modes"), nb::arg("q"), "tau + sum of q_i modes_i, (3n,).");
+  bind_shape_rows(m);
   bind_functions(m);
   bind_loop(m);
   bind_posing(m);

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics
+from .display_shapes import Vertices
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
@@ -173,7 +174,7 @@ class BlendingSession(Session[InterpolationModel]):
     def _inputs(self) -> FloatArray:
         return self._weights
 
-    def _placed(self, vertices: FloatArray) -> FloatArray:
+    def _placed(self, vertices: Vertices) -> Vertices:
         return vertices
 
     def _make_probe(self, sample: ResidualSample) -> BlendingProbe:

@@ -12,6 +12,7 @@ from .. import _core as core
 from ..certificate import PosingProbe, ResidualSample
 from ..problem import rigid_offset
 from ..reduction import Cubature, PosingModel
+from .display_shapes import Vertices
 from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
@@ -190,10 +191,11 @@ class PosingSession(Session[PosingModel]):
     def _inputs(self) -> FloatArray:
         return self.model.problem.target_displacements(self._offsets).reshape(-1)
 
-    def _placed(self, vertices: FloatArray) -> FloatArray:
+    def _placed(self, vertices: Vertices) -> Vertices:
         if np.array_equal(self._maps[0], np.eye(3, 4)):
             return vertices
-        return np.asarray(vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3], np.float64)
+        placed = vertices @ self._maps[0, :, :3].T + self._maps[0, :, 3]
+        return placed.astype(vertices.dtype, copy=False)
 
     def _make_probe(self, sample: ResidualSample) -> PosingProbe:
         return PosingProbe(self.model.problem, self.model.subspace, sample)

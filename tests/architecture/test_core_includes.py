@@ -41,7 +41,7 @@ ALLOWED: dict[str, set[str]] = {
     "polish": {"simd", "snapshots", "threads"},
     "fitting": {"cholesky", "element", "energy", "mesh", "snapshots", "threads"},
     "lanes": {"cholesky", "energy", "memory", "multigrid", "simd", "threads"},
-    "live": {"material", "online"},
+    "live": {"material", "online", "threads"},
     "measure": {"energy", "live", "mesh", "simd", "snapshots", "threads"},
     "bindings": {
         "lanes",

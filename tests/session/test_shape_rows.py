@@ -1,0 +1,67 @@
+"""Vertices for the screen: those in double, as far as single precision goes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from snapspace import PosingModel
+from snapspace import _core as core
+
+
+def parts(size: int, dimension: int, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    rng = np.random.default_rng(seed)
+    scales = 10.0 ** rng.uniform(-3, 3, size=dimension)
+    modes = rng.normal(size=(dimension, size)) * scales[:, None]
+    return 1e3 * rng.normal(size=size), modes, rng.normal(size=dimension) / scales
+
+
+@given(st.integers(1, 5000), st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_each_coordinate_keeps_the_bound(size: int, dimension: int, seed: int) -> None:
+    tau, modes, q = parts(size, dimension, seed)
+    shape = core.ShapeRows(tau, modes).shape(q)
+    most = (dimension + 4) * 2.0**-24 * (np.abs(q) @ np.abs(modes))
+    exact = tau + q @ modes
+    rounding = 2.0**-23 * np.abs(exact)  # of the shape itself
+    assert (np.abs(shape - exact) <= most + rounding + 1e-30).all()
+
+
+def test_threads_change_nothing() -> None:
+    tau, modes, q = parts(30_011, 41, 1)
+    rows = core.ShapeRows(tau, modes)
+    one = rows.shape(q, threads=1)
+    for threads in (0, 2, 5):
+        np.testing.assert_array_equal(rows.shape(q, threads=threads), one)
+
+
+@pytest.mark.parametrize("count", [0, 1, 3, 4, 6])
+def test_the_first_coordinates_are_a_shape_of_fewer_modes(count: int) -> None:
+    tau, modes, q = parts(5000, 7, 2)
+    few = core.ShapeRows(tau, modes[:count]) if count else None
+    shape = core.ShapeRows(tau, modes).shape(q[:count])
+    np.testing.assert_array_equal(shape, np.float32(tau) if few is None else few.shape(q[:count]))
+
+
+def test_what_does_not_match_is_refused() -> None:
+    tau, modes, q = parts(12, 3, 3)
+    with pytest.raises(ValueError, match=r"tau \(3n,\) and modes \(d, 3n\) do not match"):
+        core.ShapeRows(tau[:-1], modes)
+    with pytest.raises(ValueError, match="q must have an entry for each mode"):
+        core.ShapeRows(tau, modes).shape(np.append(q, 1.0))
+
+
+def test_a_session_shows_the_shape_of_its_coordinates(posing_model: PosingModel) -> None:
+    session = posing_model.session()
+    session.pose(0.7 * posing_model.problem.domain.half_widths)
+    exact = posing_model.subspace.shape(session.q).reshape(-1, 3)
+    rest = posing_model.problem.mesh.vertices
+    assert session.positions.dtype == np.float32 and session.positions.shape == rest.shape
+    bound = 1e-6 * np.abs(exact - rest).max() + 2.0**-23 * np.abs(exact).max()
+    assert np.abs(session.positions - exact).max() < bound
+    session.dimension = 3
+    session.solve()
+    assert np.abs(session.positions - session.vertices).max() < bound
+    session.reset()
+    np.testing.assert_array_equal(session.positions, rest.astype(np.float32))
