@@ -17,9 +17,6 @@ MODES_PER_SOLUTION = 0.8
 GROWTH = 1.2
 #: Where more dimensions leave more than this share of the error, still more are of no use.
 FALL = 0.9
-#: The most dimensions of a stage are tried where this times the target is expected of them: the
-#: ratio of other samples is uncertain by more. Bar and Spot then take two thirds of the time.
-CLOSE = 1.2
 #: What the next try aims below the target by.
 MARGIN = 1.1
 
@@ -63,15 +60,10 @@ class Tries:
             enough = np.flatnonzero(self._projections * self._ratio * MARGIN <= self._target)
             wanted = max(int(enough[0]), ceil(GROWTH * tried), 1) if len(enough) else self.most + 1
             if wanted > self.most:
-                if tried == self.most or not (last or self._is_close()):
+                if tried == self.most or not last:
                     return
                 wanted = self.most
             yield wanted
-
-    def _is_close(self) -> bool:
-        """Whether the most dimensions may do, though the first ratio is against it."""
-        expected = self._projections[self.most] * self._ratio
-        return not self.steps and bool(expected <= CLOSE * self._target)
 
     def _useless(self) -> bool:
         """Whether the target is met, or the last dimensions did not help."""
