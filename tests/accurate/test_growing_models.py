@@ -73,11 +73,11 @@ def test_the_first_impression_is_of_loose_samples(
 def test_solves_begin_where_known_samples_are(
     problem: PosingProblem, growths: list[Growth]
 ) -> None:
-    before = growths[-1].snapshots
-    again = list(growing_models(problem, target_error=0.004, known=before))
+    before = next(growth for growth in growths if growth.step)
+    models = growing_models(problem, target_error=0.004, known=before.snapshots)
+    again = next(growth for growth in models if growth.step)
     iterations = [
-        sum(report.iterations for report in snapshots.reports)
-        for snapshots in (before, again[-1].snapshots)
+        sum(report.iterations for report in growth.snapshots.reports) for growth in (before, again)
     ]
     assert iterations[1] < 0.4 * iterations[0]
 
@@ -105,8 +105,8 @@ def test_a_budget_ends_it_with_the_best_so_far(problem: PosingProblem) -> None:
     assert not built.reached and len(built.snapshots) == 96, "the first stage is always solved"
     assert built.step.error < 0.1, "and makes a model"
     assert any("would take longer than the budget of 0.001 s" in line for line in told)
-    roomy = accurate_model(problem, target_error=0.02, budget=1000.0)
-    assert roomy.steps == accurate_model(problem, target_error=0.02).steps
+    roomy = accurate_model(problem, target_error=0.05, budget=1000.0)
+    assert roomy.steps == accurate_model(problem, target_error=0.05).steps
 
 
 @pytest.mark.parametrize("budget", [0.0, -1.0, np.nan, np.inf])
