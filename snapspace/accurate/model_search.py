@@ -106,7 +106,7 @@ class ModelSearch:
         )
         self.steps: list[Step] = []
         self.best: Trial | None = None
-        self._model_seconds = 0.0  # of the last model
+        self._model_seconds = 0.0  # of the last model, none at first
         self._finish_parts = begin_abandonable(lambda: _make_parts(problem))
 
     @property
@@ -208,8 +208,11 @@ class ModelSearch:
         """Whether the samples of the next stage and a model would end after the budget."""
         if self._budget is None:
             return False
-        wanted = self.seconds / count * (following - count) + self._model_seconds
-        if self.seconds + wanted <= self._budget:
+        seconds = self.seconds
+        # the first model takes up to as long as the samples that it is made of
+        model = self._model_seconds or seconds
+        wanted = seconds / count * (following - count) + model
+        if seconds + wanted <= self._budget:
             return False
         self._tell(
             f"{following} samples would take longer than the budget of {self._budget:g} s: these "
