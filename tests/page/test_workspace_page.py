@@ -80,7 +80,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=140, percent=0.01)
+    compute(page, most_samples=320, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
     x, y = page.run("snapspace.handle(1)")
@@ -111,7 +111,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, folder: Path) -> 
     np.testing.assert_allclose(problem.domain.half_widths[3:], np.deg2rad(30.0))
     model = load(folder / "bar.snapspace")
     assert isinstance(model, PosingModel) and model.dimension > first
-    assert model.provenance["accurate"]["step"]["samples"] == 140
+    assert model.provenance["accurate"]["reached"] is False, "the last one, of all samples"
     press(page, "Polish")  # off: the live shape
     assert_shown(model, page)
 
