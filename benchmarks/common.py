@@ -6,7 +6,7 @@ import json
 import os
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -139,3 +139,13 @@ def drag(
         frame.append(1e3 * (time.perf_counter() - begin))
         solve.append(1e3 * report.seconds)
     return np.array(solve), np.array(frame)
+
+
+def best_of(repeats: int, work: Callable[[], Any]) -> float:
+    """Shortest seconds of work()."""
+    seconds = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        work()
+        seconds.append(time.perf_counter() - begin)
+    return min(seconds)

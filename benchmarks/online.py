@@ -17,12 +17,12 @@ import argparse
 import os
 import sys
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
 import common
 import numpy as np
+from frame_vertices import vertices
 from scipy.linalg.blas import dsyrk
 
 import snapspace as ss
@@ -43,16 +43,6 @@ def model_of(args: argparse.Namespace) -> ss.PosingModel:
     snapshots = common.solved(problem, samples)
     subspace = ss.snapshot_pca(snapshots, dimension=args.dimension)
     return ss.reduce(problem, subspace, snapshots=snapshots)
-
-
-def best_of(repeats: int, work: Callable[[], Any]) -> float:
-    """Shortest seconds of work()."""
-    seconds = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        work()
-        seconds.append(time.perf_counter() - begin)
-    return min(seconds)
 
 
 def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
@@ -79,7 +69,7 @@ def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
             np.add.at(gradient, pairs[1], product * x[pairs[0]])
             return outer @ product, 2.0 * gradient
 
-        numpy_seconds = best_of(200 if d < 60 else 30, dense)
+        numpy_seconds = common.best_of(200 if d < 60 else 30, dense)
         entry: dict[str, Any] = {"numpy_value_and_gradient": numpy_seconds}
         for single in (False, True):
             size = coefficients.size * (4 if single else 8)
@@ -184,47 +174,6 @@ def arap(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     return result, rows
 
 
-def vertices(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """tau + U q for 32k vertices, in double and for the screen; bound: one thread reads U once."""
-    rng = np.random.default_rng(args.seed)
-    n, d = 32_000, args.dimension
-    tau, modes, q = rng.normal(size=3 * n), rng.normal(size=(d, 3 * n)), rng.normal(size=d)
-    bound = modes.nbytes / core.read_bandwidth(modes.nbytes)
-    compiled = core.time_reconstruct(tau, modes, q)
-    called = best_of(30, lambda: core.reconstruct(tau, modes, q))
-    peer = best_of(30, lambda: tau + q @ modes)
-    screen = core.ShapeRows(tau, modes)
-    single_bound = screen.bytes / core.read_bandwidth(screen.bytes)
-    single = [
-        best_of(30, lambda threads=threads: screen.shape(q, threads=threads)) for threads in (1, 0)
-    ]
-    displacement = q @ modes
-    off = np.abs(screen.shape(q) - (tau + displacement)).max() / np.abs(displacement).max()
-    result = {
-        "bound": bound,
-        "compiled": compiled,
-        "called": called,
-        "numpy": peer,
-        "single_bound": single_bound,
-        "single_one_thread": single[0],
-        "single": single[1],
-        "single_off": float(off),
-    }
-    rows: Rows = [
-        ("reading U once, ms", 1e3 * bound, f"{modes.nbytes / 1e6:.0f} MB"),
-        ("tau + U q, ms", 1e3 * compiled, ""),
-        ("share of the read rate", bound / compiled, ">= 0.6"),
-        ("into a new NumPy array, ms", 1e3 * called, ""),
-        ("NumPy, ms", 1e3 * peer, ""),
-        ("single precision: reading once, ms", 1e3 * single_bound, f"{screen.bytes / 1e6:.0f} MB"),
-        ("single precision, one thread, ms", 1e3 * single[0], ""),
-        ("share of the read rate", single_bound / single[0], ">= 0.8"),
-        ("single precision, ms", 1e3 * single[1], "<= 0.6"),
-        ("off, share of the displacement", float(off), "<= 1e-6"),
-    ]
-    return result, rows
-
-
 def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     """The same reduced problem beside a small and a large mesh, frames in turn."""
     problem = common.creature_problem(args.sizes[0])
@@ -270,11 +219,13 @@ def coefficients(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         problem.tau, rng.normal(size=(d, 3 * n)).T, problem.mass(), np.ones(d)
     )
     problem.energy.value(problem.base)
-    seconds = best_of(2, lambda: reduced_quartic(problem.energy, noise))
+    seconds = common.best_of(2, lambda: reduced_quartic(problem.energy, noise))
     columns = (d + 1) * (d + 2) // 2
     flops = 6.0 * len(problem.mesh.tets) * columns * (columns + 1)
     panel = rng.normal(size=(columns, 6 * 2048)).T
-    syrk = columns * (columns + 1) * len(panel) / best_of(5, lambda: dsyrk(1.0, panel, trans=1))
+    syrk = (
+        columns * (columns + 1) * len(panel) / common.best_of(5, lambda: dsyrk(1.0, panel, trans=1))
+    )
     threads = os.cpu_count() or 1
     peak = threads * core.peak_flops(single=False)
     result = {"seconds": seconds, "rate": flops / seconds, "syrk": syrk, "peak": peak}

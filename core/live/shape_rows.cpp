@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "online/reconstruct.h"
 #include "threads/parallel.h"
 
 namespace snapspace::live {
@@ -40,20 +41,8 @@ void ShapeRows::shape(const double* q, int count, int threads, float* shape) con
 
 void ShapeRows::block(std::size_t begin, const double* q, int count, float* shape) const {
   const std::size_t length = std::min(kBlock, size() - begin);
-  const float* row = rows_.data() + begin * dimension_;
   float sums[kBlock] = {};
-  int i = 0;
-  for (; i + 4 <= count; i += 4, row += 4 * length) {  // four modes a pass: fewer reads of the sums
-    const float *m0 = row, *m1 = m0 + length, *m2 = m1 + length, *m3 = m2 + length;
-    const auto q0 = static_cast<float>(q[i]), q1 = static_cast<float>(q[i + 1]),
-               q2 = static_cast<float>(q[i + 2]), q3 = static_cast<float>(q[i + 3]);
-    for (std::size_t k = 0; k < length; ++k)
-      sums[k] += (q0 * m0[k] + q1 * m1[k]) + (q2 * m2[k] + q3 * m3[k]);
-  }
-  for (; i < count; ++i, row += length) {
-    const auto factor = static_cast<float>(q[i]);
-    for (std::size_t k = 0; k < length; ++k) sums[k] += factor * row[k];
-  }
+  online::add_modes(rows_.data() + begin * dimension_, length, count, q, length, sums);
   for (std::size_t k = 0; k < length; ++k)
     shape[begin + k] = static_cast<float>(tau_[begin + k] + sums[k]);
 }

@@ -4,6 +4,27 @@
 
 namespace snapspace::online {
 
+/// sums (length) += sum_i q_i mode_i. Four modes a pass: fewer reads and writes of the sums.
+/// @param modes  count x length, each `stride` after the one before
+template <class Real>
+inline void add_modes(const Real* modes, std::size_t stride, int count, const double* q,
+                      std::size_t length, Real* __restrict sums) {
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    const Real* m0 = modes + static_cast<std::size_t>(i) * stride;
+    const Real *m1 = m0 + stride, *m2 = m1 + stride, *m3 = m2 + stride;
+    const auto q0 = static_cast<Real>(q[i]), q1 = static_cast<Real>(q[i + 1]),
+               q2 = static_cast<Real>(q[i + 2]), q3 = static_cast<Real>(q[i + 3]);
+    for (std::size_t k = 0; k < length; ++k)
+      sums[k] += (q0 * m0[k] + q1 * m1[k]) + (q2 * m2[k] + q3 * m3[k]);
+  }
+  for (; i < count; ++i) {
+    const Real* mode = modes + static_cast<std::size_t>(i) * stride;
+    const auto factor = static_cast<Real>(q[i]);
+    for (std::size_t k = 0; k < length; ++k) sums[k] += factor * mode[k];
+  }
+}
+
 /// shape = tau + sum_i q_i mode_i.
 ///
 /// Reads every mode once, in blocks whose sums stay in the first-level cache: the time is that of
@@ -14,22 +35,8 @@ inline void reconstruct(std::size_t size, int dimension, const double* tau, cons
   constexpr std::size_t kBlock = 2048;
   for (std::size_t begin = 0; begin < size; begin += kBlock) {
     const std::size_t count = std::min(kBlock, size - begin);
-    double* __restrict sum = shape + begin;
-    std::copy_n(tau + begin, count, sum);
-    int i = 0;
-    for (; i + 4 <= dimension; i += 4) {  // four modes a pass: fewer reads and writes of the sums
-      const double* m0 = modes + static_cast<std::size_t>(i) * size + begin;
-      const double* m1 = m0 + size;
-      const double* m2 = m1 + size;
-      const double* m3 = m2 + size;
-      const double q0 = q[i], q1 = q[i + 1], q2 = q[i + 2], q3 = q[i + 3];
-      for (std::size_t k = 0; k < count; ++k)
-        sum[k] += (q0 * m0[k] + q1 * m1[k]) + (q2 * m2[k] + q3 * m3[k]);
-    }
-    for (; i < dimension; ++i) {
-      const double* mode = modes + static_cast<std::size_t>(i) * size + begin;
-      for (std::size_t k = 0; k < count; ++k) sum[k] += q[i] * mode[k];
-    }
+    std::copy_n(tau + begin, count, shape + begin);
+    add_modes(modes + begin, size, dimension, q, count, shape + begin);
   }
 }
 

@@ -3,7 +3,7 @@
 from .accurate_model import AccurateModel, accurate_model
 from .checks import check_budget, check_most, check_target
 from .growing_models import Growth, growing_models
-from .plan import BLENDS, MOTIONS, usual_most_samples
+from .plan import BLENDS, MOTIONS, plan_of, usual_most_samples
 from .step import Step
 
 __all__ = [
@@ -17,5 +17,6 @@ __all__ = [
     "check_most",
     "check_target",
     "growing_models",
+    "plan_of",
     "usual_most_samples",
 ]

@@ -100,7 +100,7 @@ class GrowingSamples:
         The solves start from the reduced solutions of `model`, where there is one, and take half as
         many iterations.
         """
-        usual, judging = solving.usual, solving.judging(self.problem)
+        usual, judging = solving.usual(self.problem), solving.judging(self.problem)
         parts = ((self._judges.start, usual), (self._judges.stop, judging), (count, usual))
         for end, chosen in parts:
             before = 0 if self._snapshots is None else len(self._snapshots)

@@ -12,8 +12,8 @@ import numpy as np
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import InterpolationModel, PosingModel, reduce, training_tolerance
-from ..snapshots import Snapshots, SolverOptions
+from ..reduction import InterpolationModel, PosingModel, reduce
+from ..snapshots import Snapshots
 from ..subspace import snapshot_pca
 from ..validation import unseen_errors
 from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
@@ -90,9 +90,6 @@ class ModelSearch:
         check_budget(aim.budget)
         self._budget = aim.budget
         self._plan = _fitting(usual, self._most)
-        if solving.options is None:
-            tolerance = training_tolerance(problem, self._plan.most_dimensions)
-            solving = replace(solving, options=SolverOptions(tolerance=tolerance))
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -120,8 +117,10 @@ class ModelSearch:
         known : where they start, as for `solve_snapshots`
         """
         count = min(self._plan.impression, self._plan.first)
+        if not count:
+            return None
         self._begins("snapshots")
-        return self.samples.solve_loosely(count, self._solving, known=known) if count else None
+        return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
         """The model of a first impression."""
@@ -195,13 +194,12 @@ class ModelSearch:
         self._finish_parts()
         subspace = snapshot_pca(snapshots, dimension=dimension)
         self._begins("energy")
-        threads = self._solving.threads
         return reduce(
             self.samples.problem,
             subspace,
             snapshots=snapshots,
             surface=self._surface,
-            threads=threads,
+            threads=self._solving.threads,
         )
 
     def _is_too_late(self, count: int, following: int) -> bool:

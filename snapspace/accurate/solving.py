@@ -6,7 +6,9 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
 from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import training_tolerance
 from ..snapshots import Checkpoint, Progress, SolveProgress, SolverOptions
+from .plan import plan_of
 
 #: Tolerance of held-out samples, relative to that of the others.
 JUDGING = 0.01
@@ -25,20 +27,22 @@ class Solving:
     checkpoint: Checkpoint | None = None
     executor: Executor | None = None
 
-    @property
-    def usual(self) -> SolverOptions:
+    def usual(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Of samples that train."""
-        return self.options or SolverOptions()
+        if self.options is not None:
+            return self.options
+        largest = plan_of(problem).most_dimensions
+        return SolverOptions(tolerance=training_tolerance(problem, largest))
 
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Of samples that judge.
 
         They are solved more tightly: along soft modes the others are off by as much as a model.
         """
-        tolerance = self.usual.resolved(problem).tolerance
+        usual = self.usual(problem)
         return replace(
-            self.usual,
-            tolerance=JUDGING * tolerance,
+            usual,
+            tolerance=JUDGING * usual.resolved(problem).tolerance,
             settling=None,
             precision=None,
             max_iterations=5000,
@@ -49,8 +53,9 @@ class Solving:
 
         By the energy: they are far from settling, and what counts is how far.
         """
-        tolerance = max(self.usual.tolerance or 0.0, problem.solving.loose_tolerance)
-        return replace(self.usual, tolerance=tolerance, settling=None, soft_modes=False)
+        usual = self.usual(problem)
+        tolerance = max(usual.tolerance or 0.0, problem.solving.loose_tolerance)
+        return replace(usual, tolerance=tolerance, settling=None, soft_modes=False)
 
     def counting(self, before: int, total: int) -> Progress | None:
         """Tells of samples that come after others of a stage."""

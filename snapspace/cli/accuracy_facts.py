@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from .units import in_percent
+
 Facts = list[tuple[str, str]]
 
 
@@ -28,7 +30,7 @@ def _of_accuracy(record: dict[str, Any]) -> Facts:
     if not {"unseen", "typical", "mean", "ninth"} <= step.keys():
         return []
     figures = {"name": step["unseen"], "ninth": step["ninth"], "mean": step["mean"]}
-    asked = f"{_percent(accurate['target_error'])} asked"
+    asked = f"{in_percent(accurate['target_error'])} asked"
     if step["typical"] == "median":
         figures["median"] = step["error"]
     return [("accuracy", f"{_errors(figures, asked)}; {step['samples']} samples")]
@@ -36,12 +38,14 @@ def _of_accuracy(record: dict[str, Any]) -> Facts:
 
 def _errors(figures: dict[str, Any], asked: str = "") -> str:
     averages = [
-        f"{_percent(figures[name])} in the {name}" for name in ("median", "mean") if name in figures
+        f"{in_percent(figures[name])} in the {name}"
+        for name in ("median", "mean")
+        if name in figures
     ]
     words = ", ".join([*averages, asked] if asked else averages)
     return (
         f"unseen {figures['name']} are off by {words}; nine of ten by less than "
-        f"{_percent(figures['ninth'])}"
+        f"{in_percent(figures['ninth'])}"
     )
 
 
@@ -58,7 +62,3 @@ def _inverted(unseen: dict[str, Any]) -> str:
 def _shapes(counts: dict[str, Any], name: str) -> str:
     most = f", at most {counts['max']}" if counts["max"] else ""
     return f"{counts['with_some']} of {counts['shapes']} {name}{most}"
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %"

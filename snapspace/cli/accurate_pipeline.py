@@ -19,6 +19,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
+from .given_options import chosen_parameters
 from .pipeline import Built, build_model, stage, telling_what_is_kept
 from .progress import spinner
 from .recipe import Recipe, made_by
@@ -59,12 +60,7 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
     ValueError
         If --target-error or --budget is given as well, which would be of no effect.
     """
-    context = click.get_current_context()
-    given = {
-        option.name: option.opts[0]
-        for option in context.command.params
-        if context.get_parameter_source(option.name or "") is click.core.ParameterSource.COMMANDLINE
-    }
+    given = {option.name: option.opts[0] for option in chosen_parameters()}
     deciding = [given[name] for name in (*DECIDING, *others) if name in given]
     chooses = next((given[name] for name in ("target_error", "budget") if name in given), None)
     if chooses and deciding:

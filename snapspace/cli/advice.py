@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..accurate.plan import plan_of
+from ..accurate import plan_of
 from ..reduction import InterpolationModel, PosingModel
 from ..validation import PARTS, ErrorSplit, NextOption, Validation, next_option, split_errors
 from .console import notice

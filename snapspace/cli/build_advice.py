@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..accurate.plan import plan_of
+from ..accurate import plan_of
 from ..problem import InterpolationProblem
 from ..validation import Validation
 from .advice import advice, split_of_some

@@ -17,18 +17,22 @@ def given_options() -> dict[str, Any]:
 
     With the names of the files they make the same model again; a flag has the value true.
     """
-    context = click.get_current_context()
     given: dict[str, Any] = {}
-    for option in context.command.params:
-        name = option.name or ""
-        if not isinstance(option, click.Option):
-            continue
-        if context.get_parameter_source(name) is not ParameterSource.COMMANDLINE:
-            continue
-        value, word = context.params.get(name), option.opts[-1]
-        if word not in _HOW and not isinstance(value, Path):
+    for option in chosen_parameters():
+        value, word = click.get_current_context().params.get(option.name or ""), option.opts[-1]
+        if isinstance(option, click.Option) and word not in _HOW and not isinstance(value, Path):
             given[word] = value
     return given
+
+
+def chosen_parameters() -> list[click.Parameter]:
+    """Options and arguments of the running command that are on its command line."""
+    context = click.get_current_context()
+    return [
+        parameter
+        for parameter in context.command.params
+        if context.get_parameter_source(parameter.name or "") is ParameterSource.COMMANDLINE
+    ]
 
 
 def as_words(options: dict[str, Any]) -> list[str]:

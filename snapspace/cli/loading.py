@@ -10,7 +10,13 @@ from ..reduction import InterpolationModel, PosingModel
 
 def load_leading(path: Path, dimension: int | None) -> PosingModel | InterpolationModel:
     """The model of a file, on its first `dimension` modes if that is given."""
-    model = load(path)
+    return leading_of(load(path), path, dimension)
+
+
+def leading_of(
+    model: PosingModel | InterpolationModel, path: Path, dimension: int | None
+) -> PosingModel | InterpolationModel:
+    """The model of a file on its first `dimension` modes if that is given, else itself."""
     if dimension is None:
         return model
     if dimension > model.dimension:

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 from ..model_file import load
 from ..reduction import (
-    BlendedCubature,
-    Cubature,
     InterpolationModel,
     PosingModel,
     ReducedModel,
@@ -20,7 +18,7 @@ from .accuracy_facts import accuracy_facts
 from .mesh_info import Info, mesh_facts, mesh_figures
 from .poses_info import poses_facts, poses_figures
 from .problem_info import problem_facts, problem_figures
-from .units import in_bytes, in_time
+from .units import in_bytes, in_percent, in_time
 
 _DIMENSIONS = (1, 2, 5, 10, 20, 30, 40, 60, 80, 100, 150, 200, 300)
 
@@ -63,11 +61,9 @@ def model_info(file: Path) -> Info:
 
 def energy_text(model: ReducedModel) -> str:
     """What the reduced energy is."""
-    if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
-        return f"cubature of {len(model.elastic.tets)} tets"
+    if model.cubature is not None:
+        return f"cubature of {len(model.cubature.tets)} tets"
     if isinstance(model, InterpolationModel):
-        if isinstance(model.blends, BlendedCubature):
-            return f"cubature of {len(model.blends.tets)} tets"
         return f"exact quartics of {len(model.problem.poses)} poses"
     return "exact quartic"
 
@@ -79,11 +75,7 @@ def _decay(eigenvalues: NDArray[np.float64] | None, dimension: int) -> str:
     tails = np.cumsum(eigenvalues[::-1])[::-1] / eigenvalues.sum()
     shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
     errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)
-    return ", ".join(f"{_percent(error)} at d = {d}" for d, error in errors)
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.2g} %"
+    return ", ".join(f"{in_percent(error)} at d = {d}" for d, error in errors)
 
 
 def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
@@ -104,8 +96,8 @@ def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
         facts.append(
             (
                 "cubature errors",
-                f"energy {_percent(errors['energy_median'])}, "
-                f"displacement {_percent(errors['displacement_median'])}, median of "
+                f"energy {in_percent(errors['energy_median'])}, "
+                f"displacement {in_percent(errors['displacement_median'])}, median of "
                 f"{errors['states']} held-out samples",
             )
         )

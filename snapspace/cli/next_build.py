@@ -8,7 +8,7 @@ from math import floor, log10
 from pathlib import Path
 from typing import Any
 
-from ..accurate.plan import plan_of
+from ..accurate import plan_of
 from ..reduction import InterpolationModel, PosingModel
 from ..validation import NextOption
 from .accurate_pipeline import DECIDING

@@ -15,6 +15,11 @@ def in_bytes(count: int | None) -> str:
     raise AssertionError("unreachable")
 
 
+def in_percent(share: float) -> str:
+    """A share of one in two digits, such as 0.32 %."""
+    return f"{100 * share:.2g} %"
+
+
 def in_time(seconds: float) -> str:
     """0.12 s, 45 s, 3 min 20 s, 2 h 05 min."""
     if seconds < 59.5:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..accurate.plan import plan_of
+from ..accurate import plan_of
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from ..validation import Validation, solved_reference, validate

@@ -15,7 +15,7 @@ from ..validation import validate as compare
 from .advice import Advice, advice, split_of_some
 from .console import notice, print_json, print_next
 from .error_plot import save_error_plot
-from .loading import load_leading
+from .loading import leading_of, load_leading
 from .options import FILE, json_option, leading_option, threads_option
 from .progress import sample_progress, spinner
 from .validation_tables import print_curve, print_split, print_validation
@@ -96,7 +96,8 @@ def validate(
     if save_reference is not None:
         writable_path(save_reference, known=[SAMPLES_SUFFIX])
     _check_source(reference, samples, seed)
-    model = load_leading(model_file, dimension)
+    whole = load_leading(model_file, None)
+    model = leading_of(whole, model_file, dimension)
     asked = SAMPLES if samples is None else samples
     validation = _validated(model, reference, samples=asked, seed=seed, threads=threads)
     known = len(validation.reference) if reference is not None else asked
@@ -105,7 +106,7 @@ def validate(
         save_snapshots(validation.reference, save_reference)
         notice(f"{save_reference}: {len(validation.reference)} full solutions")
     curve = _curve(model, validation.reference, plot)
-    fewer = dimension is not None and dimension < load_leading(model_file, None).dimension
+    fewer = model.dimension < whole.dimension
     split, found = _split(
         model, validation, model_file, asked=with_split, fewer=fewer, threads=threads
     )

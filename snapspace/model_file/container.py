@@ -21,14 +21,9 @@ def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
     """Writes arrays and header with their checksum; the file is complete or not there."""
     arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
     header = {**header, "checksum": checksum(arrays, header)}
-    content = container_bytes(arrays, header)
+    content = safetensors_bytes(arrays, header)
     with atomic_file(path) as temporary:
         temporary.write_bytes(content)
-
-
-def container_bytes(arrays: Arrays, header: dict[str, str]) -> bytes:
-    """Arrays and header in safetensors layout; the same bytes for the same content."""
-    return safetensors_bytes(arrays, header)
 
 
 def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:

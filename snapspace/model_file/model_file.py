@@ -6,7 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
-from ..reduction import BlendedCubature, Cubature, InterpolationModel, PosingModel, ReducedModel
+from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import eigenvalues, error_estimator, interpolation, material, posing, shown_surface
 from .container import check_dtypes, checksum, read_container, write_container
 
@@ -38,10 +38,10 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
     path = Path(path)
     check_model_path(path)
     if isinstance(model, PosingModel):
-        kind = CUBATURE if isinstance(model.elastic, Cubature) else POSING
+        kind = POSING if model.cubature is None else CUBATURE
         arrays, content = posing.posing_arrays(model), posing.posing_content(model)
     elif isinstance(model, InterpolationModel):
-        kind = BLENDED_CUBATURE if isinstance(model.blends, BlendedCubature) else INTERPOLATION
+        kind = INTERPOLATION if model.cubature is None else BLENDED_CUBATURE
         arrays = interpolation.interpolation_arrays(model)
         content = interpolation.interpolation_content(model)
     else:

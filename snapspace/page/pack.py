@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
-from ..model_file.container import Arrays, container_bytes
+from ..mesh.safetensors_bytes import safetensors_bytes
+from ..model_file.container import Arrays
 from ..reduction import (
     BlendedCubature,
     Cubature,
@@ -85,7 +86,7 @@ def packed(
         "kind": kind,
         "about": json.dumps(about, sort_keys=True),
     }
-    return container_bytes(arrays | estimator_arrays(model), header)
+    return safetensors_bytes(arrays | estimator_arrays(model), header)
 
 
 def _carrying_over(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:

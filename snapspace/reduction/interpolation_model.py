@@ -35,6 +35,11 @@ class InterpolationModel(ReducedModel):
     problem: InterpolationProblem
     blends: PoseQuartics | BlendedCubature
 
+    @property
+    def cubature(self) -> BlendedCubature | None:
+        """The reduced elastic energy where it is a sum over few tets; None where it is exact."""
+        return self.blends if isinstance(self.blends, BlendedCubature) else None
+
     @cached_property
     def certain_range(self) -> CertainRange | None:
         """Weights for which the reduced energy certainly has a minimum; None: no test is known.
@@ -42,9 +47,9 @@ class InterpolationModel(ReducedModel):
         Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
         full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
         """
-        if not isinstance(self.blends, BlendedCubature):
+        if self.cubature is None:
             return None
-        return certain_range(self.blends.material, self.blends.corners[:-1])
+        return certain_range(self.cubature.material, self.cubature.corners[:-1])
 
     def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature:
         """The reduced energy for weights (poses,)."""

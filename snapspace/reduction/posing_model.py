@@ -33,6 +33,11 @@ class PosingModel(ReducedModel):
     elastic: Quartic | Cubature
     handles: HandleQuadric
 
+    @property
+    def cubature(self) -> Cubature | None:
+        """The reduced elastic energy where it is a sum over few tets; None where it is exact."""
+        return self.elastic if isinstance(self.elastic, Cubature) else None
+
     def value(self, q: FloatArray, offsets: FloatArray) -> float:
         """Reduced objective at coordinates (d,) for offsets (h, 3, 4).
 

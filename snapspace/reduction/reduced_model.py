@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..certificate import ErrorEstimator
+from ..cubature import BlendedCubature, Cubature
 from ..mesh import EmbeddedSurface
 from ..problem import Problem
 from ..subspace import AffineSubspace
@@ -64,6 +65,11 @@ class ReducedModel(ABC):
         """Unit of q: the M-norm of a displacement by a tenth of the diagonal everywhere."""
         mesh = self.problem.mesh
         return float(0.1 * mesh.diagonal * np.sqrt(mesh.volume))
+
+    @property
+    @abstractmethod
+    def cubature(self) -> Cubature | BlendedCubature | None:
+        """The reduced elastic energy where it is a sum over few tets; None where it is exact."""
 
     @abstractmethod
     def leading(self, dimension: int) -> ReducedModel:

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 
-from ..model_file.container import container_bytes
+from ..mesh.safetensors_bytes import safetensors_bytes
 from ..page.pack import FORMAT, VERSION
 from .body import Body
 
@@ -40,4 +40,4 @@ def packed_mesh(body: Body, *, up: str) -> bytes:
         "about": json.dumps(about, sort_keys=True),
     }
     arrays = {"vertices": vertices.astype(np.float32), "faces": faces.astype(np.int32)}
-    return container_bytes(arrays, header)
+    return safetensors_bytes(arrays, header)

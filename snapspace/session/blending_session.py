@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
-from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics
+from ..reduction import InterpolationModel, PoseQuartics
 from .display_shapes import Vertices
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
@@ -179,10 +179,6 @@ class BlendingSession(Session[InterpolationModel]):
 
     def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
         return BlendingProbe(self.model.problem, self.model.subspace, sample)
-
-    def _default_minimizer(self, model: InterpolationModel) -> str:
-        # a Hessian of a cubature costs d / 4 times its gradient
-        return "bfgs" if isinstance(model.blends, BlendedCubature) else "newton"
 
     def _make_loop(self, *, single: bool) -> core.BlendingLoop | core.BlendedCubatureLoop:
         blends = self.model.blends

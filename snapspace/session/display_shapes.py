@@ -34,6 +34,5 @@ class DisplayShapes:
         coordinate itself.
         """
         if self._rows is None:
-            modes = np.ascontiguousarray(self._subspace.basis.T)
-            self._rows = core.ShapeRows(self._subspace.tau, modes)
+            self._rows = core.ShapeRows(self._subspace.tau, self._subspace.basis.T)
         return self._rows.shape(q)

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core as core
 from ..certificate import PosingProbe, ResidualSample
 from ..problem import rigid_offset
-from ..reduction import Cubature, PosingModel
+from ..reduction import PosingModel
 from .display_shapes import Vertices
 from .finite_input import finite
 from .frame_report import FrameReport
@@ -177,10 +177,6 @@ class PosingSession(Session[PosingModel]):
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """`pose`."""
         return self.pose(parameters)
-
-    def _default_minimizer(self, model: PosingModel) -> str:
-        # a Hessian of a cubature costs d / 4 times its gradient
-        return "bfgs" if isinstance(model.elastic, Cubature) else "newton"
 
     def _make_loop(self, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
         return posing_loop(self.model, single=single)

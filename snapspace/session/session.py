@@ -73,7 +73,8 @@ class Session(ABC, Generic[Model]):
                 f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
                 f"max_evaluations {max_evaluations} must be positive"
             )
-        minimizer = self._default_minimizer(model) if minimizer is None else minimizer
+        if minimizer is None:  # a Hessian of a cubature costs d / 4 times its gradient
+            minimizer = "newton" if model.cubature is None else "bfgs"
         if minimizer not in MINIMIZERS:
             raise ValueError(
                 f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
@@ -92,9 +93,6 @@ class Session(ABC, Generic[Model]):
         self._polisher: Polisher | None = None
         self._probe: tuple[ResidualSample, ResidualProbe] | None = None
         self.reset()
-
-    def _default_minimizer(self, model: Model) -> str:
-        return "newton"
 
     @property
     def dimension(self) -> int:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import mass_norms
-from ..reduction import BlendedCubature, Cubature, InterpolationModel, PosingModel, ReducedModel
+from ..reduction import ReducedModel
 from ..snapshots import Snapshots
 from .given_reference import check_reference
 from .restricted_energy import RestrictedEnergy
@@ -92,7 +92,7 @@ def split_errors(
     problem, subspace = model.problem, model.subspace
     rows = reference.displacements.shifted(problem.base - subspace.tau)
     projections = subspace.row_coordinates(rows)
-    session, cubature = model.session(), _is_cubature(model)
+    session = model.session()
     parts = np.empty((len(rows), 5))
     samples = zip(parts, reference.parameters, rows, projections, strict=True)
     for target, w, row, projection in samples:
@@ -100,7 +100,7 @@ def split_errors(
         session.set_parameters(w)
         reduced = session.q.copy()
         every = reduced
-        if cubature:
+        if model.cubature is not None:
             energy = RestrictedEnergy(problem, subspace, w, threads=threads)
             every = energy.minimiser(
                 projection, value_scale=model.value_scale, scale=model.coordinate_scale
@@ -118,9 +118,3 @@ def _pairs(
 ) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
     """What the middle and the last part lie between."""
     return (projection, every), (every, reduced)
-
-
-def _is_cubature(model: ReducedModel) -> bool:
-    if isinstance(model, PosingModel):
-        return isinstance(model.elastic, Cubature)
-    return isinstance(model, InterpolationModel) and isinstance(model.blends, BlendedCubature)

@@ -7,11 +7,7 @@ from math import ceil
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import (
-    BlendedCubature,
-    Cubature,
     Energy,
-    InterpolationModel,
-    PosingModel,
     ReducedModel,
     default_blended_tets,
     default_tets,
@@ -89,7 +85,8 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
         samples, and at least two for each mode: a larger subspace of the same samples would fit
         these alone.
     """
-    problem, tets = model.problem, _tets(model)
+    problem, cubature = model.problem, model.cubature
+    tets = None if cubature is None else len(cubature.tets)
     part, solved = split.largest, max(_solved(model), model.dimension)
     method: Method = "sobol"
     usual = default_tets(model.dimension)
@@ -130,12 +127,3 @@ def _solved(model: ReducedModel) -> int:
     """Samples that were solved for the model: those known beforehand do not count."""
     known = len(model.problem.poses) if isinstance(model.problem, InterpolationProblem) else 0
     return max(len(model.training_parameters) - known, 0)
-
-
-def _tets(model: ReducedModel) -> int | None:
-    """Of the cubature; None for an exact energy."""
-    if isinstance(model, PosingModel) and isinstance(model.elastic, Cubature):
-        return len(model.elastic.tets)
-    if isinstance(model, InterpolationModel) and isinstance(model.blends, BlendedCubature):
-        return len(model.blends.tets)
-    return None

@@ -39,7 +39,7 @@ def test_each_model_is_better_than_those_before(growths: list[Growth]) -> None:
     errors = [float(np.median(unseen_errors(growth.model, unseen))) for growth in growths]
     assert len(growths) > 2 and errors == sorted(errors, reverse=True)
     told = [growth.step.error for growth in growths[1:] if growth.step]
-    np.testing.assert_allclose(told, errors[1:], rtol=1e-9), "what is told is what they are off"
+    np.testing.assert_allclose(told, errors[1:], rtol=1e-9, err_msg="told is what they are off")
     seconds = [growth.seconds for growth in growths]
     assert 0 < seconds[0] and seconds == sorted(seconds)
     assert [growth.final for growth in growths] == [False] * (len(growths) - 1) + [True]
