@@ -459,7 +459,7 @@ def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: N
     """tau + sum of q_i modes_i, (3n,)."""
 
 class ShapeRows:
-    """Shapes tau + U q of one basis, with modes in single precision."""
+    """Shapes tau + U q of one basis for the screen, with modes in 16 bits."""
 
     def __init__(self, tau: NDArray[numpy.float64], modes: NDArray[numpy.float64]) -> None: ...
 

@@ -150,8 +150,8 @@ void bind_blending(nb::module_& m) {
 }
 
 void bind_shape_rows(nb::module_& m) {
-  nb::class_<live::ShapeRows>(m, "ShapeRows",
-                              "Shapes tau + U q of one basis, with modes in single precision.")
+  nb::class_<live::ShapeRows>(
+      m, "ShapeRows", "Shapes tau + U q of one basis for the screen, with modes in 16 bits.")
       .def(
           "__init__",
           [](live::ShapeRows* self, VectorIn tau, MatrixIn modes) {

@@ -1,26 +1,33 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace snapspace::live {
 
-/// Shapes tau + sum_i q_i mode_i of one basis, as fast as the memory delivers it.
+/// Shapes tau + sum_i q_i mode_i of one basis for the screen, as fast as the memory delivers it.
 ///
-/// Modes are kept in single precision, block by block of coordinates in the order of reading. With
-/// d modes a displacement is off by at most (d + 4) 2^-24 sum_i |q_i mode_i|: on bodies by less
-/// than 1e-6 of its largest entry. The shape is rounded once more. The result does not depend on
-/// the number of threads.
+/// Modes are kept block by block of coordinates, in the order of reading. The first ones, which
+/// carry most of a displacement, are in single precision. Of the others an entry takes 16 bits: it
+/// counts the mode's unit in the block, 1/32767 of the largest entry there, and is off by half a
+/// unit at most. So a coordinate is off by at most sum_i |q_i| unit_i / 2 over the modes after the
+/// first kFine, besides (d + 4) 2^-24 sum_i |q_i mode_i| and its own rounding: on bodies by less
+/// than 2e-5 of the largest displacement. The result does not depend on the number of threads.
 class ShapeRows {
  public:
+  /// Modes in single precision.
+  static constexpr int kFine = 16;
+
   /// Copies its arrays.
   /// @param modes  dimension x size, row-major
   ShapeRows(std::size_t size, int dimension, const double* tau, const double* modes);
 
   [[nodiscard]] std::size_t size() const { return tau_.size(); }
-  [[nodiscard]] int dimension() const { return dimension_; }
+  [[nodiscard]] int dimension() const { return fine_count_ + coarse_count_; }
   /// Bytes that a shape of all modes reads.
   [[nodiscard]] std::size_t bytes() const {
-    return rows_.size() * sizeof(float) + tau_.size() * sizeof(double);
+    return fine_.size() * sizeof(float) + coarse_.size() * sizeof(std::int16_t) +
+           units_.size() * sizeof(float) + tau_.size() * sizeof(double);
   }
 
   /// Writes the shape (size) of the first coordinates, `count` <= dimension.
@@ -28,11 +35,15 @@ class ShapeRows {
   void shape(const double* q, int count, int threads, float* shape) const;
 
  private:
-  void block(std::size_t begin, const double* q, int count, float* shape) const;
+  void take_block(std::size_t begin, const double* modes);
+  void write_block(std::size_t begin, const double* q, int count, float* shape) const;
+  void add_coarse(std::size_t begin, const double* q, int count, float* sums) const;
 
-  int dimension_;
+  int fine_count_, coarse_count_;  // modes
   std::vector<double> tau_;
-  std::vector<float> rows_;  // block, mode, coordinate
+  std::vector<float> fine_;           // block, mode, coordinate
+  std::vector<std::int16_t> coarse_;  // the same of the later modes, in units
+  std::vector<float> units_;          // block, later mode
 };
 
 }  // namespace snapspace::live

@@ -6,22 +6,24 @@ namespace snapspace::online {
 
 /// sums (length) += sum_i q_i mode_i. Four modes a pass: fewer reads and writes of the sums.
 /// @param modes  count x length, each `stride` after the one before
-template <class Real>
-inline void add_modes(const Real* modes, std::size_t stride, int count, const double* q,
+/// @tparam Entry  of a mode; whole numbers may count units that q contains
+template <class Entry, class Real>
+inline void add_modes(const Entry* modes, std::size_t stride, int count, const double* q,
                       std::size_t length, Real* __restrict sums) {
+  const auto term = [](Real factor, Entry entry) { return factor * static_cast<Real>(entry); };
   int i = 0;
   for (; i + 4 <= count; i += 4) {
-    const Real* m0 = modes + static_cast<std::size_t>(i) * stride;
-    const Real *m1 = m0 + stride, *m2 = m1 + stride, *m3 = m2 + stride;
+    const Entry* m0 = modes + static_cast<std::size_t>(i) * stride;
+    const Entry *m1 = m0 + stride, *m2 = m1 + stride, *m3 = m2 + stride;
     const auto q0 = static_cast<Real>(q[i]), q1 = static_cast<Real>(q[i + 1]),
                q2 = static_cast<Real>(q[i + 2]), q3 = static_cast<Real>(q[i + 3]);
     for (std::size_t k = 0; k < length; ++k)
-      sums[k] += (q0 * m0[k] + q1 * m1[k]) + (q2 * m2[k] + q3 * m3[k]);
+      sums[k] += (term(q0, m0[k]) + term(q1, m1[k])) + (term(q2, m2[k]) + term(q3, m3[k]));
   }
   for (; i < count; ++i) {
-    const Real* mode = modes + static_cast<std::size_t>(i) * stride;
+    const Entry* mode = modes + static_cast<std::size_t>(i) * stride;
     const auto factor = static_cast<Real>(q[i]);
-    for (std::size_t k = 0; k < length; ++k) sums[k] += factor * mode[k];
+    for (std::size_t k = 0; k < length; ++k) sums[k] += term(factor, mode[k]);
   }
 }
 

@@ -17,6 +17,9 @@ Vertices = TypeVar("Vertices", NDArray[np.float64], NDArray[np.float32])
 class DisplayShapes:
     """Shapes tau + U q in single precision. The basis is copied for the first of them.
 
+    It keeps the first 16 modes in single precision and the others in 16 bits, which is little more
+    than a quarter of the basis.
+
     Parameters
     ----------
     subspace : AffineSubspace
@@ -29,9 +32,9 @@ class DisplayShapes:
     def shape(self, q: NDArray[np.float64]) -> NDArray[np.float32]:
         """The shape (3n,) of coordinates (d,), or of the leading ones with the others zero.
 
-        With d modes a coordinate is off by at most (d + 5) 2^-24 times the largest that its terms
-        can add up to: on bodies by less than 1e-6 of the displacement, and the rounding of the
-        coordinate itself.
+        A coordinate is off by at most sum_i |q_i| max |mode_i| / 65534 over the modes after the
+        first 16, and by the rounding of single precision: on bodies by less than 2e-5 of the
+        largest displacement.
         """
         if self._rows is None:
             self._rows = core.ShapeRows(self._subspace.tau, self._subspace.basis.T)
