@@ -2,8 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "online/drag_extrapolation.h"
-#include "online/minimizers.h"
+#include "online/frame_minimizer.h"
 #include "online/objective.h"
 
 namespace snapspace::online {
@@ -19,10 +18,9 @@ class BlendingSolver final : public Objective {
       : elastic_(std::move(elastic)),
         weights_(elastic_.poses(), 1.0 / elastic_.poses()),
         equal_(weights_),
-        minimizers_(elastic_.dimension()),
-        drag_(elastic_.dimension(), elastic_.poses()) {
+        minimizer_(elastic_.dimension(), elastic_.poses(), Elastic::kHessianIsDear) {
     elastic_.set_weights(equal_.data());
-    valid_ = minimizers_.prepare(*this, dimension());
+    valid_ = minimizer_.prepare(*this, dimension());
   }
 
   /// False if the Hessian at the mean shape, q = 0 at equal weights, is not positive definite: a
@@ -36,9 +34,8 @@ class BlendingSolver final : public Objective {
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights stay.
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
-    drag_.clear();
     elastic_.set_weights(equal_.data());
-    minimizers_.prepare(*this, dimension);
+    minimizer_.prepare(*this, dimension);
     elastic_.set_weights(weights_.data());
   }
 
@@ -59,27 +56,13 @@ class BlendingSolver final : public Objective {
 
   /// From q, in place, or from where a drag that q is the last frame of arrives.
   Report solve(double* q, Method method, const Termination& stop) {
-    drag_.go_on(dimension(), weights_.data(), q);
-    const Report report = solve_from(q, method, stop);
-    if (report.status == Status::converged)
-      drag_.add(dimension(), weights_.data(), q);
-    else
-      drag_.clear();
-    return report;
+    return minimizer_.minimize(*this, weights_.data(), method, q, stop);
   }
 
  private:
-  /// Where a Hessian is dear, BFGS keeps its approximation from frame to frame.
-  Report solve_from(double* q, Method method, const Termination& stop) {
-    if constexpr (Elastic::kHessianIsDear)
-      if (method == Method::bfgs) return minimizers_.minimize_onwards(*this, q, stop);
-    return minimizers_.minimize(*this, method, q, stop);
-  }
-
   Elastic elastic_;
   std::vector<double> weights_, equal_;
-  Minimizers minimizers_;
-  DragExtrapolation drag_;
+  FrameMinimizer minimizer_;
   bool valid_ = false;
 };
 

@@ -47,6 +47,9 @@ class HandleQuadric {
     }
   }
 
+  /// Minus half the gradient at q = 0, for all coordinates: linear in the offsets.
+  [[nodiscard]] const double* pull() const { return linear_.data(); }
+
   /// Energy at q; its gradient is added to `gradient` (d).
   double add_value_and_gradient(const double* q, double* gradient) const {
     double value = constant_;

@@ -1,8 +1,8 @@
 #pragma once
 #include <utility>
 
+#include "online/frame_minimizer.h"
 #include "online/handle_quadric.h"
-#include "online/minimizers.h"
 #include "online/objective.h"
 
 namespace snapspace::online {
@@ -19,8 +19,8 @@ class PosingSolver final : public Objective {
   PosingSolver(Elastic elastic, int handles, const double* K, const double* L, const double* S)
       : elastic_(std::move(elastic)),
         handles_(elastic_.dimension(), handles, K, L, S),
-        minimizers_(elastic_.dimension()),
-        valid_(minimizers_.prepare(*this, elastic_.dimension())) {}
+        minimizer_(elastic_.dimension(), elastic_.dimension(), Elastic::kHessianIsDear),
+        valid_(minimizer_.prepare(*this, elastic_.dimension())) {}
 
   /// False if the Hessian at rest is not positive definite: a solve has then no matrix to start
   /// from.
@@ -34,7 +34,7 @@ class PosingSolver final : public Objective {
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
     handles_.set_dimension(dimension);
-    minimizers_.prepare(*this, dimension);
+    minimizer_.prepare(*this, dimension);
   }
 
   /// Takes new offsets of the handles (handles x 12): O(capacity * handles).
@@ -52,18 +52,16 @@ class PosingSolver final : public Objective {
     return elastic + handles_.add_value_and_gradient(q, gradient);
   }
 
-  /// From q, in place. Where a Hessian is dear, BFGS keeps its approximation from frame to frame:
-  /// the handles' part never changes, and along a drag the elastic part changes slowly.
+  /// From q, in place, or from where a drag that q is the last frame of arrives. The handles' pull
+  /// tells where a drag is: motions of them all in one unit.
   Report solve(double* q, Method method, const Termination& stop) {
-    if constexpr (Elastic::kHessianIsDear)
-      if (method == Method::bfgs) return minimizers_.minimize_onwards(*this, q, stop);
-    return minimizers_.minimize(*this, method, q, stop);
+    return minimizer_.minimize(*this, handles_.pull(), method, q, stop);
   }
 
  private:
   Elastic elastic_;
   HandleQuadric handles_;
-  Minimizers minimizers_;
+  FrameMinimizer minimizer_;
   bool valid_;
 };
 

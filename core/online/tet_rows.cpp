@@ -61,15 +61,21 @@ void TetRows::gradients(int block, Tets G[3][3]) const {
 }
 
 void TetRows::add_stresses(int block, const Tets P[3][3]) {
+  // Copies, which no write to the sums can change: they stay in registers.
+  const Tets p0 = P[0][0], p1 = P[0][1], p2 = P[0][2], p3 = P[1][0], p4 = P[1][1], p5 = P[1][2],
+             p6 = P[2][0], p7 = P[2][1], p8 = P[2][2];
+  // Three sums of three terms: one of nine waits for each addition.
+  const auto force = [&](const auto& entry) {
+    Tets x = entry(0) * p0, y = entry(1) * p1, z = entry(2) * p2;
+    x += entry(3) * p3, y += entry(4) * p4, z += entry(5) * p5;
+    x += entry(6) * p6, y += entry(7) * p7, z += entry(8) * p8;
+    return x + (y + z);
+  };
   const Tets* row = words(block);
-  for (int pair = 0; pair < pairs_; ++pair, row += 9) {
-    Tets first(0.0), second(0.0);
-    for (int e = 0; e < 9; ++e) {
-      first += row[e] * P[e / 3][e % 3];
-      second += second_numbers(row[e]) * P[e / 3][e % 3];
-    }
-    sums_[2 * pair] += first;
-    sums_[2 * pair + 1] += second;
+  Tets* sum = sums_.data();
+  for (int pair = 0; pair < pairs_; ++pair, row += 9, sum += 2) {
+    sum[0] += force([row](int e) { return row[e]; });
+    sum[1] += force([row](int e) { return second_numbers(row[e]); });
   }
 }
 

@@ -1,4 +1,4 @@
-"""Drags along straight lines of weights: each frame starts where the last three say it arrives."""
+"""Drags along straight lines: each frame starts where the last three say it arrives."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from snapspace import BlendingSession, InterpolationModel, InterpolationProblem
+from snapspace import BlendingSession, InterpolationModel, InterpolationProblem, PosingModel
 from snapspace.generators import lizard_poses
 
 from ..conftest import interpolation_model
@@ -88,3 +88,33 @@ def test_fewer_dimensions_begin_a_new_drag(lizards: InterpolationModel) -> None:
         one.dimension = 6
         one.blend(blend(SHARES[10]))
     assert session.q == pytest.approx(fresh.q, abs=1e-5 * lizards.coordinate_scale)
+
+
+def pose_evaluations(model: PosingModel, path: Iterable[FloatArray]) -> float:
+    """In the mean of the frames after the first four."""
+    session = model.session(tolerance=1e-12)
+    return float(np.mean([session.pose(motion).evaluations for motion in path][4:]))
+
+
+def motions(model: PosingModel, tremble: float = 0.0) -> list[FloatArray]:
+    """From one end of the box to the other; trembling ones turn aside and back, frame by frame."""
+    to = 0.8 * model.problem.domain.half_widths
+    aside = tremble * to * (np.arange(len(to)) % 2)
+    return [(2.0 * share - 1.0) * to + (k % 2) * aside for k, share in enumerate(SHARES)]
+
+
+def test_a_straight_drag_of_a_handle_takes_fewer_evaluations_than_a_trembling_one(
+    posing_model: PosingModel,
+) -> None:
+    straight = pose_evaluations(posing_model, motions(posing_model))
+    assert straight < 0.75 * pose_evaluations(posing_model, motions(posing_model, 0.01))
+
+
+def test_a_drag_of_a_handle_ends_where_a_jump_does(posing_model: PosingModel) -> None:
+    dragged, jumped = posing_model.session(tolerance=1e-12), posing_model.session(tolerance=1e-12)
+    path = motions(posing_model)
+    for motion in path:
+        dragged.pose(motion)
+    jumped.pose(path[-1])
+    apart = np.linalg.norm(dragged.vertices - jumped.vertices, axis=1).max()
+    assert apart < 1e-5 * posing_model.problem.mesh.diagonal
