@@ -15,7 +15,7 @@ from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
 from ..subspace import snapshot_pca
-from ..validation import unseen_errors
+from ..validation import unseen_errors, with_lower_minima
 from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
 from .growing_samples import GrowingSamples
 from .plan import Plan, plan_of, usual_most_samples
@@ -174,7 +174,8 @@ class ModelSearch:
     def _try(self, count: int, dimension: int, tries: Tries) -> Trial:
         begin = time.perf_counter()
         model = self._model(self.samples.trained, dimension)
-        errors = unseen_errors(model, self.samples.unseen)
+        unseen, _ = with_lower_minima(model, self.samples.unseen, threads=self._solving.threads)
+        errors = unseen_errors(model, unseen)
         self._model_seconds = time.perf_counter() - begin
         plan = self._plan
         step = Step(

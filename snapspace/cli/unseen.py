@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from ..accurate import plan_of
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
-from ..validation import Validation, solved_reference, validate
+from ..validation import Validation, solved_reference, validate, with_lower_minima
 from .console import notice
 from .progress import sample_progress
 
@@ -25,17 +26,17 @@ def judged(
 
     The new ones are at the first parameters of `snapspace validate`, which no sample has.
     """
-    if known is not None:
-        return validate(model, reference=known)
-    try:
-        with sample_progress("unseen samples", total=COUNT) as progress:
-            solved = solved_reference(
-                model.problem, samples=COUNT, threads=threads, progress=progress
-            )
-    except ValueError as error:
-        notice(f"notice: the errors of unseen samples are not known: {error}")
-        return None
-    return validate(model, reference=solved)
+    if known is None:
+        try:
+            with sample_progress("unseen samples", total=COUNT) as progress:
+                known = solved_reference(
+                    model.problem, samples=COUNT, threads=threads, progress=progress
+                )
+        except ValueError as error:
+            notice(f"notice: the errors of unseen samples are not known: {error}")
+            return None
+    lowest, lower = with_lower_minima(model, known, threads=threads)
+    return replace(validate(model, reference=lowest), lower_minima=lower)
 
 
 def unseen_record(

@@ -138,7 +138,13 @@ def _validated(
     if reference is not None:
         return compare(model, reference=load_snapshots(reference, model.problem))
     with sample_progress("full solutions", total=samples) as progress:
-        return compare(model, samples=samples, seed=seed, threads=threads, progress=progress)
+        found = compare(model, samples=samples, seed=seed, threads=threads, progress=progress)
+    if found.lower_minima:
+        notice(
+            f"notice: {found.lower_minima} of {len(found.error)} full solutions were not the "
+            "lowest minimum: frames led to lower ones, which are compared with"
+        )
+    return found
 
 
 def _curve(model: Model, reference: Snapshots, plot: Path | None) -> ErrorCurve | None:

@@ -3,6 +3,7 @@
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors
 from .given_reference import check_reference
+from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
 from .unseen import REFERENCE_TOLERANCE, solved_reference, unseen_parameters
 from .validate import unseen_errors, validate
@@ -27,4 +28,5 @@ __all__ = [
     "unseen_parameters",
     "usual_dimensions",
     "validate",
+    "with_lower_minima",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -84,8 +84,10 @@ def error_curve(
             f"error_curve: dimensions are {chosen}, but one or more are needed, each between 1 and "
             f"{model.dimension}, the model's"
         )
-    reference = given_or_solved(
+    reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress
     )
-    validations = [validate(model.leading(d), reference=reference) for d in chosen]
+    validations = [
+        replace(validate(model.leading(d), reference=reference), lower_minima=lower) for d in chosen
+    ]
     return ErrorCurve(np.array(chosen, np.int64), tuple(validations))

@@ -25,6 +25,12 @@ def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
     return domain.from_unit(stream.random((count, domain.dimension)))
 
 
+def reference_options(problem: Problem) -> SolverOptions:
+    """How tightly full solutions are solved that models are compared with."""
+    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
+    return SolverOptions(tolerance=tolerance, max_iterations=5000)
+
+
 def solved_reference(
     problem: Problem,
     *,
@@ -49,10 +55,12 @@ def solved_reference(
         If none converged.
     """
     parameters = unseen_parameters(problem.domain, samples, seed=seed)
-    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
-    options = SolverOptions(tolerance=tolerance, max_iterations=5000)
     solved = solve_snapshots(
-        problem, parameters, options=options, threads=threads, progress=progress
+        problem,
+        parameters,
+        options=reference_options(problem),
+        threads=threads,
+        progress=progress,
     )
     reference = solved.select(solved.converged)
     if len(reference) == 0:

@@ -12,6 +12,7 @@ from ..reduction import ReducedModel
 from ..session import FrameReport
 from ..snapshots import Progress, Snapshots
 from .given_reference import check_reference
+from .lower_minima import with_lower_minima
 from .unseen import solved_reference
 from .validation import Validation
 
@@ -47,7 +48,8 @@ def validate(
     Returns
     -------
     Validation
-        The same figures for new and for known solutions, apart from milliseconds.
+        The same figures for new and for known solutions, apart from milliseconds. New solutions
+        are the lowest known ones, see `with_lower_minima`; `Validation.reference` has them.
 
     Raises
     ------
@@ -56,7 +58,7 @@ def validate(
         another problem, of no samples, with one that did not converge, or with one that the model
         was made of.
     """
-    reference = given_or_solved(
+    reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress
     )
     errors, frames, inverted = _compared(model, reference)
@@ -70,6 +72,7 @@ def validate(
         frame_ms=np.array([milliseconds for _, milliseconds in frames]),
         inverted_tets=inverted,
         reference=reference,
+        lower_minima=lower,
     )
 
 
@@ -81,23 +84,27 @@ def given_or_solved(
     seed: int | None,
     threads: int | None,
     progress: Progress | None,
-) -> Snapshots:
-    """The reference that was given, checked, or else a new one; as for `validate`."""
+) -> tuple[Snapshots, int]:
+    """The reference that was given, checked, or else a new one; as for `validate`.
+
+    With it, how many of its solutions are lower minima that frames led to.
+    """
     if reference is None:
-        return solved_reference(
+        solved = solved_reference(
             model.problem,
             samples=SAMPLES if samples is None else samples,
             seed=SEED if seed is None else seed,
             threads=threads,
             progress=progress,
         )
+        return with_lower_minima(model, solved, threads=threads)
     if samples is not None or seed is not None:
         raise ValueError(
             "validate: the parameters come from the reference, so samples and seed are of no "
             "effect; leave them or the reference out"
         )
     check_reference(model, reference)
-    return reference
+    return reference, 0
 
 
 def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:

@@ -26,6 +26,7 @@ class Validation:
     inverted_tets : tets of the reduced solution with no positive volume; those of the full
     solutions are in `reference.reports`
     reference : the full solutions, for the next validation: `save_snapshots` keeps them
+    lower_minima : how many of them are minima that frames led to, below those found without
     """
 
     error: FloatArray
@@ -36,6 +37,7 @@ class Validation:
     frame_ms: FloatArray
     inverted_tets: NDArray[np.int64]
     reference: Snapshots
+    lower_minima: int = 0
 
     def as_json(self, dimension: int) -> dict[str, Any]:
         """The figures with the keys of `snapspace validate --json`."""
@@ -58,6 +60,7 @@ class Validation:
                 "frames_max": int(self.inverted_tets.max()),
                 "samples_max": max(report.inverted_tets for report in self.reference.reports),
             },
+            "lower_minima": self.lower_minima,
         }
 
 

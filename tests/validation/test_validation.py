@@ -138,6 +138,7 @@ def test_json_has_the_keys_of_the_command_line(checked: Validation) -> None:
         "solve_ms": short,
         "frame_ms": short,
         "inverted_tets": {"frames_max", "samples_max"},
+        "lower_minima": 0,
     }
     assert content["error"] == {
         "mean": np.mean(checked.error),
