@@ -131,6 +131,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "validation": {
         "blas",
+        "displacements",
         "mesh",
         "problem",
         "snapshots",
