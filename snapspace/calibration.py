@@ -21,12 +21,14 @@ from .reduction import InterpolationModel, PosingModel
 from .sampling import Domain
 from .session import Session
 from .session.certify import movement
-from .snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
-from .validation import REFERENCE_TOLERANCE
+from .snapshots import Progress, Snapshots, solve_snapshots
+from .validation import check_reference, reference_options
 
 FloatArray = NDArray[np.float64]
-Model = TypeVar("Model", PosingModel, InterpolationModel)
+Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
+#: Full solutions by default.
+SAMPLES = 50
 #: Frames whose residuals choose the vertices of the sample. They need no full solution.
 TYPICAL_FRAMES = 32
 #: Distances and indicators below this share of the largest one are rounding.
@@ -36,8 +38,10 @@ NOTHING = 1e-12
 def calibrated(
     model: Model,
     *,
-    samples: int = 50,
-    seed: int = 0,
+    samples: int | None = None,
+    seed: int | None = None,
+    reference: Snapshots | None = None,
+    thorough: bool = True,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Model:
@@ -45,6 +49,7 @@ def calibrated(
 
     Solves the full problem at new parameters, and the reduced one, and keeps the ratios of the true
     distances to what a session can see: the residual at a few vertices, and what a polish moves.
+    Default builds do so with the samples that they hold out, for quick certificates.
 
     Parameters
     ----------
@@ -54,6 +59,11 @@ def calibrated(
         least c / (1 - c) of them: nine for 90 %, 99 for 99 %; with few the bounds are wide.
     seed : int, default 0
         The parameters come from streams of their own: neither `sample` nor `validate` draws them.
+    reference : Snapshots, optional
+        Known full solutions in place of new ones, as for `validate`.
+    thorough : bool, default True
+        Whether to measure what a polish moves: ten full iterations for each solution. Without it
+        there are no thorough certificates.
     threads, progress : as for `solve_snapshots`
 
     Returns
@@ -64,7 +74,8 @@ def calibrated(
     Raises
     ------
     ValueError
-        For fewer than two samples, or if not two full solutions converged.
+        For fewer than two samples, if not two full solutions converged, for samples or seed beside
+        a reference, or for a reference that `validate` would refuse.
     KeyboardInterrupt
         On Ctrl-C.
 
@@ -73,37 +84,64 @@ def calibrated(
     The bounds hold for parameters drawn like the samples, uniformly from the domain, and for frames
     that begin at the rest or mean shape. Other dimensions of the model take another calibration.
     """
-    if samples < 2:
-        raise ValueError(f"calibrated: samples is {samples}, but must be at least 2")
-    problem = model.problem
-    # as tight as in `validate`: at 1e-7 the errors of a creature's frames come out 5 % too small
-    tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
-    options = SolverOptions(tolerance=tolerance, max_iterations=5000)
-    solved = solve_snapshots(
-        problem,
-        _parameters(problem.domain, samples, seed=seed, stream=2),
-        options=options,
-        threads=threads,
-        progress=progress,
-    )
-    full = solved.select(solved.converged)
-    if len(full) < 2:
-        raise ValueError(
-            f"calibrated: {len(full)} of {samples} full solutions converged, but it takes two to "
-            "compare with; choose a smaller domain"
-        )
-    chosen = _sample(model, _parameters(problem.domain, TYPICAL_FRAMES, seed=seed, stream=3))
+    full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
+    typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
+    chosen = _sample(model, typical)
     mass = float(model.subspace.mass.sum())
-    coordinates, measured = _measured(model, chosen, full, math.sqrt(mass))
+    coordinates, measured = _measured(model, chosen, full, math.sqrt(mass), thorough=thorough)
     distances, residuals, movements = measured
     estimator = ErrorEstimator(
         mass=mass,
         sample=chosen,
         coordinates=coordinates,
         residual_ratios=_ratios(distances, residuals),
-        movement_ratios=_ratios(distances, movements),
+        movement_ratios=_ratios(distances, movements) if thorough else None,
     )
     return replace(model, error_estimator=estimator)
+
+
+def _full(
+    model: Model,
+    reference: Snapshots | None,
+    *,
+    samples: int | None,
+    seed: int | None,
+    threads: int | None,
+    progress: Progress | None,
+) -> Snapshots:
+    """The full solutions to measure by, given or new."""
+    if reference is not None:
+        if samples is not None or seed is not None:
+            raise ValueError(
+                "calibrated: the parameters come from the reference, so samples and seed are of no "
+                "effect; leave them or the reference out"
+            )
+        check_reference(model, reference, who="calibrated")
+        if len(reference) < 2:
+            raise ValueError(
+                "calibrated: the reference has one full solution, but it takes two to compare "
+                "with; give one of more samples"
+            )
+        return reference
+    count = SAMPLES if samples is None else samples
+    if count < 2:
+        raise ValueError(f"calibrated: samples is {count}, but must be at least 2")
+    problem = model.problem
+    # as tight as in `validate`: at 1e-7 the errors of a creature's frames come out 5 % too small
+    solved = solve_snapshots(
+        problem,
+        _parameters(problem.domain, count, seed=seed or 0, stream=2),
+        options=reference_options(problem),
+        threads=threads,
+        progress=progress,
+    )
+    full = solved.select(solved.converged)
+    if len(full) < 2:
+        raise ValueError(
+            f"calibrated: {len(full)} of {count} full solutions converged, but it takes two to "
+            "compare with; choose a smaller domain"
+        )
+    return full
 
 
 def _parameters(domain: Domain, count: int, *, seed: int, stream: int) -> FloatArray:
@@ -129,6 +167,8 @@ def _measured(
     chosen: ResidualSample,
     full: Snapshots,
     root_mass: float,
+    *,
+    thorough: bool,
 ) -> tuple[FloatArray, FloatArray]:
     """Coordinates (k, d) of frames; true distances and the two indicators, (3, k)."""
     problem, session = model.problem, model.session()
@@ -140,7 +180,8 @@ def _measured(
         frame = problem.aligned(model.subspace.shape(session.q), solution)
         distance = mass_norm(model.subspace.mass, frame - solution) / root_mass
         coordinates[column] = session.q
-        measured[:, column] = distance, session.residual(chosen), movement(session)
+        moved = movement(session) if thorough else math.nan
+        measured[:, column] = distance, session.residual(chosen), moved
     return coordinates, measured
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, calibrated, sample, validate
+from snapspace import PosingModel, calibrated, load, sample, validate
 from snapspace.calibration import _parameters
 
 
@@ -55,3 +57,36 @@ def test_other_seeds_calibrate_alike(model: PosingModel, posing_model: PosingMod
 def test_it_takes_samples(posing_model: PosingModel) -> None:
     with pytest.raises(ValueError, match="samples is 1, but must be at least 2"):
         calibrated(posing_model, samples=1)
+
+
+def test_known_solutions_calibrate_as_their_own_ones_do(posing_model: PosingModel) -> None:
+    """The same full solutions, new or given, give the same ratios; quick ones measure no polish."""
+    reference = validate(posing_model, samples=9, threads=1).reference
+    thorough = calibrated(posing_model, reference=reference, threads=1).error_estimator
+    quick_model = calibrated(posing_model, reference=reference, thorough=False, threads=1)
+    quick = quick_model.error_estimator
+    assert thorough is not None and quick is not None
+    np.testing.assert_array_equal(quick.residual_ratios, thorough.residual_ratios)
+    assert quick.movement_ratios is None and len(thorough.of_movement._logs) == 9
+    session = quick_model.session()
+    session.set_parameters(reference.parameters[0])
+    assert session.certificate(confidence=0.8).distance > 0
+    with pytest.raises(ValueError, match=r"quick certificates only; snapspace.calibrated\(model\)"):
+        session.certificate(confidence=0.8, thorough=True)
+
+
+def test_a_quick_one_is_in_the_file(posing_model: PosingModel, tmp_path: Path) -> None:
+    reference = validate(posing_model, samples=4, threads=1).reference
+    model = calibrated(posing_model, reference=reference, thorough=False)
+    read = load(model.save(tmp_path / "model.snapspace")).error_estimator
+    assert read is not None and model.error_estimator is not None
+    assert read.movement_ratios is None
+    np.testing.assert_array_equal(read.residual_ratios, model.error_estimator.residual_ratios)
+
+
+def test_references_that_cannot_calibrate_are_refused(posing_model: PosingModel) -> None:
+    reference = validate(posing_model, samples=2, threads=1).reference
+    with pytest.raises(ValueError, match="samples and seed are of no effect"):
+        calibrated(posing_model, samples=3, reference=reference)
+    with pytest.raises(ValueError, match="one full solution, but it takes two"):
+        calibrated(posing_model, reference=reference.select(np.array([True, False])))

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..calibration import calibrated
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -35,10 +36,11 @@ MORE_SAMPLES = 1.5
 
 @dataclass(frozen=True)
 class Trial:
-    """A model that was tried, and its errors."""
+    """A model that was tried, its errors, and the full solutions that they are distances to."""
 
     step: Step
     model: Model
+    unseen: Snapshots
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,7 +130,10 @@ class ModelSearch:
 
     @property
     def chosen(self) -> Trial:
-        """The best, once all trials are made; what was asked for and tried is in its provenance."""
+        """The best, once all trials are made, calibrated by the samples that judged it.
+
+        What was asked for and tried is in its provenance.
+        """
         best = self.best
         assert best is not None  # the last stage tries one at least
         record = {
@@ -138,7 +143,10 @@ class ModelSearch:
             "steps": [asdict(step) for step in self.steps],
         }
         provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
-        return replace(best, model=replace(best.model, provenance=provenance))
+        model = replace(best.model, provenance=provenance)
+        if len(best.unseen) > 1:
+            model = calibrated(model, reference=best.unseen, thorough=False)
+        return replace(best, model=model)
 
     def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
         """The models that are tried, and `best` is the one to take in the end.
@@ -188,7 +196,7 @@ class ModelSearch:
             unseen=plan.unseen_name,
             typical=plan.typical_name,
         )
-        return Trial(step, model)
+        return Trial(step, model, unseen)
 
     def _model(self, snapshots: Snapshots, dimension: int) -> Model:
         self._begins("subspace")

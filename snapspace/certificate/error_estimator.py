@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class ErrorEstimator:
-    """True errors of a model's frames over two indicators, on samples that the model never saw.
+    """True errors of a model's frames over one or two indicators, on samples it never saw.
 
     Errors are root mean square distances, in the mesh's length unit.
 
@@ -24,7 +24,8 @@ class ErrorEstimator:
     sample : where residuals are read
     coordinates : (k, d) of the frames
     residual_ratios : (k,) true distances over sampled residuals
-    movement_ratios : (k,) true distances over those that a polish moves
+    movement_ratios : (k,) true distances over those that a polish moves, or None if that was not
+        measured: there are no thorough certificates then
 
     Raises
     ------
@@ -36,18 +37,19 @@ class ErrorEstimator:
     sample: ResidualSample
     coordinates: FloatArray
     residual_ratios: FloatArray
-    movement_ratios: FloatArray
+    movement_ratios: FloatArray | None = None
 
     def __post_init__(self) -> None:
         frames = self.coordinates.shape[:1]
         fine = self.coordinates.ndim == 2 and frames[0] >= 2 and np.isfinite(self.coordinates).all()
-        for ratios in (self.residual_ratios, self.movement_ratios):
+        measured = (self.residual_ratios, self.movement_ratios)
+        for ratios in (ratios for ratios in measured if ratios is not None):
             fine = fine and ratios.shape == frames and bool(np.isfinite(ratios).all())
             fine = fine and bool((ratios > 0).all())
         if not (fine and self.mass > 0):
             raise ValueError(
                 "ErrorEstimator: a calibration has two frames or more, and for each of them finite "
-                "coordinates and two positive ratios; calibrate the model again"
+                "coordinates and positive ratios; calibrate the model again"
             )
 
     @property
@@ -62,5 +64,10 @@ class ErrorEstimator:
 
     @cached_property
     def of_movement(self) -> LocalRatios:
-        """Ratios for what a polish moves."""
+        """Ratios for what a polish moves; ValueError if they were not measured."""
+        if self.movement_ratios is None:
+            raise ValueError(
+                "certificate: the model was calibrated for quick certificates only; "
+                "snapspace.calibrated(model) measures what a polish moves, too"
+            )
         return LocalRatios(self.coordinates, self.movement_ratios)

@@ -24,7 +24,7 @@ from .energy import EnergyChoice
 from .memory import peak_memory_bytes
 from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
-from .unseen import judged, unseen_record
+from .unseen import judged, unseen_record, with_estimates
 
 
 @dataclass(frozen=True)
@@ -126,6 +126,7 @@ def build_model(
             )
         with stage(seconds, "unseen samples"):
             validation = judged(model, None, threads=recipe.threads)
+            model = with_estimates(model, validation)
         record = {**source, **provenance(recipe, snapshots), "seconds": dict(seconds)}
         if validation is not None:
             record["unseen"] = unseen_record(model, validation, snapshots)

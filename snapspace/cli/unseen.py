@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..accurate import plan_of
+from ..calibration import calibrated
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from ..validation import Validation, solved_reference, validate, with_lower_minima
 from .console import notice
 from .progress import sample_progress
+
+Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
 #: Full solutions that judge a model whose samples and dimension were given. They are solved as
 #: tightly as those of `validate`, each in two to four times the time of a sample.
@@ -37,6 +40,13 @@ def judged(
             return None
     lowest, lower = with_lower_minima(model, known, threads=threads)
     return replace(validate(model, reference=lowest), lower_minima=lower)
+
+
+def with_estimates(model: Model, validation: Validation | None) -> Model:
+    """The model with error estimates for its frames, measured by what judged it."""
+    if validation is None or len(validation.reference) < 2:
+        return model
+    return calibrated(model, reference=validation.reference, thorough=False)
 
 
 def unseen_record(

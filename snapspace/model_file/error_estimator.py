@@ -13,27 +13,32 @@ DTYPES: dict[str, type] = {
     "estimator_weights": np.float64,
     "estimator_coordinates": np.float64,
     "estimator_residual_ratios": np.float64,
-    "estimator_movement_ratios": np.float64,
 }
+#: Only of estimators that give thorough certificates.
+MOVEMENT = "estimator_movement_ratios"
 
 
 def estimator_arrays(estimator: ErrorEstimator | None) -> Arrays:
     """The arrays of an estimator; the names are those of DTYPES."""
     if estimator is None:
         return {}
-    return {
+    arrays = {
         "estimator_mass": np.array([estimator.mass]),
         "estimator_vertices": estimator.sample.vertices,
         "estimator_weights": estimator.sample.weights,
         "estimator_coordinates": estimator.coordinates,
         "estimator_residual_ratios": estimator.residual_ratios,
-        "estimator_movement_ratios": estimator.movement_ratios,
     }
+    if estimator.movement_ratios is not None:
+        arrays[MOVEMENT] = estimator.movement_ratios
+    return arrays
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
     """Types of the arrays that a file must have: all of an estimator's if it has any of them."""
-    return DTYPES if any(name in arrays for name in DTYPES) else {}
+    if not any(name in arrays for name in (*DTYPES, MOVEMENT)):
+        return {}
+    return DTYPES | ({MOVEMENT: np.float64} if MOVEMENT in arrays else {})
 
 
 def estimator(arrays: Arrays) -> ErrorEstimator | None:
@@ -45,5 +50,5 @@ def estimator(arrays: Arrays) -> ErrorEstimator | None:
         sample=ResidualSample(arrays["estimator_vertices"], arrays["estimator_weights"]),
         coordinates=arrays["estimator_coordinates"],
         residual_ratios=arrays["estimator_residual_ratios"],
-        movement_ratios=arrays["estimator_movement_ratios"],
+        movement_ratios=arrays.get(MOVEMENT),
     )

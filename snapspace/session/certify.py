@@ -25,7 +25,8 @@ def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Cert
     begin = time.perf_counter()
     q, estimator = session.q, _estimator(session)
     if thorough:
-        indicator, ratios = movement(session), estimator.of_movement
+        ratios = estimator.of_movement
+        indicator = movement(session)
     else:
         indicator, ratios = session.residual(estimator.sample), estimator.of_residual
     median, bound = ratios.at(q, confidence)

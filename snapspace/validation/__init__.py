@@ -5,7 +5,7 @@ from .error_split import PARTS, ErrorSplit, Part, split_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
-from .unseen import REFERENCE_TOLERANCE, solved_reference, unseen_parameters
+from .unseen import REFERENCE_TOLERANCE, reference_options, solved_reference, unseen_parameters
 from .validate import unseen_errors, validate
 from .validation import Validation
 
@@ -22,6 +22,7 @@ __all__ = [
     "error_curve",
     "needs_advice",
     "next_option",
+    "reference_options",
     "solved_reference",
     "split_errors",
     "unseen_errors",

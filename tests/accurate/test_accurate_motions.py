@@ -37,6 +37,19 @@ def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
     assert len(usual.model.training_parameters) == trained
 
 
+def test_its_frames_know_their_errors(usual: AccurateModel) -> None:
+    """What judged the model has calibrated it: estimates of other motions are about right."""
+    estimator = usual.model.error_estimator
+    assert estimator is not None and len(estimator.residual_ratios) == usual.held_out.sum()
+    checked = validate(usual.model, samples=20)
+    session, said = usual.model.session(), []
+    for w in checked.reference.parameters:
+        session.reset()
+        session.set_parameters(w)
+        said.append(session.certificate(confidence=0.8).relative)
+    assert 0.7 < np.median(checked.error / said) < 1.4
+
+
 def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
     rough = accurate_model(problem, target_error=4 * usual.target)
     assert rough.reached and rough.step.error > usual.step.error

@@ -118,6 +118,7 @@ ALLOWED: dict[str, set[str]] = {
         "stopping",
     },
     "accurate": {
+        "calibration",
         "displacements",
         "greedy",
         "interruptible",

@@ -15,7 +15,7 @@ def test_json_has_the_agreed_keys_and_the_figures_of_the_library(run: Run, model
     figures = run("validate", model, "--samples", 5, "--seed", 1, "--json").json
     assert list(figures) == [
         *("samples", "dimension", "error", "projection_error", "energy_ratio", "iterations"),
-        *("solve_ms", "frame_ms", "inverted_tets", "split", "curve", "next"),
+        *("solve_ms", "frame_ms", "inverted_tets", "lower_minima", "split", "curve", "next"),
     ]
     for name in ("error", "projection_error", "energy_ratio", "iterations"):
         assert list(figures[name]) == STATISTICS

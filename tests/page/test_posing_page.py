@@ -58,14 +58,22 @@ def test_a_cubature_is_dragged(
     assert_shown(cubature_model, page)
 
 
-def test_the_error_is_told_where_the_model_knows_it(
+def badge(page: Page) -> str:
+    return page.text(".badge")
+
+
+def test_the_badge_tells_the_error_where_the_model_knows_it(
     posing_model: PosingModel, posing_page: Path, tmp_path: Path, opened: OpenPage
 ) -> None:
-    assert "error" not in opened(posing_page.as_uri()).text(".hud")
+    page = opened(posing_page.as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 60, -50)
+    page.settle()
+    assert page.page.locator(".badge").is_hidden()
     model = calibrated(posing_model, samples=12, threads=1)
     page = opened(export_html(model, tmp_path / "bar.html").as_uri())
+    assert page.page.locator(".badge").is_hidden()  # at rest
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
-    page.wait("/error\\s*[0-9.]+ %/.test(document.querySelector('.hud').innerText)")
+    page.wait("/^(good|rough|outside) [0-9.]+ %$/.test(document.querySelector('.badge').innerText)")
     found = page.run("snapspace.session.certificate()")
     session, q = model.session(), np.array(page.run("[...snapspace.session.q]"))
     motions = [
@@ -76,9 +84,22 @@ def test_the_error_is_told_where_the_model_knows_it(
     expected = session.certificate(confidence=0.9)
     assert found["relative"] == pytest.approx(expected.relative, rel=1e-2)
     assert found["upper"] == pytest.approx(expected.upper_relative, rel=1e-2)
-    assert f"below {100 * found['upper']:.2g} %" in page.page.locator(".hud dd").nth(
-        3
-    ).get_attribute("title")
+    level = "good" if found["relative"] <= 0.01 else "rough"
+    assert badge(page) == f"{level} {100 * found['relative']:.2g} %"
+    title = page.page.locator(".badge").get_attribute("title")
+    assert f"below {100 * found['upper']:.2g} % with 90 % confidence" in title
+    page.page.get_by_role("button", name="Reset", exact=True).click()
+    page.wait("document.querySelector('.badge').hidden")
+
+
+def test_the_badge_says_what_is_outside_of_what_was_sampled(
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    model = calibrated(posing_model, samples=4, threads=1)
+    page = opened(export_html(model, tmp_path / "bar.html").as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 300, -250)
+    page.wait("document.querySelector('.badge').innerText.startsWith('outside ')")
+    assert "a guess" in page.page.locator(".badge").get_attribute("title")
 
 
 def test_a_handle_is_turned_and_undone(

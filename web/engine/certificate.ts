@@ -4,6 +4,8 @@ import type { Model } from "./model.ts";
 
 /** Confidence of the bounds. */
 export const CONFIDENCE = 0.9;
+/** Displacements below this share of those that were calibrated are rest: nothing is off there. */
+const REST = 1e-3;
 
 /** How far a frame is from the full solution, over its distance from the rest or mean shape; as Certificate of the
  * Python package. */
@@ -19,6 +21,7 @@ export class Certifier {
   readonly #core: Core;
   readonly #ratios: LocalRatios;
   readonly #mass: number;
+  readonly #rest: number;
   readonly #dimension: number;
 
   /** Null for a model that was not calibrated. `core` solves it. */
@@ -31,15 +34,17 @@ export class Certifier {
     this.#ratios = new LocalRatios(estimator.coordinates, estimator.ratios);
     this.#mass = estimator.mass;
     this.#dimension = model.dimension;
+    const squares = estimator.coordinates.reduce((sum, x) => sum + x * x, 0);
+    this.#rest = REST * Math.sqrt(squares / (estimator.ratios.length * estimator.mass));
   }
 
-  /** Of the core's present frame; null in fewer dimensions than were calibrated, at tau
-   * itself, and where the energy is infinite. */
+  /** Of the core's present frame; null in fewer dimensions than were calibrated, at rest, and where the energy is
+   * infinite. */
   certify(): Certificate | null {
     const { q } = this.#core;
     // the basis is M-orthonormal: the norm of q is that of the displacement
     const size = Math.hypot(...Array.from(q)) / Math.sqrt(this.#mass);
-    if (q.length !== this.#dimension || !(size > 0)) return null;
+    if (q.length !== this.#dimension || !(size > this.#rest)) return null;
     const residual = this.#core.residual();
     if (residual === null || !Number.isFinite(residual)) return null;
     const [middle, bound] = this.#ratios.at(q, CONFIDENCE);

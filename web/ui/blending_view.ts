@@ -37,7 +37,7 @@ export async function blendingView(
   const hud = new Hud(
     model.name,
     `${model.poses.length} poses, ${model.space.vertices.toLocaleString("en")} surface vertices`,
-    model.estimator && (() => session.certificate()),
+    () => session,
   );
   hud.dimension(model.dimension, model.dimension);
   const readout = new Readout(() => hud.tell());

@@ -1,4 +1,5 @@
-import { CONFIDENCE, type Certificate, type FrameReport } from "../engine/index.ts";
+import type { Certificate, FrameReport } from "../engine/index.ts";
+import { Badge } from "./badge.ts";
 import { h, tell } from "./dom.ts";
 
 const STATUS: Partial<Record<FrameReport["status"], string>> = {
@@ -10,7 +11,15 @@ const STATUS: Partial<Record<FrameReport["status"], string>> = {
 
 const PAUSE = 120; // milliseconds without another frame
 
-/** Dimension, time of a solve and rate of frames, in a corner; and what the user should know, below. */
+/** What a view shows at the moment. */
+export interface Shown {
+  /** How far the shape is from the full solution; null where nothing is known of it. */
+  certificate(): Certificate | null;
+  /** What is beyond the handle motions or weights that were sampled. */
+  readonly outside: readonly unknown[];
+}
+
+/** Dimension, time of a solve, rate of frames and a badge of the error, in a corner; and what the user should know, below. */
 export class Hud {
   readonly element: HTMLElement;
   readonly #warning = h("span");
@@ -19,25 +28,25 @@ export class Hud {
     d: figure("d", "coordinates"),
     solve: figure("solve", "of one solve"),
     fps: figure("fps", ""),
-    error: figure("error", "estimated distance from the full solution, of the displacement"),
   };
   readonly #remark = h("p", { role: "status" });
-  readonly #certify: (() => Certificate | null) | null;
+  readonly badge = new Badge();
+  readonly #shown: () => Shown;
   #certifying = 0;
   #stopped: string | undefined;
   readonly #solves: number[] = [];
   readonly #frames: number[] = [];
 
-  /** `certify` tells the error of the present frame; without it there is no such figure. */
-  constructor(title: string, detail: string, certify: (() => Certificate | null) | null = null) {
-    const { d, solve, fps, error } = this.#figures;
-    this.#certify = certify;
+  constructor(title: string, detail: string, shown: () => Shown) {
+    const { d, solve, fps } = this.#figures;
+    this.#shown = shown;
     this.element = h(
       "header",
       { className: "hud" },
       h("h1", {}, title),
       h("p", {}, detail),
-      h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes, ...(certify ? error.nodes : [])),
+      h("dl", {}, ...d.nodes, ...solve.nodes, ...fps.nodes),
+      this.badge.element,
       this.#remark,
     );
     this.warn("");
@@ -50,9 +59,16 @@ export class Hud {
   solved(report: FrameReport): void {
     keep(this.#solves, report.milliseconds);
     this.#stopped = STATUS[report.status];
+    this.badge.forgetPolish();
     // once a drag pauses: certificates are not for frames that nobody looks at
     clearTimeout(this.#certifying);
-    if (this.#certify) this.#certifying = window.setTimeout(() => this.#tellError(), PAUSE);
+    this.#certifying = window.setTimeout(() => this.assess(), PAUSE);
+  }
+
+  /** The shape that is shown comes from full iterations, which moved it by this share: no estimate comes after that. */
+  polished(moved: number | null): void {
+    clearTimeout(this.#certifying);
+    this.badge.polished(moved);
   }
 
   dispose(): void {
@@ -85,12 +101,10 @@ export class Hud {
     return tell(this.#warning, text);
   }
 
-  #tellError(): void {
-    const { value } = this.#figures.error;
-    const found = this.#certify!();
-    const bound = found?.upper == null ? "" : ` (< ${percent(found.upper)})`;
-    tell(value, found ? percent(found.relative) + bound : "–");
-    value.title = bound ? `below ${percent(found!.upper!)} with ${percent(CONFIDENCE)} confidence` : "";
+  /** Tells the error of the live shape. */
+  assess(): void {
+    const shown = this.#shown();
+    this.badge.show(shown.certificate(), shown.outside.length > 0);
   }
 }
 
@@ -104,5 +118,4 @@ function keep(values: number[], value: number): void {
   if (values.length > 30) values.shift();
 }
 
-const percent = (share: number) => `${Number((100 * share).toPrecision(2))} %`;
 const mean = (values: number[]) => values.reduce((sum, value) => sum + value, 0) / values.length;

@@ -39,12 +39,12 @@ export function polishAt(server: Server, model: () => number): Polish {
 export class Polishing {
   readonly #posing: Posing;
   readonly #polish: Polish;
-  readonly #tell: (text: string) => void;
+  readonly #tell: (moved: number | null) => void;
   #isOn = true;
   #ticket = 0;
   #begin: number | null = null;
 
-  constructor(posing: Posing, polish: Polish, tell: (text: string) => void) {
+  constructor(posing: Posing, polish: Polish, tell: (moved: number | null) => void) {
     this.#posing = posing;
     this.#polish = polish;
     this.#tell = tell;
@@ -70,7 +70,7 @@ export class Polishing {
       if (ticket !== this.#ticket || positions.length !== 3 * surface.space.vertices) return;
       surface.goal = carriedBack(positions, session.carriedBy);
       this.#begin = performance.now();
-      this.#tell(moved === null ? "polished" : `polished, moved ${Number((100 * moved).toPrecision(2))} %`);
+      this.#tell(moved);
       stage.draw();
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
@@ -81,7 +81,6 @@ export class Polishing {
   cancel(): void {
     this.#ticket++;
     this.#begin = null;
-    this.#tell("");
   }
 
   /** Before a picture: on the way to the improved shape. */

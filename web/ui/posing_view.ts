@@ -53,7 +53,7 @@ export async function posingView(
   const hud = new Hud(
     model.name,
     `${model.space.vertices.toLocaleString("en")} surface vertices`,
-    model.estimator && (() => posing.session.certificate()),
+    () => posing.session,
   );
   hud.dimension(model.dimension, model.dimension);
   const list = model.handles.map(({ name }, handle) => {
@@ -76,7 +76,7 @@ export async function posingView(
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const figures = h("p", { className: "figures" });
 
-  const polishing = options.polish && new Polishing(posing, options.polish, (text) => hud.remark(text));
+  const polishing = options.polish && new Polishing(posing, options.polish, (moved) => hud.polished(moved));
   posing.onSolved = (report) => {
     hud.solved(report);
     polishing?.cancel();
@@ -121,6 +121,7 @@ export async function posingView(
     true,
     (on) => {
       if (polishing) polishing.isOn = on;
+      if (!on) hud.assess();
     },
   );
   const others = polishing ? [h("div", { className: "row" }, polish)] : [];
