@@ -18,6 +18,7 @@ from ..subspace import snapshot_pca
 from ..validation import unseen_errors
 from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
 from .growing_samples import GrowingSamples
+from .old_model import OldModel
 from .plan import Plan, plan_of, usual_most_samples
 from .solving import Solving
 from .step import Step
@@ -31,6 +32,10 @@ Begins = Callable[[str], None]
 
 #: Growth of the samples that train, from stage to stage.
 MORE_SAMPLES = 1.5
+#: Shapes near solutions that the first model takes with an old one, for each parameter, if that is
+#: more than a first stage has. Half as many as the old one was trained with, if that is more: some
+#: bodies take more than others.
+NEAR_A_PARAMETER = 8
 
 
 @dataclass(frozen=True)
@@ -62,6 +67,8 @@ class ModelSearch:
     problem : PosingProblem or InterpolationProblem
     aim : Aim
     solving : Solving
+    start : PosingModel, optional
+        Of other handles, see `accurate_model`.
     surface : as for `reduce`
     tell, begins : callable
 
@@ -77,6 +84,7 @@ class ModelSearch:
         aim: Aim,
         solving: Solving,
         *,
+        start: PosingModel | None = None,
         surface: EmbeddedSurface | None = None,
         tell: Tell | None = None,
         begins: Begins | None = None,
@@ -90,6 +98,14 @@ class ModelSearch:
         check_budget(aim.budget)
         self._budget = aim.budget
         self._plan = _fitting(usual, self._most)
+        self._old: OldModel | None = None
+        self._near = 0  # shapes that the first model is made of, with an old one
+        if start is not None:
+            known = len(getattr(start, "training_parameters", ()))
+            wanted = max(self._plan.first, NEAR_A_PARAMETER * problem.parameter_count, known // 2)
+            self._near = min(wanted, self._most - self._plan.held_out)
+            self._old = OldModel.of(start, problem, most=self._near)
+        self._first: Model | None = None  # made of the old one
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -98,7 +114,7 @@ class ModelSearch:
             self._most,
             method=self._plan.sampling,
             seed=aim.seed,
-            first=self._plan.first,
+            first=0 if self._old else self._plan.first,  # the old model has trained already
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -114,8 +130,10 @@ class ModelSearch:
     def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
         """The loose samples of a first impression, where later solves begin; None if it has none.
 
-        known : where they start, as for `solve_snapshots`
+        known : where they start, as for `solve_snapshots`; of no use with a model of other handles
         """
+        if self._old is not None:
+            return self._begin_with(self._old)
         count = min(self._plan.impression, self._plan.first)
         if not count:
             return None
@@ -123,7 +141,9 @@ class ModelSearch:
         return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
-        """The model of a first impression."""
+        """The model of a first impression, or that made of an old one."""
+        if self._first is not None:
+            return self._first
         return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
 
     @property
@@ -147,40 +167,67 @@ class ModelSearch:
             looks on. It does not count otherwise.
         """
         stages = _stages(self._plan, self._most)
+        if self._first is not None:
+            stages.insert(0, self._plan.held_out)
         for stage, count in enumerate(stages):
             self._begins("snapshots")
             self.samples.solve_up_to(
-                count, self._solving, model=self.best.model if self.best else None
+                count, self._solving, model=self.best.model if self.best else self._first
             )
             last = count == self._most or self._is_too_late(count, stages[stage + 1])
             # the least: where more dimensions do not help the ratio grows, and says nothing
             ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
-            tries = Tries(self.samples, self._plan, self.target, ratio)
-            for dimension in tries.dimensions(last=last):
-                trial = self._try(count, dimension, tries)
-                self._tell(str(trial.step))
-                self.steps.append(trial.step)
-                tries.add(trial.step)
-                if self.best is None or trial.step.error < self.best.step.error:
-                    self.best = trial
-                yield trial
+            if self._first is not None and stage == 0:
+                yield self._taken(self._judged(count, self._first))
+            else:
+                tries = Tries(self.samples, self._plan, self.target, ratio)
+                for dimension in tries.dimensions(last=last):
+                    trial = self._taken(self._try(count, dimension, tries))
+                    tries.add(trial.step)
+                    yield trial
+                if one_a_stage and not tries.steps and not last:
+                    yield self._try(count, tries.most, tries)
             if last or (self.best is not None and self.best.step.error <= self.target):
                 break
-            if one_a_stage and not tries.steps:
-                yield self._try(count, tries.most, tries)
             target = f"{100 * self.target:.2g} %"
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
+
+    def _begin_with(self, old: OldModel) -> Snapshots:
+        """Shapes near solutions, and the first model, of a basis of these and the old shapes."""
+        self._begins("snapshots")
+        plan, solving = self._plan, self._solving
+        training = slice(plan.held_out, plan.held_out + self._near)
+        near = old.near_solutions(self.samples.parameters[training], threads=solving.threads)
+        basis = near.joined(old.shapes)
+        self.samples.begin_with(old.shapes, near)
+        most = min(plan.most_dimensions, old.dimension + len(near) // 2, len(basis) - 1)
+        self._first = self._model(basis, most, trained=near)
+        return near
+
+    def _taken(self, trial: Trial) -> Trial:
+        """Counts a trial."""
+        self._tell(str(trial.step))
+        self.steps.append(trial.step)
+        if self.best is None or trial.step.error < self.best.step.error:
+            self.best = trial
+        return trial
 
     def _try(self, count: int, dimension: int, tries: Tries) -> Trial:
         begin = time.perf_counter()
         model = self._model(self.samples.trained, dimension)
-        errors = unseen_errors(model, self.samples.unseen)
+        trial = self._judged(count, model, tries.projection(dimension))
         self._model_seconds = time.perf_counter() - begin
+        return trial
+
+    def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
         plan = self._plan
+        errors = unseen_errors(model, self.samples.unseen)
+        if projection is None:
+            projection = plan.typical(self.samples.projection_errors_onto(model.subspace))
         step = Step(
             samples=count,
-            dimension=dimension,
-            projection=tries.projection(dimension),
+            dimension=model.dimension,
+            projection=projection,
             error=plan.typical(errors),
             mean=float(errors.mean()),
             ninth=float(np.quantile(errors, 0.9)),
@@ -189,7 +236,10 @@ class ModelSearch:
         )
         return Trial(step, model)
 
-    def _model(self, snapshots: Snapshots, dimension: int) -> Model:
+    def _model(
+        self, snapshots: Snapshots, dimension: int, *, trained: Snapshots | None = None
+    ) -> Model:
+        """trained : a quick cubature of these; default all, with care"""
         self._begins("subspace")
         self._finish_parts()
         subspace = snapshot_pca(snapshots, dimension=dimension)
@@ -197,7 +247,8 @@ class ModelSearch:
         return reduce(
             self.samples.problem,
             subspace,
-            snapshots=snapshots,
+            snapshots=trained or snapshots,
+            quick=trained is not None,
             surface=self._surface,
             threads=self._solving.threads,
         )
@@ -209,7 +260,8 @@ class ModelSearch:
         seconds = self.seconds
         # the first model takes up to as long as the samples that it is made of
         model = self._model_seconds or seconds
-        wanted = seconds / count * (following - count) + model
+        done = max(count, self._near)  # an old model has taken as many shapes as it needs
+        wanted = seconds / done * (following - count) + model
         if seconds + wanted <= self._budget:
             return False
         self._tell(

@@ -3,14 +3,8 @@
 from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature
 from .held_out_errors import CubatureErrors
-from .train import (
-    FEWEST_BLENDS,
-    FEWEST_SNAPSHOTS,
-    default_blended_tets,
-    default_tets,
-    train_blended_cubature,
-    train_cubature,
-)
+from .tet_budget import FEWEST_BLENDS, FEWEST_SNAPSHOTS, default_blended_tets, default_tets
+from .train import train_blended_cubature, train_cubature
 
 __all__ = [
     "FEWEST_BLENDS",

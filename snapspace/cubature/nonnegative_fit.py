@@ -21,7 +21,12 @@ RIDGE = 1e-9
 
 @single_threaded_blas
 def nonnegative_fit(
-    columns: NDArray[np.float32], target: FloatArray, count: int
+    columns: NDArray[np.float32],
+    target: FloatArray,
+    count: int,
+    *,
+    batch: float = BATCH,
+    missing: float = MISSING,
 ) -> tuple[IndexArray, FloatArray]:
     """Least squares with at most `count` positive weights.
 
@@ -37,6 +42,8 @@ def nonnegative_fit(
     columns : (k, c) float32
     target : (k,)
     count : int, >= 1
+    batch : share of the count that joins before the weights are found anew
+    missing : share that may be missing at the end
 
     Returns
     -------
@@ -48,12 +55,12 @@ def nonnegative_fit(
     own: FloatArray = np.zeros((len(target), 0))
     gram: FloatArray = np.zeros((0, 0))
     residual = target
-    batch = max(1, round(BATCH * count))
+    several = max(1, round(batch * count))
     best = np.inf
-    while count - len(chosen) > MISSING * count:
+    while count - len(chosen) > missing * count:
         products = residual.astype(np.float32) @ columns
         products[chosen] = 0.0
-        fresh = _largest(products, min(batch, count - len(chosen)))
+        fresh = _largest(products, min(several, count - len(chosen)))
         chosen = np.concatenate([chosen, fresh])
         new = columns[:, fresh].astype(np.float64)
         mixed = own.T @ new

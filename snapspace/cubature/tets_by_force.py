@@ -11,10 +11,10 @@ from .elastic_states import ElasticStates
 PILOTS = 12
 
 
-def tets_by_force(states: ElasticStates) -> NDArray[np.int32]:
-    """Tets that carry a force at some of the states, the largest forces first."""
+def tets_by_force(states: ElasticStates, *, pilots: int = PILOTS) -> NDArray[np.int32]:
+    """Tets that carry a force at some `pilots` of the states, the largest forces first."""
     total = np.zeros(len(states.problem.mesh.tets))
-    for state in range(0, len(states), max(1, len(states) // PILOTS)):
+    for state in range(0, len(states), max(1, len(states) // pilots)):
         displacement = states.subspace.basis @ states.coordinates[state]
         total += np.linalg.norm(states.forces(state, displacement).stresses, axis=1)
     order = np.argsort(-total, kind="stable").astype(np.int32)

@@ -18,53 +18,27 @@ from .held_out_errors import CubatureErrors, held_out_errors
 from .nonnegative_fit import nonnegative_fit
 from .reduced_stiffness import mean_stiffness, reduced_stiffness
 from .sampled_tets import sampled_tets
+from .tet_budget import (
+    BLEND_CANDIDATES,
+    CANDIDATES,
+    FEWEST_BLENDS,
+    FEWEST_SNAPSHOTS,
+    HELD_OUT,
+    TRAINED,
+    TRAINED_BLENDS,
+    TetBudget,
+    default_blended_tets,
+    default_tets,
+)
 from .tets_by_force import tets_by_force
 from .training_rows import training_rows
 
 FloatArray = NDArray[np.float64]
 
-#: Tets per dimension by default. On the Dragon, d = 120, solutions are then as far from the full
-#: ones as those of the exact energy.
-TETS_PER_DIMENSION = 8
-#: The same for blends.
-TETS_PER_BLENDED_DIMENSION = 15
-#: But no more than this: an evaluation takes time in proportion.
-MOST_TETS = 1000
-#: Rows of forces per wanted tet.
-ROWS = 3
-#: Snapshots that are held out at the most.
-HELD_OUT = 20
-#: Motions that are trained on at the most, and candidates per wanted tet. Errors on Dragon, Spot,
-#: Elephant, Armadillo, dog head and hand are those of 200 motions and twice as many candidates,
-#: which take twice as long.
-TRAINED, CANDIDATES = 60, 10
-#: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
-#: 20 blends and with 200, which take four times as long; half as many candidates leave the Lion a
-#: third more.
-TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
-#: One snapshot in so many is held out, which takes as many at least.
-FEWEST_SNAPSHOTS = 10
 #: How often a blended cubature gets half as many tets again, until the mean shape is a minimum.
 GROWTHS = 4
-#: Fewest blends that a cubature is trained on: one, and one to judge by.
-FEWEST_BLENDS = 2
 #: One blended state in so many says how large energies are.
 PILOT_STEP = 8
-
-
-def default_tets(dimension: int) -> int:
-    """How many tets a cubature has by default: 8 d, but at most 1000, where the mesh has them."""
-    return min(TETS_PER_DIMENSION * dimension, MOST_TETS)
-
-
-def default_blended_tets(dimension: int) -> int:
-    """How many tets a blended cubature has by default: 15 d, but at most 1000.
-
-    Nothing holds blends as handles do, and they take more than posing. On Lion, Dog and Centaur
-    (d = 30, 20 and 50) errors are those of twice as many tets; with 10 d the Dog's and the Lion's
-    are larger by half.
-    """
-    return min(TETS_PER_BLENDED_DIMENSION * dimension, MOST_TETS)
 
 
 def train_cubature(
@@ -74,6 +48,7 @@ def train_cubature(
     handle_hessian: FloatArray,
     *,
     tets: int | None = None,
+    quick: bool = False,
     seed: int = 0,
     threads: int | None = None,
 ) -> tuple[Cubature, dict[str, Any]]:
@@ -93,6 +68,8 @@ def train_cubature(
         The Hessian of the handles' reduced energy, which is exact.
     tets : int, optional
         The most that may be chosen. Default: `default_tets`.
+    quick : bool, default False
+        Half the time, see `TetBudget.quick`.
     seed : int, default 0
         Seeds the random rows.
     threads : int, optional
@@ -115,8 +92,14 @@ def train_cubature(
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)])
     hessian = problem.energy.hessian(problem.base)
     stiffness = reduced_stiffness(hessian, subspace) + handle_hessian
-    budget = _Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
-    fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
+    budget = TetBudget(
+        wanted=tets,
+        usual=default_tets(subspace.dimension),
+        fewest_states=FEWEST_SNAPSHOTS,
+        most_trained=TRAINED,
+        candidates=CANDIDATES,
+    )
+    fit = _fit(states, stiffness, budget.quick if quick else budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     errors = held_out_errors(
         fit.unseen,
@@ -150,7 +133,13 @@ def train_blended_cubature(
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
     stiffness = mean_stiffness(problem, subspace, threads=threads)
     for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
-        budget = _Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
+        budget = TetBudget(
+            wanted=tets,
+            usual=usual,
+            fewest_states=FEWEST_BLENDS,
+            most_trained=TRAINED_BLENDS,
+            candidates=BLEND_CANDIDATES,
+        )
         fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
         cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
         if tets is not None or _is_stable(cubature, problem.domain.center):
@@ -174,22 +163,6 @@ def _is_stable(cubature: BlendedCubature, mean: FloatArray) -> bool:
     """Whether the mean shape is a minimum: where it is soft few tets may leave it a saddle."""
     hessian = cubature.hessian(np.zeros(cubature.dimension), mean)
     return bool(np.linalg.eigvalsh(hessian)[0] > 0.0)
-
-
-@dataclass(frozen=True)
-class _Budget:
-    """How many tets the user wants, or else are usual, and what they are chosen from.
-
-    fewest_states : that a cubature needs
-    most_trained : states
-    candidates : tets for each wanted one
-    """
-
-    wanted: int | None
-    usual: int
-    fewest_states: int
-    most_trained: int
-    candidates: int
 
 
 @dataclass(frozen=True)
@@ -224,14 +197,14 @@ class _Fit(Generic[States]):
 def _fit(
     states: States,
     stiffness: FloatArray,
-    budget: _Budget,
+    budget: TetBudget,
     *,
     seed: int,
     threads: int | None,
 ) -> _Fit[States]:
     begin = time.perf_counter()
     mesh, dimension = states.problem.mesh, states.subspace.dimension
-    count = _checked_count(len(mesh.tets), budget.usual, budget.wanted)
+    count = budget.count(len(mesh.tets))
     if len(states) < budget.fewest_states:
         raise ValueError(
             f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
@@ -242,9 +215,9 @@ def _fit(
     trained = states.chosen(_spread(np.flatnonzero(~held), budget.most_trained))
     unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
     with_forces = trained.with_forces()
-    ordered = tets_by_force(with_forces)
+    ordered = tets_by_force(with_forces, pilots=budget.pilots)
     candidates = sampled_tets(ordered, budget.candidates * count, seed=seed).tets
-    directions = min(dimension, -(-ROWS * count // len(with_forces)))
+    directions = min(dimension, -(-budget.rows * count // len(with_forces)))
     rows = training_rows(
         with_forces,
         candidates,
@@ -253,7 +226,9 @@ def _fit(
         seed=seed,
         threads=threads,
     )
-    picks, factors = nonnegative_fit(rows.columns, rows.target, count)
+    picks, factors = nonnegative_fit(
+        rows.columns, rows.target, count, batch=budget.batch, missing=budget.missing
+    )
     if not len(picks):
         raise ValueError(
             f"reduce: no tet carries a force at the {len(states)} snapshots that a cubature is "
@@ -271,15 +246,6 @@ def _fit(
 def _repeated(compliances: FloatArray, count: int) -> FloatArray:
     """Those of states for their `with_forces`, which has each state as often as any other."""
     return np.repeat(compliances, count // len(compliances), axis=0)
-
-
-def _checked_count(available: int, usual: int, tets: int | None) -> int:
-    count = min(usual, available) if tets is None else tets
-    if not 1 <= count <= available:
-        raise ValueError(
-            f"reduce: tets is {count}, but must be between 1 and the mesh's {available}"
-        )
-    return count
 
 
 def _moved(coordinates: FloatArray) -> NDArray[np.bool_]:
