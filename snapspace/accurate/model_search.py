@@ -18,7 +18,7 @@ from ..subspace import snapshot_pca
 from ..validation import unseen_errors
 from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
 from .growing_samples import GrowingSamples
-from .old_model import OldModel
+from .old_model import OldModel, check_start, usual_shapes
 from .plan import Plan, plan_of, usual_most_samples
 from .solving import Solving
 from .step import Step
@@ -32,10 +32,6 @@ Begins = Callable[[str], None]
 
 #: Growth of the samples that train, from stage to stage.
 MORE_SAMPLES = 1.5
-#: Shapes near solutions that the first model takes with an old one, for each parameter, if that is
-#: more than a first stage has. Half as many as the old one was trained with, if that is more: some
-#: bodies take more than others.
-NEAR_A_PARAMETER = 8
 
 
 @dataclass(frozen=True)
@@ -101,10 +97,11 @@ class ModelSearch:
         self._old: OldModel | None = None
         self._near = 0  # shapes that the first model is made of, with an old one
         if start is not None:
-            known = len(getattr(start, "training_parameters", ()))
-            wanted = max(self._plan.first, NEAR_A_PARAMETER * problem.parameter_count, known // 2)
+            check_start(start, problem)
+            assert isinstance(problem, PosingProblem)
+            wanted = max(self._plan.first, usual_shapes(start, problem))
             self._near = min(wanted, self._most - self._plan.held_out)
-            self._old = OldModel.of(start, problem, most=self._near)
+            self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made of the old one
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)

@@ -21,6 +21,8 @@ FloatArray = NDArray[np.float64]
 #: Steps of L-BFGS from a guess, of 60 to 100 that a whole solve takes. They leave a hundredth to a
 #: sixth of its error: 0.0005 on the creature with a new tail, 0.018 on Spot, 0.015 on the hand.
 STEPS = 20
+#: Shapes near solutions for each parameter, at the least.
+SHAPES_A_PARAMETER = 8
 
 
 class OldModel:
@@ -41,12 +43,6 @@ class OldModel:
         #: Places of the problem's handles that the model has as well; the first one is fixed.
         self._kept = np.array(kept, np.intp)
         self._all_kept = len(kept) == len(old)
-
-    @classmethod
-    def of(cls, model: Any, problem: Any, *, most: int) -> OldModel:
-        """ValueError for what does not pose, or is of another mesh."""
-        _check(model, problem)
-        return cls(model, problem, most=most)
 
     @property
     def dimension(self) -> int:
@@ -143,7 +139,19 @@ def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -
     return Snapshots(problem, parameters, displacements, [report] * len(parameters))
 
 
-def _check(model: Any, problem: Any) -> None:
+def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
+    """How many shapes near solutions a first model takes.
+
+    Eight for each parameter. Some bodies take more than others: half as many as the old model, or
+    less where handles have gone.
+    """
+    count, before = problem.parameter_count, model.problem.parameter_count
+    known = len(model.training_parameters) * min(count, before) // (2 * before)
+    return max(SHAPES_A_PARAMETER * count, known)
+
+
+def check_start(model: Any, problem: Any) -> None:
+    """ValueError unless a model is of handles of the problem's mesh, and has shapes."""
     for what, one, kind in (("start", model, PosingModel), ("the problem", problem, PosingProblem)):
         if not isinstance(one, kind):
             raise ValueError(

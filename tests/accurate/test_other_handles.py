@@ -70,7 +70,7 @@ def test_a_saved_model_is_as_good_a_start_on_any_number_of_threads(
 def test_guesses_are_nearer_than_the_linear_response(start: PosingModel) -> None:
     reference = solved_reference(TAIL, samples=8)
     exact = reference.displacements.array()
-    old = OldModel.of(start, TAIL, most=64)
+    old = OldModel(start, TAIL, most=64)
     composed = old.guesses(reference.parameters, threads=None)
     misses = [
         np.linalg.norm(guesses - exact, axis=1)
