@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
 from .model_search import Aim, Model, ModelSearch, Tell
 from .solving import Solving
@@ -53,6 +54,7 @@ def accurate_model(
     progress: Progress | None = None,
     checkpoint: Checkpoint | None = None,
     executor: Executor | None = None,
+    start: PosingModel | None = None,
     surface: EmbeddedSurface | None = None,
     tell: Tell | None = None,
 ) -> AccurateModel:
@@ -82,6 +84,12 @@ def accurate_model(
     seed : int, default 0
         Of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
+    start : PosingModel, optional
+        A model of the same mesh with other handles, new, saved or loaded: of `problem`'s handles
+        some may be added, removed or moved. The first model then is made of its shapes and of a few
+        solver steps from what it says of the new handles; most often it is as near as models that
+        start over, after a fraction of the time. Unless it meets the target, samples are solved
+        from its solutions, and the old shapes count for later bases.
     surface : as for `reduce`
     tell : callable(str), optional
         Gets a line for each model that was tried, and why samples are added.
@@ -94,7 +102,8 @@ def accurate_model(
     Raises
     ------
     ValueError
-        For a target or budget that is not positive, fewer than 20 samples, or no usable ones.
+        For a target or budget that is not positive, fewer than 20 samples, or no usable ones, and
+        a `start` of another mesh, without training shapes, or where handles are not what changes.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
@@ -108,6 +117,7 @@ def accurate_model(
             checkpoint=checkpoint,
             executor=executor,
         ),
+        start=start,
         surface=surface,
         tell=tell,
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
 from .model_search import Aim, Begins, Model, ModelSearch, Trial
 from .solving import Solving
@@ -50,22 +51,24 @@ def growing_models(
     executor: Executor | None = None,
     known: Snapshots | None = None,
     begins: Begins | None = None,
+    start: PosingModel | None = None,
     surface: EmbeddedSurface | None = None,
 ) -> Iterator[Growth]:
     """The models of `accurate_model` while it looks for the last one.
 
-    The first one is an impression of a few loosely solved samples, whose solves begin there later.
-    All others are judged by samples that they are not made of, and each is better than those before
+    The first one is an impression of a few loosely solved samples, whose solves begin there later;
+    with `start`, a model of other handles, it is one that is as good as most that start over. All
+    others are judged by samples that they are not made of, and each is better than those before
     it.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
-    target_error, most_samples, budget, seed, surface : as for `accurate_model`
+    target_error, most_samples, budget, seed, start, surface : as for `accurate_model`
     options, threads, progress, executor : as for `solve_snapshots`
     known : Snapshots, optional
-        Where the first solves start, as for `solve_snapshots`: samples of an earlier run, or of
-        other handles.
+        Where the first solves start, as for `solve_snapshots`: samples of an earlier run. Of no use
+        with `start`.
     begins : callable, optional
         Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 
@@ -84,6 +87,7 @@ def growing_models(
         problem,
         Aim(target_error=target_error, most_samples=most_samples, budget=budget, seed=seed),
         Solving(options=options, threads=threads, progress=progress, executor=executor),
+        start=start,
         surface=surface,
         begins=begins,
     )

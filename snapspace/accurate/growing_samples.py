@@ -11,6 +11,7 @@ from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
 from ..reduction import InterpolationModel, PosingModel
 from ..sampling import Method, sample
 from ..snapshots import SampleReport, Snapshots, solve_snapshots
+from ..subspace import AffineSubspace
 from .solving import Solving
 
 FloatArray = NDArray[np.float64]
@@ -45,6 +46,7 @@ class GrowingSamples:
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start
+        self._given: Snapshots | None = None  # shapes that count for a basis
         self._gram = SnapshotGram.of(problem)
 
     @property
@@ -63,7 +65,8 @@ class GrowingSamples:
     @property
     def trained(self) -> Snapshots:
         """The usable ones that are not held out."""
-        return self.snapshots.select(self._masks()[0])
+        solved = self.snapshots.select(self._masks()[0])
+        return solved if self._given is None else solved.joined(self._given)
 
     @property
     def unseen(self) -> Snapshots:
@@ -73,7 +76,12 @@ class GrowingSamples:
     @property
     def trained_solutions(self) -> int:
         """How many solutions a basis comes from, those known without solving among them."""
-        return int(self._masks()[0].sum()) + len(self._known())
+        given = 0 if self._given is None else len(self._given)
+        return int(self._masks()[0].sum()) + len(self._known()) + given
+
+    def begin_with(self, given: Snapshots, near: Snapshots) -> None:
+        """Takes shapes that count for a basis, and others near which the first solves start."""
+        self._given, self._first_known = given, near
 
     def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:
         """The first samples, for a first impression; their solves begin there later.
@@ -131,18 +139,26 @@ class GrowingSamples:
         shapes = reduced_solutions(model, parameters) + self.problem.base
         guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
         reports = [guess] * len(parameters)
-        return self.snapshots.joined(
-            Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
-        )
+        said = Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
+        return said if self._snapshots is None else self._snapshots.joined(said)
 
     def projection_errors(self) -> FloatArray:
         """Of the held-out samples onto bases of the others, see `SnapshotGram.held_out_errors`."""
         gram, (trained, unseen) = self._gram.copy(), self._masks()
         gram.add(list(self._known()))
+        if self._given is not None:
+            gram.add(list(self._given.displacements))
         known = np.arange(len(trained), len(gram))
         return gram.held_out_errors(
             np.append(np.flatnonzero(trained), known), np.flatnonzero(unseen)
         )
+
+    def projection_errors_onto(self, subspace: AffineSubspace) -> FloatArray:
+        """Of the held-out samples onto another basis, (k,)."""
+        squares = np.diag(self._gram.matrix)[self._masks()[1]]
+        held = (subspace.row_coordinates(self.unseen.displacements) ** 2).sum(axis=1)
+        errors: FloatArray = np.sqrt(np.maximum(squares - held, 0.0) / squares)
+        return errors
 
     def _known(self) -> FloatArray:
         """Displacements (k, 3n) of the solutions that are known, beside tau."""
@@ -152,7 +168,8 @@ class GrowingSamples:
     def _masks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
         """Which samples (k,) train, and which are held out."""
         usable, judges = self.snapshots.usable, self.held_out
-        if not (usable & judges).any() or not (usable & ~judges).any():
+        others = self._given is not None or (usable & ~judges).any()
+        if not ((usable & judges).any() and others):
             raise ValueError(
                 f"accurate_model: only {int(usable.sum())} of {len(usable)} samples converged; "
                 "allow more iterations"

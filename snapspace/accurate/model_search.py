@@ -17,9 +17,10 @@ from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Snapshots
 from ..subspace import snapshot_pca
 from ..validation import unseen_errors, with_lower_minima
-from .checks import FEWEST_HELD_OUT, check_budget, check_most, check_target
+from .checks import check_budget, check_most, check_target
 from .growing_samples import GrowingSamples
-from .plan import Plan, plan_of, usual_most_samples
+from .old_model import OldModel, check_start, usual_shapes
+from .plan import plan_of, usual_most_samples
 from .solving import Solving
 from .step import Step
 from .tries import Tries
@@ -29,9 +30,6 @@ Model = PosingModel | InterpolationModel
 Tell = Callable[[str], None]
 #: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 Begins = Callable[[str], None]
-
-#: Growth of the samples that train, from stage to stage.
-MORE_SAMPLES = 1.5
 
 
 @dataclass(frozen=True)
@@ -64,6 +62,8 @@ class ModelSearch:
     problem : PosingProblem or InterpolationProblem
     aim : Aim
     solving : Solving
+    start : PosingModel, optional
+        Of other handles, see `accurate_model`.
     surface : as for `reduce`
     tell, begins : callable
 
@@ -79,6 +79,7 @@ class ModelSearch:
         aim: Aim,
         solving: Solving,
         *,
+        start: PosingModel | None = None,
         surface: EmbeddedSurface | None = None,
         tell: Tell | None = None,
         begins: Begins | None = None,
@@ -91,7 +92,16 @@ class ModelSearch:
         check_most(self._most)
         check_budget(aim.budget)
         self._budget = aim.budget
-        self._plan = _fitting(usual, self._most)
+        self._plan = usual.fitting(self._most)
+        self._old: OldModel | None = None
+        self._near = 0  # shapes that the first model is made of, with an old one
+        if start is not None:
+            check_start(start, problem)
+            assert isinstance(problem, PosingProblem)
+            wanted = max(self._plan.first, usual_shapes(start, problem))
+            self._near = min(wanted, self._most - self._plan.held_out)
+            self._old = OldModel(start, problem, most=self._near)
+        self._first: Model | None = None  # made of the old one
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -100,7 +110,7 @@ class ModelSearch:
             self._most,
             method=self._plan.sampling,
             seed=aim.seed,
-            first=self._plan.first,
+            first=0 if self._old else self._plan.first,  # the old model has trained already
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -116,8 +126,10 @@ class ModelSearch:
     def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
         """The loose samples of a first impression, where later solves begin; None if it has none.
 
-        known : where they start, as for `solve_snapshots`
+        known : where they start, as for `solve_snapshots`; of no use with a model of other handles
         """
+        if self._old is not None:
+            return self._begin_with(self._old)
         count = min(self._plan.impression, self._plan.first)
         if not count:
             return None
@@ -125,7 +137,9 @@ class ModelSearch:
         return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
-        """The model of a first impression."""
+        """The model of a first impression, or that made of an old one."""
+        if self._first is not None:
+            return self._first
         return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
 
     @property
@@ -154,42 +168,69 @@ class ModelSearch:
         one_a_stage : also a model of a stage that is known not to meet the target, for whoever
             looks on. It does not count otherwise.
         """
-        stages = _stages(self._plan, self._most)
+        stages = self._plan.stages(self._most)
+        if self._first is not None:
+            stages.insert(0, self._plan.held_out)
         for stage, count in enumerate(stages):
             self._begins("snapshots")
             self.samples.solve_up_to(
-                count, self._solving, model=self.best.model if self.best else None
+                count, self._solving, model=self.best.model if self.best else self._first
             )
             last = count == self._most or self._is_too_late(count, stages[stage + 1])
             # the least: where more dimensions do not help the ratio grows, and says nothing
             ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
-            tries = Tries(self.samples, self._plan, self.target, ratio)
-            for dimension in tries.dimensions(last=last):
-                trial = self._try(count, dimension, tries)
-                self._tell(str(trial.step))
-                self.steps.append(trial.step)
-                tries.add(trial.step)
-                if self.best is None or trial.step.error < self.best.step.error:
-                    self.best = trial
-                yield trial
+            if self._first is not None and stage == 0:
+                yield self._taken(self._judged(count, self._first))
+            else:
+                tries = Tries(self.samples, self._plan, self.target, ratio)
+                for dimension in tries.dimensions(last=last):
+                    trial = self._taken(self._try(count, dimension, tries))
+                    tries.add(trial.step)
+                    yield trial
+                if one_a_stage and not tries.steps and not last:
+                    yield self._try(count, tries.most, tries)
             if last or (self.best is not None and self.best.step.error <= self.target):
                 break
-            if one_a_stage and not tries.steps:
-                yield self._try(count, tries.most, tries)
             target = f"{100 * self.target:.2g} %"
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
+
+    def _begin_with(self, old: OldModel) -> Snapshots:
+        """Shapes near solutions, and the first model, of a basis of these and the old shapes."""
+        self._begins("snapshots")
+        plan, solving = self._plan, self._solving
+        training = slice(plan.held_out, plan.held_out + self._near)
+        near = old.near_solutions(self.samples.parameters[training], threads=solving.threads)
+        basis = near.joined(old.shapes)
+        self.samples.begin_with(old.shapes, near)
+        most = min(plan.most_dimensions, old.dimension + len(near) // 2, len(basis) - 1)
+        self._first = self._model(basis, most, trained=near)
+        return near
+
+    def _taken(self, trial: Trial) -> Trial:
+        """Counts a trial."""
+        self._tell(str(trial.step))
+        self.steps.append(trial.step)
+        if self.best is None or trial.step.error < self.best.step.error:
+            self.best = trial
+        return trial
 
     def _try(self, count: int, dimension: int, tries: Tries) -> Trial:
         begin = time.perf_counter()
         model = self._model(self.samples.trained, dimension)
+        trial = self._judged(count, model, tries.projection(dimension))
+        self._model_seconds = time.perf_counter() - begin
+        return trial
+
+    def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
+        plan = self._plan
         unseen, _ = with_lower_minima(model, self.samples.unseen, threads=self._solving.threads)
         errors = unseen_errors(model, unseen)
-        self._model_seconds = time.perf_counter() - begin
-        plan = self._plan
+        if projection is None:
+            projection = plan.typical(self.samples.projection_errors_onto(model.subspace))
         step = Step(
             samples=count,
-            dimension=dimension,
-            projection=tries.projection(dimension),
+            dimension=model.dimension,
+            projection=projection,
             error=plan.typical(errors),
             mean=float(errors.mean()),
             ninth=float(np.quantile(errors, 0.9)),
@@ -198,7 +239,10 @@ class ModelSearch:
         )
         return Trial(step, model, unseen)
 
-    def _model(self, snapshots: Snapshots, dimension: int) -> Model:
+    def _model(
+        self, snapshots: Snapshots, dimension: int, *, trained: Snapshots | None = None
+    ) -> Model:
+        """trained : what a cubature is trained with; default all"""
         self._begins("subspace")
         self._finish_parts()
         subspace = snapshot_pca(snapshots, dimension=dimension)
@@ -206,7 +250,7 @@ class ModelSearch:
         return reduce(
             self.samples.problem,
             subspace,
-            snapshots=snapshots,
+            snapshots=trained or snapshots,
             surface=self._surface,
             threads=self._solving.threads,
         )
@@ -218,7 +262,8 @@ class ModelSearch:
         seconds = self.seconds
         # the first model takes up to as long as the samples that it is made of
         model = self._model_seconds or seconds
-        wanted = seconds / count * (following - count) + model
+        done = max(count, self._near)  # an old model has taken as many shapes as it needs
+        wanted = seconds / done * (following - count) + model
         if seconds + wanted <= self._budget:
             return False
         self._tell(
@@ -233,22 +278,3 @@ def _make_parts(problem: PosingProblem | InterpolationProblem) -> None:
     _ = problem.mesh.surface
     if isinstance(problem, PosingProblem):  # others have the mass of the mean, a solution
         problem.mass()
-
-
-def _fitting(plan: Plan, most: int) -> Plan:
-    """With fewer samples than the first stage has, both parts shrink alike."""
-    together = plan.first + plan.held_out
-    if most >= together:
-        return plan
-    held_out = max(FEWEST_HELD_OUT, plan.held_out * most // together)
-    return replace(plan, first=most - held_out, held_out=held_out)
-
-
-def _stages(plan: Plan, most: int) -> list[int]:
-    """Numbers of samples."""
-    training = float(plan.first)
-    stages = [plan.first + plan.held_out]
-    while stages[-1] < most:
-        training *= MORE_SAMPLES
-        stages.append(min(round(training) + plan.held_out, most))
-    return stages

@@ -10,9 +10,12 @@ from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..sampling import Method
+from .checks import FEWEST_HELD_OUT
 
 FloatArray = NDArray[np.float64]
 
+#: Growth of the samples that train, from stage to stage.
+MORE_SAMPLES = 1.5
 #: The most samples by default: 640, but on large meshes 160.
 MOST_SAMPLES, FEWER_SAMPLES = 640, 160
 
@@ -48,6 +51,23 @@ class Plan:
     impression: int
     impression_dimension: int
     most_vertices: int
+
+    def fitting(self, most: int) -> Plan:
+        """With at most so many samples: of fewer than the first stage has, both parts shrink alike."""
+        together = self.first + self.held_out
+        if most >= together:
+            return self
+        held_out = max(FEWEST_HELD_OUT, self.held_out * most // together)
+        return replace(self, first=most - held_out, held_out=held_out)
+
+    def stages(self, most: int) -> list[int]:
+        """Numbers of samples, the held-out ones among them, up to the most."""
+        training = float(self.first)
+        stages = [self.first + self.held_out]
+        while stages[-1] < most:
+            training *= MORE_SAMPLES
+            stages.append(min(round(training) + self.held_out, most))
+        return stages
 
 
 #: Ratios of blends of generated and real poses are 2 to 14.

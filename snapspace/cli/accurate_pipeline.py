@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import time
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -17,6 +18,7 @@ from ..accurate import AccurateModel, accurate_model, usual_most_samples
 from ..greedy import finished_samples
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
+from ..reduction import PosingModel
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
 from .given_options import chosen_parameters
@@ -62,7 +64,9 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
     """
     given = {option.name: option.opts[0] for option in chosen_parameters()}
     deciding = [given[name] for name in (*DECIDING, *others) if name in given]
-    chooses = next((given[name] for name in ("target_error", "budget") if name in given), None)
+    chooses = next(
+        (given[name] for name in ("target_error", "budget", "from_file") if name in given), None
+    )
     if chooses and deciding:
         raise ValueError(f"{chooses} chooses what {deciding[0]} decides; leave one of them out")
     if chooses and exact:
@@ -77,7 +81,7 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
 class AccurateRecipe:
     """What to do with a problem.
 
-    target_error, budget, seed : as for `accurate_model`
+    target_error, budget, seed, start : as for `accurate_model`
     solver : SolverOptions
     threads : None for all
     """
@@ -85,12 +89,19 @@ class AccurateRecipe:
     target_error: float
     budget: float | None = None
     seed: int
+    start: PosingModel | None = None
     solver: SolverOptions
     threads: int | None
 
     def key(self, problem: PosingProblem | InterpolationProblem) -> str:
         """Hash of what the samples depend on: which models give starts follows from the target."""
-        choice = {"seed": self.seed, "accurate": [usual_most_samples(problem), self.target_error]}
+        choice: dict[str, Any] = {
+            "seed": self.seed,
+            "accurate": [usual_most_samples(problem), self.target_error],
+        }
+        if self.start is not None:
+            shapes = self.start.training_coordinates.tobytes()
+            choice["start"] = hashlib.sha256(shapes).hexdigest()
         none = np.zeros((0, problem.parameter_count))
         return run_key(problem, none, {**solver_key(self.solver, problem), **choice})
 
@@ -103,13 +114,19 @@ def chosen_build(
     target_error: float,
     budget: float | None = None,
     seed: int,
+    start: PosingModel | None = None,
     solver: SolverOptions,
 ) -> partial[Built]:
     """`build_model` by the recipe where it was decided by hand, else `build_accurate_model`."""
     if by_hand:
         return partial(build_model, problem, recipe)
     accurate = AccurateRecipe(
-        target_error=target_error, budget=budget, seed=seed, solver=solver, threads=recipe.threads
+        target_error=target_error,
+        budget=budget,
+        seed=seed,
+        start=start,
+        solver=solver,
+        threads=recipe.threads,
     )
     return partial(build_accurate_model, problem, accurate)
 
@@ -147,6 +164,7 @@ def build_accurate_model(
                 threads=recipe.threads,
                 checkpoint=checkpoint,
                 executor=executor,
+                start=recipe.start,
                 surface=surface,
                 tell=notice,
             )

@@ -13,9 +13,9 @@ import click
 
 from ..accurate import MOTIONS, check_budget, check_target
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
-from ..model_file import check_model_path
+from ..model_file import check_model_path, load
 from ..problem import PosingProblem, read_problem, read_problem_surface
-from ..reduction import ENERGIES, Energy
+from ..reduction import ENERGIES, Energy, PosingModel
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build_advice import tell_what_to_do
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
@@ -48,6 +48,14 @@ DIMENSION = 40
     "for stvk.",
 )
 @budget_option
+@click.option(
+    "--from",
+    "from_file",
+    type=FILE,
+    metavar="OLD.snapspace",
+    help="A model of the same mesh with other handles. The first model is made of its shapes, in a "
+    "fraction of the time, and is the last if it meets --target-error.",
+)
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
     "--energy",
@@ -77,6 +85,7 @@ def build(
     repair: bool,
     target_error: float,
     budget: float | None,
+    from_file: Path | None,
     choices: Choices,
     threads: int | None,
     dask: str | None,
@@ -91,6 +100,7 @@ def build(
     \b
     Examples:
       snapspace build --problem dragon.json -o dragon.snapspace
+      snapspace build --problem tail.json --from dragon.snapspace -o tail.snapspace
       snapspace build --problem dragon.json --samples 600 --dimension 60 -o dragon60.snapspace
       snapspace build --problem dragon.json --dimension 120 --energy cubature -o dragon120.snapspace
       snapspace build --problem dragon.json finer.msh --energy-fraction 0.9999 -o finer.snapspace
@@ -121,6 +131,7 @@ def build(
         target_error=target_error,
         budget=budget,
         seed=choices.seed,
+        start=None if from_file is None else _old_model(from_file),
         solver=choices.solver_options(),
     )
     built = make(output, source=source, surface=surface, begin=begin, executor=executor)
@@ -145,6 +156,14 @@ def check_output(output: Path) -> None:
         raise ValueError(f"{output}: this is a folder; give a file name")
     if not os.access(output.parent, os.W_OK):
         raise ValueError(f"{output}: the folder {output.parent} cannot be written to")
+
+
+def _old_model(file: Path) -> PosingModel:
+    """The model of --from; ValueError if it does not pose."""
+    model = load(file)
+    if not isinstance(model, PosingModel):
+        raise ValueError(f"{file}: this model blends poses; --from takes one with handles")
+    return model
 
 
 def _read(

@@ -1,12 +1,13 @@
 """Greedy sampling: the next samples are those that the present model is worst at."""
 
 from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
-from .error_estimates import estimated_errors, reduced_solutions
+from .error_estimates import after_steps, estimated_errors, reduced_solutions
 from .greedy_snapshots import BATCH, CANDIDATES, check_target, greedy_snapshots
 
 __all__ = [
     "BATCH",
     "CANDIDATES",
+    "after_steps",
     "batch_checkpoint",
     "check_target",
     "estimated_errors",

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
+from ..problem import Problem
 from ..reduction import ReducedModel
 
 FloatArray = NDArray[np.float64]
@@ -60,6 +61,29 @@ def estimated_errors(
     """
     problem = model.problem
     starts = reduced_solutions(model, parameters)
+    ends = after_steps(problem, parameters, starts, steps=steps, single=single, threads=threads)
+    errors = np.zeros(starts.shape)
+    for error, shape, start in zip(errors, ends, starts, strict=True):
+        if np.isfinite(shape).all():
+            # one by one: more of them together may round differently
+            error[:] = (problem.registered(shape[None]) - problem.registered(start[None]))[0]
+    return errors
+
+
+def after_steps(
+    problem: Problem,
+    parameters: FloatArray,
+    starts: FloatArray,
+    *,
+    steps: int,
+    single: bool = True,
+    modes: core.SoftModes | None = None,
+    threads: int | None = None,
+) -> FloatArray:
+    """Displacements (k, 3n) after so many iterations of L-BFGS from others, not all of them finite.
+
+    modes : soft ones for its seed, which long ways take
+    """
     inputs = problem.inputs(parameters)
 
     def solve(control: core.SolveControl) -> Any:
@@ -71,17 +95,14 @@ def estimated_errors(
             threads=threads or 0,
             control=control,
             single=single,
+            modes=modes,
         )
 
     batch, interrupted = run_interruptible(solve, lambda finished: None)
     if interrupted:
         raise KeyboardInterrupt
-    errors = np.zeros(starts.shape)
-    for error, shape, start in zip(errors, batch.shapes, starts, strict=True):
-        if np.isfinite(shape).all():
-            # one by one: more of them together may round differently
-            error[:] = (problem.registered(shape[None]) - problem.registered(start[None]))[0]
-    return errors
+    shapes: FloatArray = batch.shapes
+    return shapes
 
 
 def reduced_solutions(model: ReducedModel, parameters: FloatArray) -> FloatArray:

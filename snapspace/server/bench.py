@@ -107,6 +107,7 @@ class Bench:
             turns=turns,
             solved=self._solved,
             report=report,
+            start=self._models.start(problem),
             surface=self.body.surface,
             publish=publish,
         )

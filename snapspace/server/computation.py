@@ -7,6 +7,7 @@ from collections.abc import Callable
 from ..accurate import Growth, check_most, check_target, growing_models
 from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
+from ..reduction import PosingModel
 from ..snapshots import Interrupted, SolveProgress
 from .messages import Compute
 from .reporter import Reporter
@@ -31,6 +32,8 @@ class Computation:
     solved : SolvedSamples
         What is known, and where finished samples are kept, also when this is stopped.
     report : Reporter
+    start : PosingModel or None
+        Of other handles, see `growing_models`.
     surface : EmbeddedSurface or None
         That the models show, in place of the tets'.
     publish : callable
@@ -50,13 +53,15 @@ class Computation:
         turns: Turns,
         solved: SolvedSamples,
         report: Reporter,
+        start: PosingModel | None,
         surface: EmbeddedSurface | None,
         publish: Publish,
     ) -> None:
         _check(order)
         self._problem, self._order = problem, order
         self._turns, self._solved = turns, solved
-        self._report, self._surface, self._publish = report, surface, publish
+        self._report, self._publish = report, publish
+        self._start, self._surface = start, surface
         self._error: float | None = None  # of the newest model
 
     def run(self) -> None:
@@ -74,6 +79,7 @@ class Computation:
                     progress=self._solving,
                     known=self._solved.starts(self._problem),
                     begins=self._begins,
+                    start=self._start,
                     surface=self._surface,
                 ):
                     self._take(growth)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..problem import Problem
-from ..reduction import ReducedModel
+from ..problem import PosingProblem, Problem
+from ..reduction import PosingModel, ReducedModel
 
 #: A page fetches a model while the next one may come.
 KEPT = 2
@@ -41,6 +41,17 @@ class Models:
     def is_of(self, problem: Problem) -> bool:
         """Whether the newest model is of this problem."""
         return self.newest is not None and self.newest.model.problem is problem
+
+    def start(self, problem: PosingProblem) -> PosingModel | None:
+        """The newest model where it is of other handles, which `growing_models` can begin with.
+
+        None where solutions are not unique, as those of St.Venant-Kirchhoff.
+        """
+        model = None if self.newest is None else self.newest.model
+        if not isinstance(model, PosingModel) or problem.material.exact_degree == 4:
+            return None
+        other = model.problem.fingerprint != problem.fingerprint
+        return model if other and len(model.training_parameters) else None
 
     def find(self, number: int) -> Kept | None:
         """A model by number; None if it is not there any more."""

@@ -5,11 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..problem import PosingProblem
-from ..snapshots import Snapshots, carried
-
-#: Samples that are carried over to other handles: a second on the Dragon, and starts are
-#: interpolated from no more than these. Sobol samples come in an order that any number is spread.
-CARRIED = 64
+from ..snapshots import Snapshots
 
 
 class SolvedSamples:
@@ -19,22 +15,11 @@ class SolvedSamples:
         self._snapshots: Snapshots | None = None
 
     def starts(self, problem: PosingProblem) -> Snapshots | None:
-        """What a computation for this problem can start from; None if there is nothing.
-
-        Samples of other handles are carried over where all of these are handles still: without the
-        pull of one that is gone they are no better than the rest shape, see `carried`.
-        """
+        """What a computation for this problem can start from; None if there is nothing."""
         known = self._snapshots
-        if known is None or not known.usable.any():
+        if known is None or known.problem.fingerprint != problem.fingerprint:
             return None
-        old = known.problem
-        if old.fingerprint == problem.fingerprint:
-            return known
-        assert isinstance(old, PosingProblem)
-        if not _regions(old) <= _regions(problem):
-            return None
-        usable = np.flatnonzero(known.usable)[:CARRIED]
-        return carried(known.select(np.isin(np.arange(len(known)), usable)), problem)
+        return known if known.usable.any() else None
 
     def replace(self, snapshots: Snapshots) -> None:
         """These are all that is kept."""
@@ -48,7 +33,3 @@ class SolvedSamples:
             _, first = np.unique(joined.parameters, axis=0, return_index=True)
             snapshots = joined.select(np.isin(np.arange(len(joined)), first))
         self._snapshots = snapshots
-
-
-def _regions(problem: PosingProblem) -> set[bytes]:
-    return {handle.vertices.tobytes() for handle in problem.handles}

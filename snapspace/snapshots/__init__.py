@@ -8,6 +8,7 @@ from .snapshots import SampleReport, Snapshots
 from .solve import solve_snapshots, solver_key
 from .solve_progress import Progress, SolveProgress
 from .solver_options import PRECISIONS, PROJECTIONS, SOLVERS, SolverOptions
+from .starts import lowest_start
 
 __all__ = [
     "PRECISIONS",
@@ -25,6 +26,7 @@ __all__ = [
     "UnsavedSamplesError",
     "carried",
     "load_snapshots",
+    "lowest_start",
     "run_key",
     "save_snapshots",
     "solve_snapshots",

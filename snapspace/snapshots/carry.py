@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array
 
-from .. import _core as core
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows
 from ..problem import Handle, PosingProblem, euler_of_rotation, rotation_matrix
 from ..registration import RigidMotion, rigid_registration
-from .fast_solve import as_sample_report
 from .snapshots import SampleReport, Snapshots
 
 FloatArray = NDArray[np.float64]
 
 
 @single_threaded_blas
-def carried(
-    snapshots: Snapshots, problem: PosingProblem, *, threads: int | None = None
-) -> Snapshots:
+def carried(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     """What snapshots are worth for a problem with other handles: as starts, and in its basis.
 
     Each shape gets the parameters of the new problem that it fits best. A handle with the same
@@ -37,16 +31,13 @@ def carried(
         Of a `PosingProblem`. Those that are not usable are left behind.
     problem : PosingProblem
         With the same mesh, in most cases from `with_handles`. Material and stiffness may differ.
-    threads : int, optional
-        Default: as many as the machine has. The result is bitwise the same for any number.
 
     Returns
     -------
     Snapshots
         Of `problem`; parameters may lie outside of its box. If the problem has the same handles in
         another order, under other names or in another box, the shapes are its solutions and the
-        reports are kept. Otherwise their status is "carried": value, gradient norm, decrement and
-        inverted tets are those that a solve would start with.
+        reports are kept. Otherwise their status is "carried", and the numbers are zero.
 
     Raises
     ------
@@ -59,11 +50,10 @@ def carried(
     the objective depend on what is left open. It gets the smallest one relative to the fixed
     handle. Rotations are fitted after Kabsch 1976, see `rigid_registration`.
 
-    How far the shapes are from solutions is told by their decrement. An added handle hardly pulls:
-    on the creature a solve from such shapes at their own parameters takes 2 iterations, and 25 new
-    samples with 100 carried ones span as much as 50 new ones (on the Dragon 100). Where a handle is
-    removed its force is missing: the shapes help a basis of few new samples, but as starts they are
-    no better than the rest shape.
+    An added handle hardly pulls: on the creature a solve from such shapes at their own parameters
+    takes 2 iterations, and 25 new samples with 100 carried ones span as much as 50 new ones (on the
+    Dragon 100). Where a handle is removed its force is missing: the shapes help a basis of few new
+    samples, but as starts they are no better than the rest shape.
     """
     old = _checked(snapshots, problem)
     known = snapshots.select(snapshots.usable)
@@ -76,7 +66,7 @@ def carried(
     if _same_objective(old, problem):
         reports = list(known.reports)
     else:
-        reports = _reports(problem, parameters, rows, threads=threads or 0)
+        reports = [SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)] * len(rows)
     displacements = DisplacementRows(rows, problem.base.size)
     return Snapshots(problem, parameters, displacements, reports)
 
@@ -146,22 +136,6 @@ def _same_objective(old: PosingProblem, new: PosingProblem) -> bool:
     keys = [{_key(handle) for handle in problem.handles} for problem in (old, new)]
     same_weights = (old.material, old.stiffness) == (new.material, new.stiffness)
     return same_weights and keys[0] == keys[1]
-
-
-def _reports(
-    problem: PosingProblem, parameters: FloatArray, rows: FloatArray, *, threads: int
-) -> list[SampleReport]:
-    """Those of a solve that takes no step, all samples together."""
-    batch = problem.system.solve_fast(
-        problem.inputs(parameters),
-        rows,
-        tolerance=problem.solving.tolerance,
-        max_iterations=0,
-        threads=threads,
-        control=core.SolveControl(),
-    )
-    reports = [as_sample_report(report) for report in batch.reports]
-    return [replace(report, status="carried", evaluations=0, seconds=0.0) for report in reports]
 
 
 def _checked(snapshots: Snapshots, problem: PosingProblem) -> PosingProblem:

@@ -24,8 +24,7 @@ class SampleReport:
     number of tets with det F <= 0.
 
     The status carried is that of a shape that was not solved for these parameters, see `carried`:
-    it took no iterations, evaluations nor time, and the other numbers are those of a solve that
-    would start there.
+    all its numbers are zero.
     """
 
     status: str

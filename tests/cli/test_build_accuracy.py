@@ -34,6 +34,20 @@ def test_it_says_what_it_tried_and_what_came_of_it(run: Run, tmp_path: Path) -> 
     assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
 
 
+def test_an_old_model_is_the_beginning_of_one_with_other_handles(run: Run, tmp_path: Path) -> None:
+    file, old, new = neo_hookean(tmp_path), tmp_path / "old.snapspace", tmp_path / "new.snapspace"
+    run("build", "--problem", file, "--target-error", 0.05, "-o", old)
+    problem = json.loads(file.read_text())
+    problem["handles"] = problem["handles"][::-1]
+    file.write_text(json.dumps(problem))
+    words = ("--problem", file, "--from", old, "-o", new)
+    run("build", *words, "--target-error", 0.2)
+    record = load(new).provenance["accurate"]
+    assert record["reached"] and record["step"]["samples"] == 16, "only what judges was solved"
+    result = run("build", *words, "--samples", 24, "--dimension", 6)
+    assert result.code == 2 and "--from chooses what --samples decides" in result.err
+
+
 @pytest.mark.parametrize(
     "words",
     [("--samples", 24, "--dimension", 6), ("--tets", 40, "--samples", 24, "--dimension", 6)],

@@ -131,7 +131,7 @@ def test_the_same_choice_is_the_same_problem_and_others_share_its_energy() -> No
     assert changed.stiffness == 200.0
 
 
-def test_solved_samples_serve_the_same_handles_and_those_that_contain_them() -> None:
+def test_solved_samples_serve_the_same_handles_only() -> None:
     two = problem_of(handle("foot", FOOT, moving=False), handle("head", HEAD))
     three = problem_of(
         handle("foot", FOOT, moving=False), handle("head", HEAD), handle("belly", BELLY)
@@ -141,10 +141,7 @@ def test_solved_samples_serve_the_same_handles_and_those_that_contain_them() -> 
     snapshots = solve_snapshots(two, sample(two.domain, 6), threads=1)
     known.add(snapshots)
     assert known.starts(two) is snapshots
-    more = known.starts(three)
-    assert more is not None and more.problem is three and len(more) == 6
-    known.replace(solve_snapshots(three, sample(three.domain, 6), threads=1))
-    assert known.starts(two) is None, "without a handle's pull its shapes are no starts"
+    assert known.starts(three) is None, "a model of other handles says more of these than samples"
 
 
 def test_of_samples_at_the_same_place_the_newest_is_kept() -> None:

@@ -67,7 +67,7 @@ motions = st.lists(st.floats(-1.5, 1.5), min_size=12, max_size=12).map(np.array)
 def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) -> None:
     new = PROBLEM.with_handles(HANDLES.replacing("head", X > 0.8).replacing("belly", KNEE))
     x = following(new, w, seed=seed)
-    result = carried(given_shapes(PROBLEM, np.zeros((1, 12)), x[None]), new, threads=1)
+    result = carried(given_shapes(PROBLEM, np.zeros((1, 12)), x[None]), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
     np.testing.assert_array_equal(result.shapes[:, 0], x)
     assert new.handle_energy(x, new.offsets(result.parameters[0])) < 1e-22
@@ -84,7 +84,7 @@ def test_motions_count_from_the_handle_that_is_fixed(
     there = (x.reshape(-1, 3) @ rotation_matrix(common[:3]).T + common[3:6]).reshape(1, -1)
     # the old problem knows nothing of the handles that the new one has
     other = PROBLEM.with_handles(Handles([X < 0.1, (X > 0.4) & (X < 0.6)]))
-    result = carried(given_shapes(other, np.zeros((1, 6)), there), new, threads=1)
+    result = carried(given_shapes(other, np.zeros((1, 6)), there), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
     np.testing.assert_allclose(result.shapes[:, 0], x, rtol=0, atol=1e-12)
 
@@ -196,18 +196,10 @@ def test_a_line_takes_the_smallest_rotation(old: Snapshots) -> None:
         np.testing.assert_allclose(np.cross(turned, after), 0, rtol=0, atol=1e-12)
 
 
-def test_reports_are_of_the_new_problem_and_claim_no_solve(old: Snapshots) -> None:
-    new = PROBLEM.with_handles(HANDLES.adding("knee", KNEE))
-    result = carried(old, new)
-    assert {report.status for report in result.reports} == {"carried"}
+def test_reports_claim_no_solve(old: Snapshots) -> None:
+    result = carried(old, PROBLEM.with_handles(HANDLES.adding("knee", KNEE)))
     assert not result.converged.any() and result.usable.all()
-    for w, x, report in zip(result.parameters, result.shapes.T, result.reports, strict=True):
-        value, gradient = new.value_and_gradient(x, w)
-        assert report.value == pytest.approx(value, rel=1e-10)
-        assert report.gradient_norm == pytest.approx(np.linalg.norm(gradient), rel=1e-6)
-        assert report.decrement > 0
-        assert (report.iterations, report.evaluations, report.seconds) == (0, 0, 0.0)
-        assert report.inverted_tets == PROBLEM.energy.inverted_tets(x)
+    assert set(result.reports) == {SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)}
 
 
 def test_an_added_handle_hardly_pulls() -> None:
@@ -230,20 +222,12 @@ def test_an_added_handle_hardly_pulls() -> None:
     assert iterations[0] < 0.7 * iterations[1], iterations
 
 
-def test_threads_do_not_change_a_bit(old: Snapshots) -> None:
-    new = PROBLEM.with_handles(HANDLES.fixing("head").adding("knee", KNEE))
-    one, two = (carried(old, new, threads=threads) for threads in (1, 2))
-    np.testing.assert_array_equal(one.parameters, two.parameters)
-    assert_same_bits(one, two)
-
-
 def test_another_material_makes_solutions_starts(old: Snapshots) -> None:
     soft = PosingProblem(MESH, HANDLES, domain=PROBLEM.domain, material=StVK(lam=0.0, mu=1.0))
     result = carried(old, soft)
     np.testing.assert_array_equal(result.parameters, old.parameters)
     assert {report.status for report in result.reports} == {"carried"}
-    for w, x, report in zip(result.parameters, result.shapes.T, result.reports, strict=True):
-        assert report.value == pytest.approx(soft.value_and_gradient(x, w)[0], rel=1e-10)
+    np.testing.assert_array_equal(result.shapes, old.shapes)
 
 
 def failing(snapshots: Snapshots, *failed: int) -> Snapshots:

@@ -1,0 +1,57 @@
+"""Problems before and after their handles were changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import problems
+
+import snapspace as ss
+from snapspace.generators import creature_handles
+
+Pair = tuple[ss.PosingProblem, ss.PosingProblem]
+
+
+def changed(name: str, change: Callable[[ss.TetMesh, ss.Handles], ss.Handles]) -> Pair:
+    """A problem of `problems` in stable neo-Hookean, and with other handles."""
+    given = problems.read(name)
+    old = ss.PosingProblem(given.mesh, given.handles, domain=given.domain)
+    return old, old.with_handles(change(old.mesh, old.handles))
+
+
+def with_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
+    """And the Dragon's tail."""
+    x, y, _ = mesh.vertices.T
+    return handles.adding("tail", np.flatnonzero((x < -3.9) & (y > 0)))
+
+
+def with_spots_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
+    """And Spot's tail."""
+    _, y, z = mesh.vertices.T
+    return handles.adding("tail", np.flatnonzero((z > 0.85) & (y > -0.4)))
+
+
+def with_creatures_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
+    """And the creature's tail."""
+    return handles.adding("tail", creature_handles(mesh)["tail"])
+
+
+def backwards(pair: Pair) -> Pair:
+    """The change undone."""
+    return pair[1], pair[0]
+
+
+#: Problems before and after, made anew by each call.
+CHANGES: dict[str, Callable[[], Pair]] = {
+    "Dragon, and the tail": lambda: changed("dragon", with_tail),
+    "creature, and the tail": lambda: changed("creature", with_creatures_tail),
+    "Armadillo, and the right hand": lambda: backwards(
+        changed("armadillo", lambda mesh, handles: handles.without("right_hand"))
+    ),
+    "Spot, and the tail": lambda: changed("spot", with_spots_tail),
+    "tripod, and the right arm": lambda: backwards(
+        changed("tripod", lambda mesh, handles: handles.without("right"))
+    ),
+    "Dragon, without the tail": lambda: backwards(changed("dragon", with_tail)),
+}

@@ -1,0 +1,171 @@
+"""OldModel: what a model for some handles is worth for others of the same mesh."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..displacements import DisplacementRows
+from ..greedy import after_steps, reduced_solutions
+from ..interruptible import begin_abandonable
+from ..problem import HandleBox, Handles, PosingProblem
+from ..reduction import PosingModel, handle_quadric
+from ..snapshots import SampleReport, Snapshots, carried, lowest_start
+
+FloatArray = NDArray[np.float64]
+
+#: Steps of L-BFGS from a guess, of 60 to 100 that a whole solve takes. They leave a hundredth to a
+#: sixth of its error: 0.0005 on the creature with a new tail, 0.018 on Spot, 0.015 on the hand.
+STEPS = 20
+#: Shapes near solutions for each parameter, at the least.
+SHAPES_A_PARAMETER = 8
+
+
+class OldModel:
+    """A model whose shapes, subspace and energy are of use for a problem with other handles.
+
+    Parameters
+    ----------
+    model : PosingModel
+    problem : PosingProblem
+    most : int
+        Shapes of the model that count: its first ones, since any number of Sobol samples is spread.
+    """
+
+    def __init__(self, model: PosingModel, problem: PosingProblem, *, most: int) -> None:
+        self._model, self._problem, self._most = model, problem, most
+        old = {handle.vertices.tobytes() for handle in model.problem.handles}
+        kept = [h for h, one in enumerate(problem.handles) if one.vertices.tobytes() in old]
+        #: Places of the problem's handles that the model has as well; the first one is fixed.
+        self._kept = np.array(kept, np.intp)
+        self._all_kept = len(kept) == len(old)
+
+    @property
+    def dimension(self) -> int:
+        """Of the model."""
+        return self._model.dimension
+
+    @cached_property
+    def shapes(self) -> Snapshots:
+        """The shapes that the model was trained with, as snapshots of the problem.
+
+        They are the projections of its samples: a saved model has no others.
+        """
+        model = self._model
+        rows = model.training_coordinates[: self._most] @ model.subspace.basis.T
+        parameters = model.training_parameters[: self._most]
+        return carried(_guessed(model.problem, parameters, rows), self._problem)
+
+    def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
+        """Shapes near the solutions for samples (k, p): guesses, and some steps of the solver."""
+        problem = self._problem
+        _ = problem.system  # before threads ask for it
+        finish_modes = begin_abandonable(problem.solving.soft_modes)
+        starts = self.guesses(parameters, threads=threads)
+        ends = after_steps(
+            problem, parameters, starts, steps=STEPS, modes=finish_modes(), threads=threads
+        )
+        lost = ~np.isfinite(ends).all(axis=1)
+        ends[lost] = starts[lost]
+        return _guessed(problem, parameters, ends)
+
+    def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
+        """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
+
+        The model solves for the handles that both problems have, and the difference of two linear
+        responses takes the others from where that leaves them to where they shall be. Or it solves
+        for all handles in its subspace, which follows new ones only as far as it can: this where
+        none is new, the other where none is gone, and else what has less energy. Where another
+        handle is fixed, or the material differs, the response to all handles must do.
+        """
+        problem, kept = self._problem, self._kept
+        if not self._fits:
+            return problem.guesses(parameters)
+        everything = len(kept) == len(problem.handles)
+        if self._all_kept and not everything:
+            return self._moved_on(parameters)
+        within = reduced_solutions(self._with_handles(problem, slice(None)), parameters)
+        if everything:
+            return within
+        beyond = self._moved_on(parameters) if len(kept) > 1 else problem.guesses(parameters)
+        inputs = problem.inputs(parameters)
+        return lowest_start(problem.system, inputs, [beyond, within], threads=threads or 0)
+
+    @property
+    def _fits(self) -> bool:
+        """Whether the model's frame and energy are the problem's."""
+        old, problem = self._model.problem, self._problem
+        first = next(iter(problem.handles)).vertices, next(iter(old.handles)).vertices
+        return np.array_equal(*first) and problem.material.key == old.material.key
+
+    def _moved_on(self, parameters: FloatArray) -> FloatArray:
+        """Solutions for the handles that are kept, and from there the others by their response."""
+        problem, every = self._problem, list(self._problem.handles)
+        handles = [every[place] for place in self._kept]
+        common = problem.with_handles(
+            Handles([h.vertices for h in handles], names=[h.name for h in handles]),
+            domain=HandleBox(translation=1.0, angle=1.0),  # nothing is sampled
+        )
+        columns = (6 * (self._kept[1:, None] - 1) + np.arange(6)).reshape(-1)
+        wanted = np.ascontiguousarray(parameters[:, columns])
+        solved = reduced_solutions(self._with_handles(common, columns), wanted)
+        there = carried(_guessed(common, wanted, solved), problem).parameters
+        return solved + problem.guesses(parameters) - problem.guesses(there)
+
+    def _with_handles(
+        self, problem: PosingProblem, columns: NDArray[np.intp] | slice
+    ) -> PosingModel:
+        """The model's subspace and elastic energy with other handles.
+
+        columns : of the problem's parameters, those of these handles
+        """
+        return replace(
+            self._model,
+            problem=problem,
+            handles=handle_quadric(problem, self._model.subspace),
+            training_coordinates=self._model.training_coordinates[: self._most],
+            training_parameters=np.ascontiguousarray(self.shapes.parameters[:, columns]),
+        )
+
+
+def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -> Snapshots:
+    """Displacements (k, 3n) that were not solved for these parameters."""
+    report = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
+    displacements = DisplacementRows(np.ascontiguousarray(rows), problem.base.size)
+    return Snapshots(problem, parameters, displacements, [report] * len(parameters))
+
+
+def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
+    """How many shapes near solutions a first model takes.
+
+    Eight for each parameter. Some bodies take more than others: half as many as the old model, or
+    less where handles have gone.
+    """
+    count, before = problem.parameter_count, model.problem.parameter_count
+    known = len(model.training_parameters) * min(count, before) // (2 * before)
+    return max(SHAPES_A_PARAMETER * count, known)
+
+
+def check_start(model: Any, problem: Any) -> None:
+    """ValueError unless a model is of handles of the problem's mesh, and has shapes."""
+    for what, one, kind in (("start", model, PosingModel), ("the problem", problem, PosingProblem)):
+        if not isinstance(one, kind):
+            raise ValueError(
+                f"accurate_model: {what} is of type {type(one).__name__}, but only handles of a "
+                f"posing model can change; give a {kind.__name__}, or leave out start"
+            )
+    if model.problem.mesh.fingerprint != problem.mesh.fingerprint:
+        raise ValueError(
+            f"accurate_model: start is a model of {model.problem.mesh!r}, but the problem is on "
+            f"another mesh, {problem.mesh!r}; make it with start.problem.with_handles, or leave "
+            "out start"
+        )
+    if len(model.training_parameters) < 2:
+        raise ValueError(
+            "accurate_model: start was made without snapshots, so it has no shapes to begin with; "
+            "give a model of reduce(..., snapshots=...), or leave out start"
+        )
