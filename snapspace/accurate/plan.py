@@ -53,7 +53,7 @@ class Plan:
     most_vertices: int
 
     def fitting(self, most: int) -> Plan:
-        """With at most so many samples: of fewer than the first stage has, both parts shrink alike."""
+        """With at most so many samples; both parts shrink alike where the first stage has more."""
         together = self.first + self.held_out
         if most >= together:
             return self
