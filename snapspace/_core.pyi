@@ -412,6 +412,16 @@ class FittingSystem:
         Displacements (3n,) that bring the surface to displacements (s, 3), and a report.
         """
 
+def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, threads: int) -> NDArray[numpy.float32]:
+    """
+    Displacement gradients of modes (d, 3n) in tets (r, 4), (r, 9, d) float32.
+    """
+
+def training_columns(rows: NDArray[numpy.float32], stresses: NDArray[numpy.float32], along: NDArray[numpy.float32], columns: NDArray[numpy.float32], *, threads: int) -> None:
+    """
+    Writes the products of all tets' forces with directions (s, d, k): the first s k entries of every row of columns.
+    """
+
 def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
     """
     Packed symmetric coefficients (C(d+4, 4),) of the reduced elastic energy; modes (d+1, 3n): offset, then basis.
@@ -523,7 +533,15 @@ class BlendingLoop(LiveLoop):
 
     def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
 
-class Cubature(ReducedFunction):
+class TetFunction(ReducedFunction):
+    """A weighted sum over few tets."""
+
+    def curvatures(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
+        """
+        Hessians (r, 9, 9) of the tets by their displacement gradients, float32.
+        """
+
+class Cubature(TetFunction):
     """Elastic energy as a weighted sum over few tets."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material) -> None: ...
@@ -533,7 +551,7 @@ class CubatureLoop(PosingLoop):
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
-class BlendedCubature(ReducedFunction):
+class BlendedCubature(TetFunction):
     """Blended energy of several poses as a weighted sum over few tets."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
@@ -554,11 +572,6 @@ class ResidualProbe:
         """
         Estimate of the residual's norm, for offsets (h, 3, 4) or weights (k,).
         """
-
-def displacement_rows(points: NDArray[numpy.float64], modes: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
-    """
-    Displacement gradients of nodal displacements in tets, (r, 9, d) float32.
-    """
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
     """Floating-point operations per second of one thread of this build."""

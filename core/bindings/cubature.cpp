@@ -26,7 +26,7 @@ live::PoseArrays pose_arrays(const TensorIn& corners, std::size_t tets) {
 }
 
 void bind_blended(nb::module_& m) {
-  nb::class_<BlendedCubature, ReducedFunction>(
+  nb::class_<BlendedCubature, TetFunction>(
       m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
       .def(
           "__init__",
@@ -35,7 +35,7 @@ void bind_blended(nb::module_& m) {
             live::BlendedPointer made = live::blended_cubature(
                 cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size()));
             live::BlendedFunction* blend = made.get();
-            new (self) BlendedCubature{{std::move(made)}, blend};
+            new (self) BlendedCubature{{{std::move(made)}, blend}, blend};
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"))
       .def(
@@ -65,12 +65,26 @@ void bind_blended(nb::module_& m) {
 }  // namespace
 
 void bind_cubature(nb::module_& m) {
-  nb::class_<Cubature, ReducedFunction>(m, "Cubature",
-                                        "Elastic energy as a weighted sum over few tets.")
+  nb::class_<TetFunction, ReducedFunction>(m, "TetFunction", "A weighted sum over few tets.")
+      .def(
+          "curvatures",
+          [](TetFunction& self, VectorIn q) {
+            const double* at = checked_coordinates(self.function->dimension(), q);
+            auto hessians = new_array<float>({static_cast<std::size_t>(self.sum->tets()), 9, 9});
+            const nb::gil_scoped_release release;
+            self.sum->curvatures(at, hessians.data());
+            return hessians;
+          },
+          nb::arg("q"), "Hessians (r, 9, 9) of the tets by their displacement gradients, float32.");
+
+  nb::class_<Cubature, TetFunction>(m, "Cubature",
+                                    "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
           [](Cubature* self, RowsIn rows, VectorIn weights, const MaterialField& material) {
-            new (self) Cubature{{live::cubature(cubature_arrays(rows, weights, material))}};
+            live::TetPointer made = live::cubature(cubature_arrays(rows, weights, material));
+            live::TetFunction* sum = made.get();
+            new (self) Cubature{{{std::move(made)}, sum}};
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"));
 

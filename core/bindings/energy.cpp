@@ -38,7 +38,10 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
   require(count <= static_cast<std::size_t>(samples_together(packing)) && shapes.shape(1) == n,
           "needs (k, 3n), and k no more than lanes");
   DoublesOut values = new_array<double>({count}), gradients = new_array<double>({count, n});
-  energies_in_lanes(self, packing, count, shapes.data(), values.data(), gradients.data());
+  {
+    const nb::gil_scoped_release release;
+    energies_in_lanes(self, packing, count, shapes.data(), values.data(), gradients.data());
+  }
   return {values, gradients};
 }
 
@@ -91,7 +94,11 @@ void bind_energy(nb::module_& m) {
           "value_and_gradient",
           [](const ElasticEnergy& self, VectorIn u) {
             DoublesOut gradient = new_array<double>({size(self)});
-            const double value = self.value_and_gradient(checked(self, u), gradient.data());
+            const double* displacement = checked(self, u);
+            const double value = [&] {
+              const nb::gil_scoped_release release;
+              return self.value_and_gradient(displacement, gradient.data());
+            }();
             return std::make_pair(value, gradient);
           },
           nb::arg("u"), "Energy and its gradient (3n,).")

@@ -41,8 +41,11 @@ struct ReducedFunction {
   live::FunctionPointer function;
 };
 struct Quartic : ReducedFunction {};
-struct Cubature : ReducedFunction {};
-struct BlendedCubature : ReducedFunction {
+struct TetFunction : ReducedFunction {
+  live::TetFunction* sum;  // the same function
+};
+struct Cubature : TetFunction {};
+struct BlendedCubature : TetFunction {
   live::BlendedFunction* blend;  // the same function
 };
 

@@ -1,9 +1,57 @@
 #include "bindings/arrays.h"
+#include "reduction/mode_gradients.h"
 #include "reduction/quartic_coefficients.h"
+#include "reduction/training_columns.h"
 
 namespace snapspace {
 
+namespace {
+
+using FloatsIn = nb::ndarray<const float, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+using FloatsOut = nb::ndarray<float, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+
+void bind_training(nb::module_& m) {
+  m.def(
+      "mode_gradients",
+      [](MatrixIn vertices, MatrixIn modes, IndexMatrixIn tets, int threads) {
+        require(vertices.shape(1) == 3 && modes.shape(1) == vertices.size(),
+                "vertices (n, 3) and modes (d, 3n) do not match");
+        require(tets.shape(1) == 4, "tets must be (r, 4)");
+        require_below(tets, vertices.shape(0), "a tet has a vertex index out of range");
+        auto rows = new_array<float>({tets.shape(0), 9, modes.shape(0)});
+        const nb::gil_scoped_release release;
+        mode_gradients(vertices.data(), static_cast<int>(modes.shape(0)), modes.shape(1),
+                       modes.data(), static_cast<int>(tets.shape(0)), tets.data(), rows.data(),
+                       threads);
+        return rows;
+      },
+      nb::arg("vertices"), nb::arg("modes"), nb::arg("tets"), nb::kw_only(), nb::arg("threads"),
+      "Displacement gradients of modes (d, 3n) in tets (r, 4), (r, 9, d) float32.");
+  m.def(
+      "training_columns",
+      [](FloatsIn rows, FloatsIn stresses, FloatsIn along, FloatsOut columns, int threads) {
+        const std::size_t candidates = rows.shape(0), states = stresses.shape(0);
+        require(rows.shape(1) == 9 && stresses.shape(1) == candidates && stresses.shape(2) == 9 &&
+                    along.shape(0) == states && along.shape(1) == rows.shape(2),
+                "rows (c, 9, d), stresses (s, c, 9) and along (s, d, k) do not match");
+        require(columns.shape(0) == candidates && columns.shape(1) >= states * along.shape(2),
+                "columns must be (c, s k) or broader");
+        const TrainingStates asked{static_cast<int>(states), static_cast<int>(along.shape(2)),
+                                   stresses.data(), along.data()};
+        const nb::gil_scoped_release release;
+        training_columns(static_cast<int>(rows.shape(2)), static_cast<int>(candidates), rows.data(),
+                         asked, threads, columns.shape(1), columns.data());
+      },
+      nb::arg("rows"), nb::arg("stresses"), nb::arg("along"), nb::arg("columns"), nb::kw_only(),
+      nb::arg("threads"),
+      "Writes the products of all tets' forces with directions (s, d, k): the first s k entries of "
+      "every row of columns.");
+}
+
+}  // namespace
+
 void bind_reduction(nb::module_& m) {
+  bind_training(m);
   m.def(
       "quartic_coefficients",
       [](const ElasticEnergy& energy, MatrixIn modes, int threads) {

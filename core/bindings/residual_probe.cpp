@@ -2,7 +2,6 @@
 
 #include "bindings/arrays.h"
 #include "energy/material_field.h"
-#include "online/displacement_rows.h"
 
 namespace snapspace {
 
@@ -12,7 +11,6 @@ using online::ProbeBody;
 using online::ProbePins;
 using online::ProbeSample;
 using online::ResidualProbe;
-using NodalModesIn = nb::ndarray<const double, nb::ndim<4>, nb::c_contig, nb::device::cpu>;
 
 void require_all_below(const IndexVectorIn& indices, std::size_t end, const char* message) {
   for (std::size_t i = 0; i < indices.size(); ++i)
@@ -92,20 +90,6 @@ void bind_residual_probe(nb::module_& m) {
       .def("norm", &norm, nb::arg("q"), nb::kw_only(), nb::arg("offsets").none() = nb::none(),
            nb::arg("weights").none() = nb::none(),
            "Estimate of the residual's norm, for offsets (h, 3, 4) or weights (k,).");
-  m.def(
-      "displacement_rows",
-      [](TensorIn points, NodalModesIn modes) {
-        const std::size_t tets = points.shape(0), dimension = modes.shape(3);
-        require(points.shape(1) == 4 && points.shape(2) == 3 && modes.shape(0) == tets &&
-                    modes.shape(1) == 4 && modes.shape(2) == 3,
-                "points (r, 4, 3) and modes (r, 4, 3, d) do not match");
-        auto rows = new_array<float>({tets, 9, dimension});
-        online::displacement_rows(static_cast<int>(tets), static_cast<int>(dimension),
-                                  points.data(), modes.data(), rows.data());
-        return rows;
-      },
-      nb::arg("points"), nb::arg("modes"),
-      "Displacement gradients of nodal displacements in tets, (r, 9, d) float32.");
 }
 
 }  // namespace snapspace

@@ -20,7 +20,7 @@ using online::Cubature;
 using online::PosingSolver;
 using online::Quartic;
 
-template <class Function, class Interface = ReducedFunction>
+template <class Function, class Interface>
 class FunctionOf : public Interface {
  public:
   explicit FunctionOf(Function function) : function_(std::move(function)) {}
@@ -37,9 +37,19 @@ class FunctionOf : public Interface {
   Function function_;
 };
 
-class BlendedOf final : public FunctionOf<BlendedCubature, BlendedFunction> {
+template <class Function, class Interface>
+class TetsOf : public FunctionOf<Function, Interface> {
  public:
-  using FunctionOf::FunctionOf;
+  using FunctionOf<Function, Interface>::FunctionOf;
+  [[nodiscard]] int tets() const override { return this->function_.tets(); }
+  void curvatures(const double* q, float* hessians) override {
+    this->function_.curvatures(q, hessians);
+  }
+};
+
+class BlendedOf final : public TetsOf<BlendedCubature, BlendedFunction> {
+ public:
+  using TetsOf::TetsOf;
   [[nodiscard]] int poses() const override { return function_.poses(); }
   void set_weights(const double* weights) override { function_.set_weights(weights); }
 };
@@ -114,11 +124,12 @@ std::size_t coefficient_count(int dimension) {
 }
 
 FunctionPointer quartic(int dimension, const double* coefficients, bool single) {
-  return std::make_unique<FunctionOf<Quartic>>(Quartic(dimension, coefficients, storage(single)));
+  return std::make_unique<FunctionOf<Quartic, ReducedFunction>>(
+      Quartic(dimension, coefficients, storage(single)));
 }
 
-FunctionPointer cubature(const CubatureArrays& arrays) {
-  return std::make_unique<FunctionOf<Cubature>>(made(arrays));
+TetPointer cubature(const CubatureArrays& arrays) {
+  return std::make_unique<TetsOf<Cubature, TetFunction>>(made(arrays));
 }
 
 BlendedPointer blended_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {

@@ -21,6 +21,14 @@ class ReducedFunction {
   virtual double derivatives(const double* q, double* gradient, double* hessian) = 0;
 };
 
+/// A sum over few tets.
+class TetFunction : public ReducedFunction {
+ public:
+  [[nodiscard]] virtual int tets() const = 0;
+  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9.
+  virtual void curvatures(const double* q, float* hessians) = 0;
+};
+
 /// A live solver.
 class LiveSolver : public ReducedFunction {
  public:
@@ -52,7 +60,7 @@ struct PoseArrays {
 };
 
 /// A blended energy, whose weights can be set.
-class BlendedFunction : public ReducedFunction {
+class BlendedFunction : public TetFunction {
  public:
   [[nodiscard]] virtual int poses() const = 0;
   virtual void set_weights(const double* weights) = 0;
@@ -65,6 +73,7 @@ struct HandleArrays {
 };
 
 using FunctionPointer = std::unique_ptr<ReducedFunction>;
+using TetPointer = std::unique_ptr<TetFunction>;
 using BlendedPointer = std::unique_ptr<BlendedFunction>;
 using SolverPointer = std::unique_ptr<LiveSolver>;
 
@@ -73,7 +82,7 @@ using SolverPointer = std::unique_ptr<LiveSolver>;
 
 /// @param single  whether coefficients are stored in single precision
 [[nodiscard]] FunctionPointer quartic(int dimension, const double* coefficients, bool single);
-[[nodiscard]] FunctionPointer cubature(const CubatureArrays& arrays);
+[[nodiscard]] TetPointer cubature(const CubatureArrays& arrays);
 [[nodiscard]] BlendedPointer blended_cubature(const CubatureArrays& arrays,
                                               const PoseArrays& poses);
 [[nodiscard]] SolverPointer posing_solver(int dimension, const double* coefficients, bool single,

@@ -145,24 +145,39 @@ void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
   }
 }
 
+/// Hessians (9 x 9) of a block's tets for the weights of the poses; zero for lanes without a tet.
+void BlendedCubature::block_curvatures(int block, Tets hessian[9][9]) const {
+  Tets G[3][3];
+  gradients(block, G);
+  for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
+  for (int lane = 0; lane < rows_.lanes(block); ++lane) {
+    double own[3][3], sum[9][9] = {};
+    for (int e = 0; e < 9; ++e) own[e / 3][e % 3] = G[e / 3][e % 3][lane];
+    for (int k = 0; k < poses_; ++k)
+      if (weights_[k] != 0.0) add_curvature(block * kWidth + lane, k, own, sum);
+    for (int e = 0; e < 81; ++e) hessian[e / 9][e % 9].set(lane, sum[e / 9][e % 9]);
+  }
+}
+
 double BlendedCubature::derivatives(const double* q, double* gradient, double* hessian) {
   const double value = value_and_gradient(q, gradient);
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
   for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets G[3][3], curvature[9][9];
-    gradients(b, G);
-    for (auto& row : curvature) std::fill_n(row, 9, Tets(0.0));
-    for (int lane = 0; lane < rows_.lanes(b); ++lane) {
-      double own[3][3], sum[9][9] = {};
-      for (int e = 0; e < 9; ++e) own[e / 3][e % 3] = G[e / 3][e % 3][lane];
-      for (int k = 0; k < poses_; ++k)
-        if (weights_[k] != 0.0) add_curvature(b * kWidth + lane, k, own, sum);
-      for (int e = 0; e < 81; ++e) curvature[e / 9][e % 9].set(lane, sum[e / 9][e % 9]);
-    }
+    Tets curvature[9][9];
+    block_curvatures(b, curvature);
     rows_.add_curvatures(b, curvature, hessian);
   }
   return value;
+}
+
+void BlendedCubature::curvatures(const double* q, float* hessians) {
+  rows_.begin(q);
+  for (int b = 0; b < rows_.blocks(); ++b) {
+    Tets curvature[9][9];
+    block_curvatures(b, curvature);
+    hessians = store_tets(curvature, rows_.lanes(b), hessians);
+  }
 }
 
 }  // namespace snapspace::online

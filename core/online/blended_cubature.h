@@ -45,6 +45,10 @@ class BlendedCubature {
   /// Also the lower triangle of the Hessian (d x d), which is overwritten.
   double derivatives(const double* q, double* gradient, double* hessian);
 
+  [[nodiscard]] int tets() const { return rows_.tets(); }
+  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9, with weights.
+  void curvatures(const double* q, float* hessians);
+
  private:
   using Tets = TetRows::Tets;
 
@@ -52,6 +56,7 @@ class BlendedCubature {
   /// Displacement gradients against pose 0.
   void gradients(int block, Tets G[3][3]) const;
   [[nodiscard]] Tets block_value_and_stress(int block, const Tets G[3][3], Tets P[3][3]) const;
+  void block_curvatures(int block, Tets hessian[9][9]) const;
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
 
   TetRows rows_;

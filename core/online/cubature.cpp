@@ -32,8 +32,12 @@ double Cubature::value_and_gradient(const double* q, double* gradient) {
   return value;
 }
 
-/// Hessians (9 x 9) of a block's tets by their displacement gradients, times weight.
-void Cubature::curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const {
+/// Hessians (9 x 9) of a block's tets by their displacement gradients, times weight; zero for lanes
+/// without a tet.
+void Cubature::block_curvatures(int block, Tets hessian[9][9]) const {
+  Tets G[3][3];
+  rows_.gradients(block, G);
+  for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
     double moduli[kMostModuli], gradient[3][3], unit[3][3], column[3][3];
     for (int k = 0; k < moduli_count_; ++k) moduli[k] = moduli_[block * moduli_count_ + k][lane];
@@ -52,14 +56,20 @@ double Cubature::derivatives(const double* q, double* gradient, double* hessian)
   const auto d = static_cast<std::size_t>(dimension());
   std::fill_n(hessian, d * d, 0.0);
   for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets G[3][3], curvature[9][9];
-    rows_.gradients(b, G);
-    for (auto& row : curvature)
-      for (Tets& entry : row) entry = Tets(0.0);
-    curvatures(b, G, curvature);
+    Tets curvature[9][9];
+    block_curvatures(b, curvature);
     rows_.add_curvatures(b, curvature, hessian);
   }
   return value;
+}
+
+void Cubature::curvatures(const double* q, float* hessians) {
+  rows_.begin(q);
+  for (int b = 0; b < rows_.blocks(); ++b) {
+    Tets curvature[9][9];
+    block_curvatures(b, curvature);
+    hessians = store_tets(curvature, rows_.lanes(b), hessians);
+  }
 }
 
 }  // namespace snapspace::online

@@ -37,10 +37,14 @@ class Cubature {
   /// more.
   double derivatives(const double* q, double* gradient, double* hessian);
 
+  [[nodiscard]] int tets() const { return rows_.tets(); }
+  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9, with weights.
+  void curvatures(const double* q, float* hessians);
+
  private:
   using Tets = TetRows::Tets;
 
-  void curvatures(int block, const Tets G[3][3], Tets hessian[9][9]) const;
+  void block_curvatures(int block, Tets hessian[9][9]) const;
 
   TetRows rows_;
   int kind_, moduli_count_;

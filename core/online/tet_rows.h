@@ -61,6 +61,14 @@ class TetRows {
   std::vector<Tets> sums_;           // of forces, lane by lane
 };
 
+/// Writes the matrices (9 x 9) of the first lanes one after the other; returns where they end.
+inline float* store_tets(const TetRows::Tets matrices[9][9], int lanes, float* to) {
+  for (int lane = 0; lane < lanes; ++lane)
+    for (int f = 0; f < 9; ++f)
+      for (int e = 0; e < 9; ++e) *to++ = static_cast<float>(matrices[f][e][lane]);
+  return to;
+}
+
 inline double lane_sum(const TetRows::Tets& pack) {
   double sum = 0.0;
   for (int lane = 0; lane < TetRows::kWidth; ++lane) sum += pack[lane];

@@ -2,10 +2,10 @@
 
 from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature
+from .fit_tets import FEWEST_SNAPSHOTS
 from .held_out_errors import CubatureErrors
 from .train import (
     FEWEST_BLENDS,
-    FEWEST_SNAPSHOTS,
     default_blended_tets,
     default_tets,
     train_blended_cubature,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar
 
@@ -10,28 +11,28 @@ from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
-from .blending_compliances import blending_compliances
+from .blended_cubature import BlendedCubature
+from .cubature import Cubature
 
 FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int32]
 States = TypeVar("States", bound="ElasticStates")
 
 
 @dataclass(frozen=True)
-class TetForces:
-    """All tets at one state.
+class GroupForces:
+    """A few states: all tets together, and some of them alone.
 
-    stresses : (m, 9), first Piola-Kirchhoff stress times volume
-    energies : (m,)
-    energy : their sum
-    gradient : (3n,), of the sum
-    unit : energy that errors of the energy are relative to
+    energies : (g,)
+    gradients : (g, 3n), of these
+    stresses : (g, c, 9), first Piola-Kirchhoff stress times volume of some tets
+    tet_energies : (g, c), of these tets
     """
 
-    stresses: FloatArray
     energies: FloatArray
-    energy: float
-    gradient: FloatArray
-    unit: float
+    gradients: FloatArray
+    stresses: FloatArray
+    tet_energies: FloatArray
 
 
 class ElasticStates(Protocol):
@@ -54,14 +55,9 @@ class ElasticStates(Protocol):
 
     def __len__(self) -> int: ...
 
-    def compliances(
-        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
-    ) -> FloatArray:
-        """Inverse Hessians (s, d, d), which make displacements of forces.
-
-        stiffness (d, d) is the Hessian at tau, ordered are tets, see `tets_by_force`; threads
-        default to all.
-        """
+    @property
+    def floor(self) -> float:
+        """Errors of smaller energies are relative to this one."""
         ...
 
     def chosen(self: States, which: NDArray[np.intp]) -> States:
@@ -72,18 +68,37 @@ class ElasticStates(Protocol):
         """States that tell how large forces are, these among them."""
         ...
 
-    def forces(self, state: int, displacement: FloatArray) -> TetForces:
-        """Of all tets at a state; `displacement` is basis @ coordinates of it, (3n,)."""
+    def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
+        """First Piola-Kirchhoff stress times volume of all tets, (m, 9), at a state.
+
+        `displacement` is basis @ coordinates of it, (3n,).
+        """
+        ...
+
+    def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
+        """Of all tets and of some, at the states from `first` on, with displacements (g, 3n)."""
+        ...
+
+    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
+        """The Hessian (d, d) of the objective at a state, or at tau, where some tets stand for all.
+
+        Not for several threads at a time.
+        """
         ...
 
 
 @dataclass(frozen=True)
 class PosingStates:
-    """States of a posed body: its elastic energy does not depend on the handles."""
+    """States of a posed body: its elastic energy does not depend on the handles.
+
+    handle_hessian : (d, d), of the handles' energy
+    """
 
     problem: PosingProblem
     subspace: AffineSubspace
     coordinates: FloatArray
+    handle_hessian: FloatArray
+    floor: float = 0.0
 
     def __len__(self) -> int:
         return len(self.coordinates)
@@ -92,22 +107,38 @@ class PosingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which])
 
-    def compliances(
-        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
-    ) -> FloatArray:
-        """That of the rest shape for all: handles hold what is soft."""
-        compliance = np.linalg.inv(stiffness)
-        return np.broadcast_to(compliance, (len(self), *compliance.shape))
+    @property
+    def rest(self) -> PosingStates:
+        """The rest shape as the only state."""
+        return replace(self, coordinates=np.zeros((1, self.subspace.dimension)))
 
     def with_forces(self) -> PosingStates:
         """Themselves: elastic forces hold those of the handles."""
         return self
 
-    def forces(self, state: int, displacement: FloatArray) -> TetForces:
+    def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
         """See `ElasticStates`."""
-        stresses, energies = self.problem.energy.core.tet_stresses(displacement)
-        energy, gradient = self.problem.energy.core.value_and_gradient(displacement)
-        return TetForces(stresses, energies, energy, gradient, energy)
+        stresses: FloatArray = self.problem.energy.core.tet_stresses(displacement)[0]
+        return stresses
+
+    def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
+        """See `ElasticStates`."""
+        core = self.problem.energy.core
+        energies, gradients = core.lane_values_and_gradients(displacements)
+        single = [core.tet_stresses(u) for u in displacements] if len(tets) else []
+        stresses = np.array([P[tets] for P, _ in single]).reshape(len(single), len(tets), 9)
+        tet_energies = np.array([psi[tets] for _, psi in single]).reshape(len(single), len(tets))
+        return GroupForces(energies, gradients, stresses, tet_energies)
+
+    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
+        """See `ElasticStates`."""
+        estimate = Cubature.of_tets(self.problem, self.subspace, tets, volumes)
+
+        def hessian(state: int | None) -> FloatArray:
+            q = np.zeros(estimate.dimension) if state is None else self.coordinates[state]
+            return estimate.rough_hessian(q) + self.handle_hessian
+
+        return hessian
 
 
 @dataclass(frozen=True)
@@ -131,20 +162,6 @@ class BlendingStates:
         """See `ElasticStates`."""
         return replace(self, coordinates=self.coordinates[which], weights=self.weights[which])
 
-    def compliances(
-        self, stiffness: FloatArray, ordered: NDArray[np.int32], threads: int | None
-    ) -> FloatArray:
-        """See `blending_compliances`."""
-        return blending_compliances(
-            self.problem,
-            self.subspace,
-            self.coordinates,
-            self.weights,
-            stiffness,
-            ordered,
-            threads=threads,
-        )
-
     def with_forces(self) -> BlendingStates:
         """Each state, and the same shape with weights halfway to those of the state before.
 
@@ -159,10 +176,34 @@ class BlendingStates:
             weights=both.reshape(-1, both.shape[2]),
         )
 
-    def forces(self, state: int, displacement: FloatArray) -> TetForces:
+    def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
         """See `ElasticStates`."""
+        return self._of_tets(state, displacement)[0]
+
+    def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
+        """See `ElasticStates`."""
+        every = [self._of_tets(first + k, u) for k, u in enumerate(displacements)]
+        energies = np.array([energies.sum() for _, energies, _ in every])
+        gradients = np.array([gradient for _, _, gradient in every])
+        stresses = np.array([stresses[tets] for stresses, _, _ in every])
+        return GroupForces(energies, gradients, stresses, np.array([e[tets] for _, e, _ in every]))
+
+    def _of_tets(
+        self, state: int, displacement: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Stresses (m, 9) and energies (m,) of all tets, and the gradient (3n,)."""
         u = self.subspace.tau - self.problem.base + displacement
-        weights = self.weights[state]
-        stresses, energies, gradient = self.problem.system.tet_stresses(u, weights)
-        energy = float(energies.sum())
-        return TetForces(stresses, energies, energy, gradient, max(energy, self.floor))
+        return self.problem.system.tet_stresses(u, self.weights[state])
+
+    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
+        """See `ElasticStates`."""
+        estimate = BlendedCubature.of_tets(self.problem, self.subspace, tets, volumes)
+
+        def hessian(state: int | None) -> FloatArray:
+            if state is None:
+                return estimate.rough_hessian(
+                    np.zeros(estimate.dimension), self.problem.domain.center
+                )
+            return estimate.rough_hessian(self.coordinates[state], self.weights[state])
+
+        return hessian

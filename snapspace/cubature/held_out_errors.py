@@ -8,8 +8,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..blas import single_threaded_blas
-from .elastic_states import ElasticStates
+from .state_forces import StateForces
 
 FloatArray = NDArray[np.float64]
 
@@ -38,28 +37,25 @@ class CubatureErrors:
         return asdict(self)
 
 
-@single_threaded_blas
 def held_out_errors(
-    states: ElasticStates,
+    coordinates: FloatArray,
+    exact: StateForces,
     cubature: Callable[[int], tuple[float, FloatArray]],
     compliances: FloatArray,
 ) -> CubatureErrors:
-    """Errors at one state or more, where `cubature` gives value and gradient (d,) of a state.
+    """Errors at one state or more, (s, d), where `cubature` gives value and gradient (d,) of each.
 
-    `compliances` (s, d, d) are those of the states.
+    `exact` and `compliances` (s, d, d) are those of the states.
     """
-    basis = states.subspace.basis
-    sizes = np.linalg.norm(states.coordinates, axis=1)
+    sizes = np.linalg.norm(coordinates, axis=1)
     sizes = np.maximum(sizes, 1e-3 * sizes.max())  # a blend may be the mean shape itself
-    errors = np.empty((len(states), 3))
-    for k, (target, q, size) in enumerate(zip(errors, states.coordinates, sizes, strict=True)):
-        exact = states.forces(k, basis @ q)
-        force = basis.T @ exact.gradient
+    errors = np.empty((len(coordinates), 3))
+    for k, (target, force, size) in enumerate(zip(errors, exact.forces, sizes, strict=True)):
         value, gradient = cubature(k)
-        target[0] = abs(value - exact.energy) / exact.unit
+        target[0] = abs(value - exact.energies[k]) / exact.units[k]
         target[1] = np.linalg.norm(gradient - force) / np.linalg.norm(force)
         target[2] = np.linalg.norm(compliances[k] @ (gradient - force)) / max(size, 1e-300)
     median, worst = np.median(errors, axis=0).tolist(), errors.max(axis=0).tolist()
     return CubatureErrors(
-        len(states), median[0], worst[0], median[1], worst[1], median[2], worst[2]
+        len(coordinates), median[0], worst[0], median[1], worst[1], median[2], worst[2]
     )

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import cho_factor, cho_solve, solve
+from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.lapack import dposv
 
 from ..blas import single_threaded_blas
 
@@ -15,13 +20,19 @@ IndexArray = NDArray[np.intp]
 BATCH = 0.1
 #: Share that may be missing at the end: the last columns would take as many rounds as all others.
 MISSING = 0.02
+#: Columns whose products are taken together.
+PART = 512
 #: Added to the diagonal of the scaled normal equations: columns that are nearly the same share.
 RIDGE = 1e-9
 
 
 @single_threaded_blas
 def nonnegative_fit(
-    columns: NDArray[np.float32], target: FloatArray, count: int
+    columns: NDArray[np.float32],
+    target: FloatArray,
+    count: int,
+    *,
+    threads: int | None = None,
 ) -> tuple[IndexArray, FloatArray]:
     """Least squares with at most `count` positive weights.
 
@@ -34,53 +45,113 @@ def nonnegative_fit(
 
     Parameters
     ----------
-    columns : (k, c) float32
+    columns : (c, k) float32, each contiguous
     target : (k,)
     count : int, >= 1
+    threads : default all; the result is bitwise the same for any number
 
     Returns
     -------
     chosen : (r,) ascending indices, r <= count
     weights : (r,) > 0
     """
+    fit = _Columns(columns, target, count)
     chosen: IndexArray = np.zeros(0, np.intp)
     weights: FloatArray = np.zeros(0)
-    own: FloatArray = np.zeros((len(target), 0))
-    gram: FloatArray = np.zeros((0, 0))
     residual = target
     batch = max(1, round(BATCH * count))
     best = np.inf
     while count - len(chosen) > MISSING * count:
-        products = residual.astype(np.float32) @ columns
+        products = fit.products(residual, threads)
         products[chosen] = 0.0
         fresh = _largest(products, min(batch, count - len(chosen)))
         chosen = np.concatenate([chosen, fresh])
-        new = columns[:, fresh].astype(np.float64)
-        mixed = own.T @ new
-        gram = np.block([[gram, mixed], [mixed.T, new.T @ new]])
-        own = np.hstack([own, new])
+        fit.add(fresh)
         start = np.concatenate([weights, np.zeros(len(fresh))])
-        weights = nonnegative_weights(gram, own.T @ target, start)
+        weights = nonnegative_weights(fit.gram, fit.moments, start, settled=False)
         kept = weights > 0
         chosen, weights = chosen[kept], weights[kept]
-        own, gram = own[:, kept], gram[np.ix_(kept, kept)]
-        residual = target - own @ weights
+        fit.keep(kept)
+        residual = target - fit.sums(weights)
         error = float(np.linalg.norm(residual))
         if len(fresh) == 0 or not error < best * (1 - 1e-6):
             break
         best = error
+    if len(chosen):
+        weights = nonnegative_weights(fit.gram, fit.moments, weights)
+        chosen, weights = chosen[weights > 0], weights[weights > 0]
     order = np.argsort(chosen)
     return chosen[order], weights[order]
 
 
-def nonnegative_weights(gram: FloatArray, moments: FloatArray, start: FloatArray) -> FloatArray:
+class _Columns:
+    """The chosen columns in double precision, with their products; memory for all that may come."""
+
+    def __init__(self, columns: NDArray[np.float32], target: FloatArray, count: int) -> None:
+        most = min(2 * count, len(columns)) + 1
+        self._columns, self._target = columns, target
+        self._own = np.empty((most, len(target)))
+        self._gram = np.empty((most, most))
+        self._moments = np.empty(most)
+        self._count = 0
+
+    @property
+    def gram(self) -> FloatArray:
+        """Products of the chosen ones with each other."""
+        return self._gram[: self._count, : self._count]
+
+    @property
+    def moments(self) -> FloatArray:
+        """Their products with the target."""
+        return self._moments[: self._count]
+
+    def products(self, residual: FloatArray, threads: int | None) -> NDArray[np.float32]:
+        """Of all columns with a residual, (c,); each is the same in any part."""
+        workers = threads or os.cpu_count() or 1
+        vector = residual.astype(np.float32)
+        edges = np.arange(0, len(self._columns) + PART, PART)
+        parts = [slice(a, b) for a, b in pairwise(edges)]
+        with ThreadPoolExecutor(max_workers=workers) as pool:
+            found = list(pool.map(lambda part: self._columns[part] @ vector, parts))
+        return np.concatenate(found)
+
+    def add(self, fresh: IndexArray) -> None:
+        """Takes more columns."""
+        old, new = slice(0, self._count), slice(self._count, self._count + len(fresh))
+        self._count += len(fresh)
+        self._own[new] = self._columns[fresh]
+        self._gram[new, old] = self._own[new] @ self._own[old].T
+        self._gram[old, new] = self._gram[new, old].T
+        self._gram[new, new] = self._own[new] @ self._own[new].T
+        self._moments[new] = self._own[new] @ self._target
+
+    def keep(self, kept: NDArray[np.bool_]) -> None:
+        """Lets the others go."""
+        if kept.all():
+            return
+        places = np.flatnonzero(kept)
+        self._own[: len(places)] = self._own[places]
+        self._gram[: len(places), : len(places)] = self._gram[np.ix_(places, places)]
+        self._moments[: len(places)] = self._moments[places]
+        self._count = len(places)
+
+    def sums(self, weights: FloatArray) -> FloatArray:
+        """The weighted sum of the chosen ones, (k,)."""
+        return weights @ self._own[: self._count]
+
+
+def nonnegative_weights(
+    gram: FloatArray, moments: FloatArray, start: FloatArray, *, settled: bool = True
+) -> FloatArray:
     """Minimum of x.Gx / 2 - m.x over x >= 0 among the columns, from a start >= 0.
 
     The inner loop of Lawson & Hanson 1974, ch. 23: columns that would become negative leave at the
-    boundary, and do not come back. New columns start at zero.
+    boundary, and do not come back. New columns start at zero. `settled` ones are free of the
+    rounding of those that have left.
 
     The matrix is factored once. With the columns R gone the minimum is that of all less
-    A_R (A_RR)^-1 x_R, where A is the inverse: a column that leaves takes one solve.
+    A_R (A_RR)^-1 x_R, where A is the inverse: a column that leaves takes one solve. Those that
+    would become negative are likely to leave next: they are solved for together.
     """
     scale = 1.0 / np.sqrt(np.diag(gram))
     matrix = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
@@ -89,11 +160,13 @@ def nonnegative_weights(gram: FloatArray, moments: FloatArray, start: FloatArray
     unbound = cho_solve(factor, moments, check_finite=False)
     solution, inside = unbound, np.ones(len(gram), bool)
     gone: IndexArray = np.zeros(0, np.intp)
-    inverse: FloatArray = np.zeros((len(gram), 0))
+    inverse = np.empty((len(gram), len(gram)), order="F")  # columns that were solved for
+    known = np.zeros(len(gram), bool)
     while inside.any():
         negative = inside & (solution <= 0)
         if not negative.any():
-            return _settled(matrix, moments, solution, inside) * scale
+            inner = np.where(inside, solution, 0.0)
+            return (_settled(matrix, moments, inner) if settled else inner) * scale
         at_zero = negative & (x <= 0)
         if not at_zero.any():
             step = np.min(x[negative] / (x[negative] - solution[negative]))
@@ -102,23 +175,25 @@ def nonnegative_weights(gram: FloatArray, moments: FloatArray, start: FloatArray
             x[at_zero] = 0.0
         leaving = np.flatnonzero(at_zero)
         inside[leaving] = False
-        units = np.zeros((len(gram), len(leaving)))
-        units[leaving, np.arange(len(leaving))] = 1.0
-        inverse = np.hstack([inverse, cho_solve(factor, units, check_finite=False)])
+        if not known[leaving].all():
+            wanted = np.flatnonzero(negative & ~known)
+            units = np.zeros((len(gram), len(wanted)), order="F")
+            units[wanted, np.arange(len(wanted))] = 1.0
+            inverse[:, wanted] = cho_solve(factor, units, overwrite_b=True, check_finite=False)
+            known[wanted] = True
         gone = np.concatenate([gone, leaving])
-        solution = unbound - inverse @ solve(inverse[gone], unbound[gone], assume_a="pos")
+        shares = dposv(inverse[np.ix_(gone, gone)], unbound[gone])[1]
+        solution = unbound - inverse[:, gone] @ shares
     return np.zeros(len(gram))
 
 
-def _settled(
-    matrix: FloatArray, moments: FloatArray, solution: FloatArray, inside: NDArray[np.bool_]
-) -> FloatArray:
-    """The minimum among the columns inside, free of the rounding of those that have left."""
-    free = np.flatnonzero(inside)
+def _settled(matrix: FloatArray, moments: FloatArray, solution: FloatArray) -> FloatArray:
+    """The minimum among the columns of a solution, free of the rounding of those that have left."""
+    free = np.flatnonzero(solution)
     factor = cho_factor(matrix[np.ix_(free, free)], overwrite_a=True, check_finite=False)
     settled = np.zeros(len(matrix))
     settled[free] = cho_solve(factor, moments[free], check_finite=False)
-    return settled if (settled[free] > 0).all() else np.where(inside, solution, 0.0)
+    return settled if (settled[free] > 0).all() else solution
 
 
 def _largest(products: NDArray[np.float32], count: int) -> IndexArray:

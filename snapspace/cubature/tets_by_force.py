@@ -2,20 +2,31 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 from numpy.typing import NDArray
 
+from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates
 
 #: States whose forces decide.
 PILOTS = 12
 
 
-def tets_by_force(states: ElasticStates) -> NDArray[np.int32]:
+@single_threaded_blas
+def tets_by_force(states: ElasticStates, *, threads: int | None = None) -> NDArray[np.int32]:
     """Tets that carry a force at some of the states, the largest forces first."""
-    total = np.zeros(len(states.problem.mesh.tets))
-    for state in range(0, len(states), max(1, len(states) // PILOTS)):
-        displacement = states.subspace.basis @ states.coordinates[state]
-        total += np.linalg.norm(states.forces(state, displacement).stresses, axis=1)
+    pilots = range(0, len(states), max(1, len(states) // PILOTS))
+    displacements = states.coordinates[pilots] @ states.subspace.basis.T
+
+    def sizes(pilot: int) -> NDArray[np.float64]:
+        stresses = states.stresses(pilots[pilot], displacements[pilot])
+        norms: NDArray[np.float64] = np.sqrt(np.einsum("te,te->t", stresses, stresses))
+        return norms
+
+    with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
+        total = sum(pool.map(sizes, range(len(pilots))), np.zeros(len(states.problem.mesh.tets)))
     order = np.argsort(-total, kind="stable").astype(np.int32)
     return order[total[order] > 0]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import dataclass, replace
-from typing import Any, Generic
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +12,9 @@ from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .blended_cubature import BlendedCubature
 from .cubature import Cubature
-from .elastic_states import BlendingStates, PosingStates, States
-from .held_out_errors import CubatureErrors, held_out_errors
-from .nonnegative_fit import nonnegative_fit
-from .reduced_stiffness import mean_stiffness, reduced_stiffness
-from .sampled_tets import sampled_tets
-from .tets_by_force import tets_by_force
-from .training_rows import training_rows
+from .elastic_states import BlendingStates, PosingStates
+from .fit_tets import FEWEST_SNAPSHOTS, Budget, fit_tets
+from .held_out_errors import held_out_errors
 
 FloatArray = NDArray[np.float64]
 
@@ -30,20 +25,14 @@ TETS_PER_DIMENSION = 8
 TETS_PER_BLENDED_DIMENSION = 15
 #: But no more than this: an evaluation takes time in proportion.
 MOST_TETS = 1000
-#: Rows of forces per wanted tet.
-ROWS = 3
-#: Snapshots that are held out at the most.
-HELD_OUT = 20
 #: Motions that are trained on at the most, and candidates per wanted tet. Errors on Dragon, Spot,
 #: Elephant, Armadillo, dog head and hand are those of 200 motions and twice as many candidates,
 #: which take twice as long.
-TRAINED, CANDIDATES = 60, 10
+TRAINED, CANDIDATES = 60, 20
 #: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
 #: 20 blends and with 200, which take four times as long; half as many candidates leave the Lion a
 #: third more.
 TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
-#: One snapshot in so many is held out, which takes as many at least.
-FEWEST_SNAPSHOTS = 10
 #: How often a blended cubature gets half as many tets again, until the mean shape is a minimum.
 GROWTHS = 4
 #: Fewest blends that a cubature is trained on: one, and one to judge by.
@@ -112,14 +101,13 @@ def train_cubature(
         For fewer than ten states that are not at rest, or a number of tets that is not between 1
         and that of the mesh.
     """
-    states = PosingStates(problem, subspace, coordinates[_moved(coordinates)])
-    hessian = problem.energy.hessian(problem.base)
-    stiffness = reduced_stiffness(hessian, subspace) + handle_hessian
-    budget = _Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
-    fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
+    states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
+    budget = Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
+    fit = fit_tets(states, budget, seed=seed, threads=threads)
     cubature = Cubature.of_tets(problem, subspace, fit.tets, fit.volumes)
     errors = held_out_errors(
-        fit.unseen,
+        fit.unseen.coordinates,
+        fit.exact,
         lambda k: cubature.value_and_gradient(fit.unseen.coordinates[k]),
         fit.compliances,
     )
@@ -148,16 +136,16 @@ def train_blended_cubature(
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
-    stiffness = mean_stiffness(problem, subspace, threads=threads)
     for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
-        budget = _Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
-        fit = _fit(states, stiffness, budget, seed=seed, threads=threads)
+        budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
+        fit = fit_tets(states, budget, seed=seed, threads=threads)
         cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)
         if tets is not None or _is_stable(cubature, problem.domain.center):
             break
     unseen = fit.unseen
     errors = held_out_errors(
-        unseen,
+        unseen.coordinates,
+        fit.exact,
         lambda k: cubature.value_and_gradient(unseen.coordinates[k], unseen.weights[k]),
         fit.compliances,
     )
@@ -176,119 +164,6 @@ def _is_stable(cubature: BlendedCubature, mean: FloatArray) -> bool:
     return bool(np.linalg.eigvalsh(hessian)[0] > 0.0)
 
 
-@dataclass(frozen=True)
-class _Budget:
-    """How many tets the user wants, or else are usual, and what they are chosen from.
-
-    fewest_states : that a cubature needs
-    most_trained : states
-    candidates : tets for each wanted one
-    """
-
-    wanted: int | None
-    usual: int
-    fewest_states: int
-    most_trained: int
-    candidates: int
-
-
-@dataclass(frozen=True)
-class _Fit(Generic[States]):
-    """Chosen tets with the volumes that they stand for, and what was held out.
-
-    unseen : states
-    compliances : (s, d, d) of these
-    """
-
-    tets: NDArray[np.int32]
-    volumes: FloatArray
-    unseen: States
-    compliances: FloatArray
-    trained: int
-    rows: int
-    seed: int
-    begin: float
-
-    def record(self, errors: CubatureErrors) -> dict[str, Any]:
-        """For a model's provenance."""
-        return {
-            "tets": len(self.tets),
-            "trained_states": self.trained,
-            "rows": self.rows,
-            "seed": self.seed,
-            "seconds": time.perf_counter() - self.begin,
-            "held_out": errors.as_json(),
-        }
-
-
-def _fit(
-    states: States,
-    stiffness: FloatArray,
-    budget: _Budget,
-    *,
-    seed: int,
-    threads: int | None,
-) -> _Fit[States]:
-    begin = time.perf_counter()
-    mesh, dimension = states.problem.mesh, states.subspace.dimension
-    count = _checked_count(len(mesh.tets), budget.usual, budget.wanted)
-    if len(states) < budget.fewest_states:
-        raise ValueError(
-            f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
-            f"on, it takes {budget.fewest_states}; solve more samples"
-        )
-    period = min(FEWEST_SNAPSHOTS, len(states))
-    held = np.arange(len(states)) % period == period // 2
-    trained = states.chosen(_spread(np.flatnonzero(~held), budget.most_trained))
-    unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
-    with_forces = trained.with_forces()
-    ordered = tets_by_force(with_forces)
-    candidates = sampled_tets(ordered, budget.candidates * count, seed=seed).tets
-    directions = min(dimension, -(-ROWS * count // len(with_forces)))
-    rows = training_rows(
-        with_forces,
-        candidates,
-        _repeated(trained.compliances(stiffness, ordered, threads), len(with_forces)),
-        directions=directions,
-        seed=seed,
-        threads=threads,
-    )
-    picks, factors = nonnegative_fit(rows.columns, rows.target, count)
-    if not len(picks):
-        raise ValueError(
-            f"reduce: no tet carries a force at the {len(states)} snapshots that a cubature is "
-            "trained on; solve more samples"
-        )
-    picked = candidates[picks]
-    volumes = factors * mesh.volumes[picked]
-    judging = unseen.with_forces()
-    compliances = _repeated(unseen.compliances(stiffness, ordered, threads), len(judging))
-    return _Fit(
-        picked, volumes, judging, compliances, len(with_forces), len(rows.target), seed, begin
-    )
-
-
-def _repeated(compliances: FloatArray, count: int) -> FloatArray:
-    """Those of states for their `with_forces`, which has each state as often as any other."""
-    return np.repeat(compliances, count // len(compliances), axis=0)
-
-
-def _checked_count(available: int, usual: int, tets: int | None) -> int:
-    count = min(usual, available) if tets is None else tets
-    if not 1 <= count <= available:
-        raise ValueError(
-            f"reduce: tets is {count}, but must be between 1 and the mesh's {available}"
-        )
-    return count
-
-
 def _moved(coordinates: FloatArray) -> NDArray[np.bool_]:
     moved: NDArray[np.bool_] = np.abs(coordinates).max(axis=1, initial=0.0) > 0
     return moved
-
-
-def _spread(which: NDArray[np.intp], count: int) -> NDArray[np.intp]:
-    """At most `count` of the indices, evenly spread."""
-    places = np.unique(np.linspace(0, len(which) - 1, count).round().astype(int))
-    some: NDArray[np.intp] = which[places]
-    return some

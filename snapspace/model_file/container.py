@@ -15,6 +15,8 @@ from ..mesh.atomic_file import atomic_file
 from ..mesh.safetensors_bytes import safetensors_bytes
 
 Arrays = dict[str, NDArray[Any]]
+#: The type of an array, or those that it may have.
+Types = type | tuple[type, ...]
 
 
 def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
@@ -38,15 +40,16 @@ def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
         ) from None
 
 
-def check_dtypes(path: Path, arrays: Arrays, dtypes: Mapping[str, type]) -> None:
-    """ValueError unless every array is there and has its type."""
+def check_dtypes(path: Path, arrays: Arrays, dtypes: Mapping[str, Types]) -> None:
+    """ValueError unless every array is there and has its type, or one of several."""
     for name, dtype in dtypes.items():
         if name not in arrays:
             raise ValueError(f"{path}: the array '{name}' is missing; build the model again")
-        if arrays[name].dtype != dtype:
+        known = [np.dtype(one) for one in (dtype if isinstance(dtype, tuple) else (dtype,))]
+        if arrays[name].dtype not in known:
             raise ValueError(
-                f"{path}: the array '{name}' is {arrays[name].dtype}, not {np.dtype(dtype)}; "
-                "build the model again"
+                f"{path}: the array '{name}' is {arrays[name].dtype}, not "
+                f"{' or '.join(map(str, known))}; build the model again"
             )
 
 

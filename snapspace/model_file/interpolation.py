@@ -9,16 +9,16 @@ import numpy as np
 from ..problem import InterpolationProblem, Poses
 from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics, coefficient_count
 from ..subspace import AffineSubspace
-from . import eigenvalues, shown_surface
+from . import basis, eigenvalues, shown_surface
 from . import material as material_file
-from .container import Arrays, check_shapes
+from .container import Arrays, Types, check_shapes
 
-_COMMON: dict[str, type] = {
+_COMMON: dict[str, Types] = {
     "poses": np.float64,
     "tets": np.int32,
     "mean_shape": np.float64,
     **shown_surface.DTYPES,
-    "basis": np.float64,
+    "basis": basis.DTYPES,
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
@@ -35,8 +35,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
         "tets": problem.poses.tets,
         "mean_shape": model.subspace.tau,
         **shown_surface.surface_arrays(model.surface),
-        # (d, 3n): a mode is contiguous, and fewer modes are a prefix
-        "basis": model.subspace.basis.T,
+        "basis": basis.stored_basis(model.subspace),
         **eigenvalues.eigenvalue_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
         **_blend_arrays(model.blends),
@@ -85,7 +84,8 @@ def interpolation_model(
         },
     )
     mass = problem.mass(lumped=content["lumped_mass"])
-    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues"))
+    modes = basis.read_basis(arrays["basis"])
+    subspace = AffineSubspace(problem.tau, modes, mass, arrays.get("eigenvalues"))
     return InterpolationModel(
         problem=problem,
         subspace=subspace,

@@ -11,9 +11,10 @@ from . import eigenvalues, error_estimator, interpolation, material, posing, sho
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
-VERSION = 2
-#: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff.
-READABLE = (1, 2)
+VERSION = 3
+#: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff, and up to
+#: the second one bases were in double precision.
+READABLE = (1, 2, 3)
 SUFFIX = ".snapspace"
 POSING, CUBATURE = "posing", "posing-cubature"
 INTERPOLATION, BLENDED_CUBATURE = "interpolation", "interpolation-cubature"
@@ -77,7 +78,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     if header.get("version") not in {str(version) for version in READABLE}:
         raise ValueError(
             f"{path}: model version {header.get('version')}, this snapspace reads versions "
-            f"{' and '.join(map(str, READABLE))}; install the snapspace that wrote it, or build "
+            f"{', '.join(map(str, READABLE))}; install the snapspace that wrote it, or build "
             "the model again"
         )
     kind = header.get("kind", POSING)  # the first files had only one

@@ -10,16 +10,16 @@ from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
 from ..subspace import AffineSubspace
-from . import eigenvalues, shown_surface
+from . import basis, eigenvalues, shown_surface
 from . import material as material_file
-from .container import Arrays, check_shapes
+from .container import Arrays, Types, check_shapes
 
-_COMMON: dict[str, type] = {
+_COMMON: dict[str, Types] = {
     "vertices": np.float64,
     "tets": np.int32,
     "handle_vertices": np.int32,
     "handle_sizes": np.int32,
-    "basis": np.float64,
+    "basis": basis.DTYPES,
     "handle_K": np.float64,
     "handle_L": np.float64,
     "handle_S": np.float64,
@@ -44,8 +44,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "tets": problem.mesh.tets,
         "handle_vertices": problem.pinned,
         "handle_sizes": np.array(sizes, np.int32),
-        # (d, 3n): a mode is contiguous, and fewer modes are a prefix
-        "basis": model.subspace.basis.T,
+        "basis": basis.stored_basis(model.subspace),
         **eigenvalues.eigenvalue_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
         **_elastic_arrays(model.elastic),
@@ -95,7 +94,8 @@ def posing_model(
         },
     )
     mass = mass_matrix(problem.mesh, lumped=content["lumped_mass"])
-    subspace = AffineSubspace(problem.tau, arrays["basis"].T, mass, arrays.get("eigenvalues"))
+    modes = basis.read_basis(arrays["basis"])
+    subspace = AffineSubspace(problem.tau, modes, mass, arrays.get("eigenvalues"))
     return PosingModel(
         problem=problem,
         subspace=subspace,

@@ -104,7 +104,8 @@ def reduce(
     -------
     PosingModel or InterpolationModel
         With an exact energy its objective equals F at tau + U q for all q, and all affine motions
-        of the handles or all weights of the poses. Bitwise the same for the same arguments.
+        of the handles or all weights of the poses. Bitwise the same for the same arguments. Its
+        basis is the subspace's in single precision, as in a file: what is saved is what was used.
 
     Raises
     ------
@@ -119,6 +120,7 @@ def reduce(
     if kind == "exact" and tets is not None:
         raise ValueError("reduce: tets is for energy='cubature'; the exact energy takes all tets")
     _check_snapshots(problem, subspace, energy, snapshots)
+    subspace = subspace.in_single_precision()
     parameters, coordinates = training(problem, subspace, snapshots)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):

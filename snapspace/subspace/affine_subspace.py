@@ -58,6 +58,15 @@ class AffineSubspace:
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
 
+    def in_single_precision(self) -> AffineSubspace:
+        """The same with the basis rounded to single precision, which files then hold without loss.
+
+        Its columns are M-orthonormal to 1e-7 or so, and shapes move by as little of their
+        displacements.
+        """
+        basis = self.basis.astype(np.float32).astype(np.float64)
+        return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
+
     @single_threaded_blas
     def coordinates(self, shapes: ArrayLike) -> FloatArray:
         """q = U^T M (x - tau) of the M-projection of shapes (3n,) or (3n, k): (d,) or (d, k)."""

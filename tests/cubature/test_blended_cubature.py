@@ -86,6 +86,8 @@ def test_taylor(kind: str, weights: FloatArray) -> None:
     q, direction = 0.02 * rng.normal(size=D), 0.2 * rng.normal(size=D)
     value, gradient = elastic.value_and_gradient(q, weights)
     hessian = elastic.hessian(q, weights)
+    scale = np.abs(hessian).max()
+    assert elastic.rough_hessian(q, weights) == pytest.approx(hessian, abs=3e-6 * scale)
     np.testing.assert_array_equal(hessian, hessian.T)
 
     def first(h: float) -> float:

@@ -44,6 +44,7 @@ def test_all_tets_with_their_volumes_are_the_exact_energy(dimension: int, size: 
     assert slope == pytest.approx(gradient, rel=1e-5, abs=2e-6 * np.abs(gradient).max())
     hessian = exact.hessian(q)
     assert elastic.hessian(q) == pytest.approx(hessian, abs=3e-6 * np.abs(hessian).max())
+    assert elastic.rough_hessian(q) == pytest.approx(hessian, abs=3e-6 * np.abs(hessian).max())
 
 
 @pytest.mark.parametrize(("dimension", "tets"), [(1, 1), (6, 5), (9, 64), (12, 33)])

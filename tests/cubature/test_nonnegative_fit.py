@@ -24,7 +24,7 @@ def test_a_planted_sum_of_few_columns_is_found_again() -> None:
     A = columns(80, 200)
     planted = np.array([3, 50, 51, 120, 199])
     weights = np.array([2.0, 0.5, 1.0, 4.0, 0.1])
-    chosen, found = nonnegative_fit(A, A[:, planted].astype(float) @ weights, 20)
+    chosen, found = nonnegative_fit(A.T.copy(), A[:, planted].astype(float) @ weights, 20)
     large = found > 1e-4
     np.testing.assert_array_equal(chosen[large], planted)
     assert found[large] == pytest.approx(weights, rel=1e-4)
@@ -34,7 +34,7 @@ def test_a_planted_sum_of_few_columns_is_found_again() -> None:
 def test_weights_are_positive_and_no_more_than_asked_for(seed: int, count: int) -> None:
     A = columns(40, 60, seed)
     target = A.sum(axis=1, dtype=float)
-    chosen, weights = nonnegative_fit(A, target, count)
+    chosen, weights = nonnegative_fit(A.T.copy(), target, count)
     assert 1 <= len(chosen) <= count
     assert (weights > 0).all()
     assert (np.diff(chosen) > 0).all()
@@ -51,7 +51,7 @@ def test_more_columns_are_never_worse_and_near_the_best_there_is(seed: int) -> N
     _, best = nnls(A.astype(float), target)
     errors = []
     for count in (5, 10, 20, 40):
-        chosen, weights = nonnegative_fit(A, target, count)
+        chosen, weights = nonnegative_fit(A.T.copy(), target, count)
         errors.append(np.linalg.norm(A[:, chosen].astype(float) @ weights - target))
     assert all(later <= former * (1 + 1e-9) for former, later in pairwise(errors))
     assert best * (1 - 1e-6) <= errors[-1] <= 1.05 * best
@@ -59,7 +59,7 @@ def test_more_columns_are_never_worse_and_near_the_best_there_is(seed: int) -> N
 
 def test_a_target_that_no_positive_sum_comes_near_is_left_alone() -> None:
     A = np.abs(columns(20, 30))
-    chosen, weights = nonnegative_fit(A, -np.ones(20), 10)
+    chosen, weights = nonnegative_fit(A.T.copy(), -np.ones(20), 10)
     assert len(chosen) == len(weights) == 0
 
 
@@ -67,7 +67,7 @@ def test_columns_that_hardly_matter_get_no_huge_weights() -> None:
     A = columns(60, 100)
     A[:, 50:] *= 1e-9  # tets that are carried along rigidly
     target = A.sum(axis=1, dtype=float) + 0.1 * np.random.default_rng(5).normal(size=60)
-    chosen, weights = nonnegative_fit(A, target, 30)
+    chosen, weights = nonnegative_fit(A.T.copy(), target, 30)
     assert (chosen < 50).all()
     assert weights.max() < 100
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -28,6 +29,7 @@ from snapspace.problem import HandleBox
 
 from ..shapes import bar_problem, irregular_bar
 from ..snapshots.bars import parameters, posing_bar
+from .test_bad_files import rewrite
 
 
 def assert_same_model(a: ReducedModel, b: ReducedModel) -> None:
@@ -115,6 +117,20 @@ def test_a_basis_that_is_not_from_snapshots_survives(tmp_path: Path) -> None:
     np.testing.assert_array_equal(again.subspace.basis, made.subspace.basis)
 
 
+def test_bases_of_older_files_stay_as_they_are(saved: Path, tmp_path: Path) -> None:
+    """Up to version 2 they are in double precision; what is not read from single is not cut."""
+
+    def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
+        arrays["basis"] = arrays["basis"].astype(np.float64) * (1.0 + 1e-12)
+        header["version"] = "2"
+
+    rewrite(saved, change)
+    old = load(saved)
+    again = load(old.save(tmp_path / "again.snapspace"))
+    assert_same_model(again, old)
+    assert not np.array_equal(old.subspace.basis, old.subspace.basis.astype(np.float32))
+
+
 def test_a_truncated_model_survives(model: ReducedModel, tmp_path: Path) -> None:
     """Leading columns of arrays are not contiguous; what is written must be."""
     assert_same_model(load(model.leading(3).save(tmp_path / "m.snapspace")), model.leading(3))
@@ -144,13 +160,14 @@ def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> No
         "training_parameters",
         "training_coordinates",
     }
-    assert {str(array.dtype) for array in arrays.values()} == {"float64", "int32"}
+    assert {str(array.dtype) for array in arrays.values()} == {"float64", "float32", "int32"}
+    assert arrays["basis"].dtype == np.float32
     np.testing.assert_array_equal(arrays["vertices"], model.problem.mesh.vertices)
     np.testing.assert_array_equal(arrays["basis"].T, model.subspace.basis)
     with safe_open(saved, framework="np") as file:
         header = file.metadata()
     assert set(header) == {"format", "version", "kind", "problem", "provenance", "checksum"}
-    assert (header["format"], header["version"]) == ("snapspace-model", "2")
+    assert (header["format"], header["version"]) == ("snapspace-model", "3")
     assert header["kind"] == "posing"
     assert json.loads(header["problem"])["handles"] == ["foot", "tip"]
     assert json.loads(header["provenance"]) == model.provenance

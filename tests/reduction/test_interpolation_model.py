@@ -98,13 +98,12 @@ def rigid_directions(x: FloatArray) -> list[FloatArray]:
 def test_the_subspace_holds_no_rigid_motion_of_the_mean_shape(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """To rounding, which is larger the less a direction is in the snapshots."""
+    """To the rounding of bases, which is single precision."""
     subspace = request.getfixturevalue(name).subspace
-    shares = np.sqrt(subspace.eigenvalues[: subspace.dimension] / subspace.eigenvalues[0])
     for direction in rigid_directions(subspace.tau):
         size = mass_norm(subspace.mass, direction)
         cosines = [mass_inner(subspace.mass, u, direction) / size for u in subspace.basis.T]
-        assert np.abs(cosines * shares).max() < 3e-14
+        assert np.abs(cosines).max() < 3e-7
 
 
 @pytest.mark.parametrize("name", ["blending_model", "helix_model"])

@@ -66,7 +66,9 @@ def test_the_middle_part_is_what_a_cubature_of_all_tets_leaves(
     split = split_errors(model, full)
     exact = with_all_tets(model)
     session = exact.session(tolerance=1e-13)
-    assert split.error_of_all_tets == pytest.approx(_errors(exact, full, session), rel=1e-3)
+    # bases in single precision are M-orthonormal to 1e-8
+    wanted = pytest.approx(_errors(exact, full, session), rel=1e-3, abs=5e-8)
+    assert split.error_of_all_tets == wanted
     of_exact = split_errors(exact, full)
     assert of_exact.cubature.max() < 0.05 * split.error.max(), "then there is nothing that tets add"
     np.testing.assert_array_equal(of_exact.stiffness, split.stiffness)

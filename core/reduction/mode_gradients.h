@@ -1,0 +1,18 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace snapspace {
+
+/// Displacement gradients of modes in some tets: entry 3 a + b of the second index of `rows` is d
+/// u_a / d x_b. Differences of nodal values come first: sums over all four corners would lose
+/// digits on slivers.
+/// @param vertices  n x 3, at rest
+/// @param modes  dimension x size, mode by mode; size is 3 n
+/// @param corners  tets x 4; no tet without volume
+/// @param rows  tets x 9 x dimension, overwritten
+/// @param threads  0: all
+void mode_gradients(const double* vertices, int dimension, std::size_t size, const double* modes,
+                    int tets, const std::int32_t* corners, float* rows, int threads);
+
+}  // namespace snapspace

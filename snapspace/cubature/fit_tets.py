@@ -1,0 +1,153 @@
+"""fit_tets: the few tets of a cubature, chosen and weighted."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any, Generic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .compliances import compliances, judging_compliances
+from .elastic_states import States
+from .held_out_errors import CubatureErrors
+from .nonnegative_fit import nonnegative_fit
+from .sampled_tets import sampled_tets
+from .state_forces import StateForces, state_forces
+from .tets_by_force import tets_by_force
+from .training_rows import training_rows
+
+FloatArray = NDArray[np.float64]
+
+#: Rows of forces per wanted tet.
+ROWS = 3
+#: Snapshots that are held out at the most.
+HELD_OUT = 20
+#: But no more than this: their rows take 12 KB each.
+MOST_CANDIDATES = 10_000
+#: One snapshot in so many is held out, which takes as many at least.
+FEWEST_SNAPSHOTS = 10
+
+
+@dataclass(frozen=True)
+class Budget:
+    """How many tets the user wants, or else are usual, and what they are chosen from.
+
+    fewest_states : that a cubature needs
+    most_trained : states
+    candidates : tets for each wanted one
+    """
+
+    wanted: int | None
+    usual: int
+    fewest_states: int
+    most_trained: int
+    candidates: int
+
+
+@dataclass(frozen=True)
+class Fit(Generic[States]):
+    """Chosen tets with the volumes that they stand for, and what was held out.
+
+    unseen : states
+    exact, compliances : of these
+    """
+
+    tets: NDArray[np.int32]
+    volumes: FloatArray
+    unseen: States
+    exact: StateForces
+    compliances: FloatArray
+    trained: int
+    rows: int
+    seed: int
+    begin: float
+
+    def record(self, errors: CubatureErrors) -> dict[str, Any]:
+        """For a model's provenance."""
+        return {
+            "tets": len(self.tets),
+            "trained_states": self.trained,
+            "rows": self.rows,
+            "seed": self.seed,
+            "seconds": time.perf_counter() - self.begin,
+            "held_out": errors.as_json(),
+        }
+
+
+def fit_tets(
+    states: States,
+    budget: Budget,
+    *,
+    seed: int,
+    threads: int | None,
+) -> Fit[States]:
+    """Chooses tets and volumes by some of the states, and holds others out.
+
+    Raises ValueError for too few states, or a number of tets that the mesh does not have.
+    """
+    begin = time.perf_counter()
+    mesh, dimension = states.problem.mesh, states.subspace.dimension
+    count = _checked_count(len(mesh.tets), budget.usual, budget.wanted)
+    if len(states) < budget.fewest_states:
+        raise ValueError(
+            f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
+            f"on, it takes {budget.fewest_states}; solve more samples"
+        )
+    period = min(FEWEST_SNAPSHOTS, len(states))
+    held = np.arange(len(states)) % period == period // 2
+    trained = states.chosen(_spread(np.flatnonzero(~held), budget.most_trained))
+    unseen = states.chosen(_spread(np.flatnonzero(held), HELD_OUT))
+    with_forces, judging = trained.with_forces(), unseen.with_forces()
+    ordered = tets_by_force(with_forces, threads=threads)
+    several = max(min(budget.candidates * count, MOST_CANDIDATES), count)
+    candidates = sampled_tets(ordered, several, seed=seed).tets
+    rows = training_rows(
+        with_forces,
+        state_forces(with_forces, candidates, threads=threads),
+        candidates,
+        _repeated(compliances(trained, ordered, threads=threads), len(with_forces)),
+        directions=min(dimension, -(-ROWS * count // len(with_forces))),
+        seed=seed,
+        threads=threads,
+    )
+    picks, factors = nonnegative_fit(rows.columns, rows.target, count, threads=threads)
+    if not len(picks):
+        raise ValueError(
+            f"reduce: no tet carries a force at the {len(states)} snapshots that a cubature is "
+            "trained on; solve more samples"
+        )
+    picked = candidates[picks]
+    return Fit(
+        tets=picked,
+        volumes=factors * mesh.volumes[picked],
+        unseen=judging,
+        exact=state_forces(judging, np.zeros(0, np.int32), threads=threads),
+        compliances=_repeated(judging_compliances(unseen, ordered, threads=threads), len(judging)),
+        trained=len(with_forces),
+        rows=len(rows.target),
+        seed=seed,
+        begin=begin,
+    )
+
+
+def _repeated(factors: FloatArray, count: int) -> FloatArray:
+    """Those of states for their `with_forces`, which has each state as often as any other."""
+    return np.repeat(factors, count // len(factors), axis=0)
+
+
+def _checked_count(available: int, usual: int, tets: int | None) -> int:
+    count = min(usual, available) if tets is None else tets
+    if not 1 <= count <= available:
+        raise ValueError(
+            f"reduce: tets is {count}, but must be between 1 and the mesh's {available}"
+        )
+    return count
+
+
+def _spread(which: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+    """At most `count` of the indices, evenly spread."""
+    places = np.unique(np.linspace(0, len(which) - 1, count).round().astype(int))
+    some: NDArray[np.intp] = which[places]
+    return some

@@ -1,0 +1,58 @@
+"""Forces and energies of all tets together, and of some alone, at many states."""
+
+from __future__ import annotations
+
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core as core
+from ..blas import single_threaded_blas
+from .elastic_states import ElasticStates
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StateForces:
+    """What is summed up at states, and what some tets add.
+
+    energies : (s,), of all tets
+    units : (s,), energies that errors are relative to
+    forces : (s, d), reduced gradients of the energies
+    stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets
+    tet_energies : (s, c), of these tets
+    """
+
+    energies: FloatArray
+    units: FloatArray
+    forces: FloatArray
+    stresses: NDArray[np.float32]
+    tet_energies: FloatArray
+
+
+@single_threaded_blas
+def state_forces(
+    states: ElasticStates, tets: NDArray[np.int32], *, threads: int | None = None
+) -> StateForces:
+    """At all states, with the tets (c,) alone; bitwise the same for any number of threads."""
+    basis, count = states.subspace.basis, len(states)
+    energies, forces = np.empty(count), np.empty((count, basis.shape[1]))
+    stresses = np.empty((count, len(tets), 9), np.float32)
+    tet_energies = np.empty((count, len(tets)))
+
+    def fill(first: int) -> None:
+        some = slice(first, min(first + core.lane_count, count))
+        displacements = states.coordinates[some] @ basis.T
+        found = states.evaluated(first, displacements, tets)
+        energies[some], forces[some] = found.energies, found.gradients @ basis
+        if len(tets):
+            stresses[some], tet_energies[some] = found.stresses, found.tet_energies
+
+    with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
+        list(pool.map(fill, range(0, count, core.lane_count)))
+    units = np.maximum(energies, states.floor)
+    return StateForces(energies, units, forces, stresses, tet_energies)

@@ -1,0 +1,26 @@
+"""The basis of a model in a file: most of its bytes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+#: In single precision where that loses nothing, as in all models that `reduce` makes since files of
+#: version 3.
+DTYPES = (np.float32, np.float64)
+
+
+def stored_basis(subspace: AffineSubspace) -> NDArray[np.floating]:
+    """The modes (d, 3n): a mode is contiguous, and fewer modes are a prefix."""
+    modes = subspace.basis.T
+    short = modes.astype(np.float32)
+    return short if np.array_equal(short, modes) else modes
+
+
+def read_basis(modes: NDArray[np.floating]) -> FloatArray:
+    """The basis (3n, d) of stored modes, in double precision."""
+    return modes.astype(np.float64, copy=False).T
