@@ -14,7 +14,6 @@ from .certificate import (
     ResidualSample,
     residual_sample,
     scalar_diagonal,
-    squared_residuals,
 )
 from .mesh import mass_norm
 from .reduction import InterpolationModel, PosingModel
@@ -86,7 +85,7 @@ def calibrated(
     """
     full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
     typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
-    chosen = _sample(model, typical)
+    chosen = _sample(model, typical, threads=threads)
     mass = float(model.subspace.mass.sum())
     coordinates, measured = _measured(model, chosen, full, math.sqrt(mass), thorough=thorough)
     distances, residuals, movements = measured
@@ -150,15 +149,20 @@ def _parameters(domain: Domain, count: int, *, seed: int, stream: int) -> FloatA
     return domain.from_unit(random.random((count, domain.dimension)))
 
 
-def _sample(model: PosingModel | InterpolationModel, parameters: FloatArray) -> ResidualSample:
+def _sample(
+    model: PosingModel | InterpolationModel, parameters: FloatArray, *, threads: int | None
+) -> ResidualSample:
     problem, session = model.problem, model.session()
-    expected = np.zeros(len(problem.mesh.vertices))
-    for w, inputs in zip(parameters, problem.inputs(parameters), strict=True):
+    frames, sizes = np.empty((len(parameters), problem.base.size)), np.empty(len(parameters))
+    for i, w in enumerate(parameters):
         _solve(session, w)
-        squares = squared_residuals(problem, model.subspace.shape(session.q) - problem.base, inputs)
-        size = float(session.q @ session.q)
-        if size > 0:
-            expected += squares / size
+        frames[i] = model.subspace.shape(session.q) - problem.base
+        sizes[i] = session.q @ session.q
+    inputs = problem.inputs(parameters)
+    _, gradients = problem.system.evaluate(frames, inputs, threads=threads or 0)
+    squares = (gradients.reshape(len(parameters), -1, 3) ** 2).sum(axis=2)
+    moved = sizes > 0
+    expected: FloatArray = (squares[moved] / sizes[moved, None]).sum(axis=0)
     return residual_sample(expected, scalar_diagonal(problem))
 
 

@@ -223,8 +223,12 @@ class ModelSearch:
 
     def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
         plan = self._plan
-        unseen, _ = with_lower_minima(model, self.samples.unseen, threads=self._solving.threads)
+        unseen = self.samples.unseen
         errors = unseen_errors(model, unseen)
+        threads = self._solving.threads
+        unseen, lower = with_lower_minima(model, unseen, errors=errors, threads=threads)
+        if lower:
+            errors = unseen_errors(model, unseen)
         if projection is None:
             projection = plan.typical(self.samples.projection_errors_onto(model.subspace))
         step = Step(

@@ -8,7 +8,6 @@ from .residual_sample import (
     ResidualSample,
     residual_sample,
     scalar_diagonal,
-    squared_residuals,
 )
 
 __all__ = [
@@ -21,5 +20,4 @@ __all__ = [
     "ResidualSample",
     "residual_sample",
     "scalar_diagonal",
-    "squared_residuals",
 ]

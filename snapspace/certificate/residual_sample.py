@@ -68,15 +68,6 @@ def residual_sample(
     return ResidualSample(vertices, 1.0 / (count * probabilities[vertices] * diagonal[vertices]))
 
 
-def squared_residuals(
-    problem: PosingProblem | InterpolationProblem, displacement: FloatArray, inputs: FloatArray
-) -> FloatArray:
-    """|g_v|^2 of all vertices, (n,), at a displacement (3n,) from `problem.base`."""
-    _, gradient = problem.system.value_and_gradient(displacement, inputs)
-    squares: FloatArray = (gradient.reshape(-1, 3) ** 2).sum(axis=1)
-    return squares
-
-
 def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray:
     """D, (n,): the diagonal of (2 mu + lam) Laplacian + 2 weights of pins, at tau."""
     tets = problem.mesh.tets

@@ -2,11 +2,12 @@
 
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors
+from .frame_errors import unseen_errors
 from .given_reference import check_reference
 from .lower_minima import with_lower_minima
 from .next_option import FACTOR, NextOption, needs_advice, next_option
 from .unseen import REFERENCE_TOLERANCE, reference_options, solved_reference, unseen_parameters
-from .validate import unseen_errors, validate
+from .validate import validate
 from .validation import Validation
 
 __all__ = [

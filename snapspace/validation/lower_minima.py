@@ -10,10 +10,13 @@ from numpy.typing import NDArray
 from ..displacements import DisplacementRows
 from ..reduction import ReducedModel
 from ..snapshots import SampleReport, Snapshots, SolverOptions, solve_snapshots
+from .frame_errors import unseen_errors
 from .unseen import reference_options
 
 FloatArray = NDArray[np.float64]
 
+#: A frame nearer than this share of the displacement is at the same minimum.
+APART = 0.02
 #: Steps of descent from a frame, which is stiffer than the body and so above its own minimum.
 STEPS = 30
 #: What is below by less than this share of the energy is rounding, or not solved as tightly.
@@ -21,19 +24,26 @@ RESOLVED = 1e-6
 
 
 def with_lower_minima(
-    model: ReducedModel, reference: Snapshots, *, threads: int | None = None
+    model: ReducedModel,
+    reference: Snapshots,
+    *,
+    errors: FloatArray | None = None,
+    threads: int | None = None,
 ) -> tuple[Snapshots, int]:
     """Full solutions, solved again where frames of a model lead below them.
 
-    An energy may have several minima, and a solve from one start need not find the lowest. Thirty
-    steps go down from every frame in the full space. Where they come below the full solution, it is
-    not the lowest one, and is solved again from where they ended.
+    An energy may have several minima, and a solve from one start need not find the lowest. Where a
+    frame is apart from the full solution, thirty steps go down from it in the full space. If they
+    come below the full solution, it is not the lowest one, and is solved again from where they
+    ended.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
     reference : Snapshots
         Tight full solutions of its problem.
+    errors : (k,), optional
+        Those of the frames, `unseen_errors`, where they are known.
     threads : int, optional
         Default: all. The result does not depend on it.
 
@@ -48,35 +58,39 @@ def with_lower_minima(
     -----
     Nothing is below an only minimum, so that errors to a unique solution never change.
     """
-    parameters, threshold = reference.parameters, _values(reference)
-    threshold -= RESOLVED * np.abs(threshold)
-    options = reference_options(model.problem)
-    begun = _solved_from(
-        model,
-        parameters,
-        _frames(model, parameters),
-        replace(options, max_iterations=STEPS),
-        threads,
-    )
-    below = _values(begun) < threshold
-    if not below.any():
+    if errors is None:
+        errors = unseen_errors(model, reference)
+    apart = np.flatnonzero(errors > APART)
+    found = _below(model, reference, apart, threads=threads) if len(apart) else {}
+    if not found:
         return reference, 0
+    rows, reports = list(reference.displacements), list(reference.reports)
+    for i, (row, report) in found.items():
+        rows[i], reports[i] = row, report
+    displacements = DisplacementRows(rows, model.problem.base.size)
+    return Snapshots(model.problem, reference.parameters, displacements, reports), len(found)
+
+
+def _below(
+    model: ReducedModel, reference: Snapshots, apart: NDArray[np.intp], *, threads: int | None
+) -> dict[int, tuple[FloatArray, SampleReport]]:
+    """Displacements (3n,) and reports of minima below some samples of a reference, by place."""
+    values = np.array([reference.reports[i].value for i in apart])
+    threshold = values - RESOLVED * np.abs(values)
+    parameters, options = reference.parameters[apart], reference_options(model.problem)
+    few = replace(options, max_iterations=STEPS)
+    begun = _solved_from(model, parameters, _frames(model, parameters), few, threads)
+    below = np.array([report.value for report in begun.reports]) < threshold
+    if not below.any():
+        return {}
     shapes = begun.select(below).shapes.T
     again = _solved_from(model, parameters[below], shapes, options, threads)
-    rows, reports = list(reference.displacements), list(reference.reports)
-    lower = 0
-    for i, row, report in zip(
-        np.flatnonzero(below), again.displacements, again.reports, strict=True
-    ):
-        if report.converged and report.value < threshold[i]:
-            rows[i], reports[i] = row, report
-            lower += 1
-    displacements = DisplacementRows(rows, model.problem.base.size)
-    return Snapshots(model.problem, parameters, displacements, reports), lower
-
-
-def _values(snapshots: Snapshots) -> FloatArray:
-    return np.array([report.value for report in snapshots.reports])
+    solved = zip(apart[below], threshold[below], again.displacements, again.reports, strict=True)
+    return {
+        int(i): (row, report)
+        for i, limit, row, report in solved
+        if report.converged and report.value < limit
+    }
 
 
 def _frames(model: ReducedModel, parameters: FloatArray) -> FloatArray:

@@ -1,0 +1,61 @@
+"""Errors of a model's frames against full solutions."""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..mesh import mass_norms, tet_volumes
+from ..reduction import ReducedModel
+from ..session import FrameReport
+from ..snapshots import Snapshots
+
+FloatArray = NDArray[np.float64]
+
+
+def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
+    """Errors (k,) of reduced solves from tau against full solutions, as `Validation.error`.
+
+    Raises
+    ------
+    ValueError
+        If the reference is of another problem.
+    """
+    reference.check_known(model.problem, "unseen_errors")
+    errors: FloatArray = compared(model, reference)[0][:, 0]
+    return errors
+
+
+def compared(
+    model: ReducedModel, reference: Snapshots
+) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
+    """Errors (k, 2), see `_errors`, reports with the milliseconds of frames, and inverted tets."""
+    session, tets = model.session(), model.problem.mesh.tets
+    solutions, frames, inverted = [], [], []
+    for w in reference.parameters:
+        session.reset()
+        begin = time.perf_counter()
+        report = session.set_parameters(w)
+        vertices = session.vertices
+        frames.append((report, 1e3 * (time.perf_counter() - begin)))
+        inverted.append(int((tet_volumes(vertices, tets) <= 0).sum()))
+        solutions.append(session.q.copy())
+    return _errors(model, reference, np.array(solutions)), frames, np.array(inverted, np.int64)
+
+
+def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
+    """Errors of reduced solutions (k, d) and of projections, (k, 2); one shape at a time."""
+    problem, subspace = model.problem, model.subspace
+    rows = reference.displacements.shifted(problem.base - subspace.tau)
+    projections = subspace.row_coordinates(rows)
+    errors = np.empty((len(rows), 2))
+    for target, row, solution, projection in zip(errors, rows, solutions, projections, strict=True):
+        full = subspace.tau + row
+        reduced = problem.aligned(subspace.shape(solution), full)
+        projected = subspace.shape(projection)
+        misses = np.column_stack([reduced - full, projected - full, row])
+        norms = mass_norms(subspace.mass, misses)
+        target[:] = norms[:2] / norms[2]
+    return errors
