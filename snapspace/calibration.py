@@ -153,11 +153,12 @@ def _sample(
     model: PosingModel | InterpolationModel, parameters: FloatArray, *, threads: int | None
 ) -> ResidualSample:
     problem, session = model.problem, model.session()
-    frames, sizes = np.empty((len(parameters), problem.base.size)), np.empty(len(parameters))
-    for i, w in enumerate(parameters):
+    coordinates = np.empty((len(parameters), model.dimension))
+    for q, w in zip(coordinates, parameters, strict=True):
         _solve(session, w)
-        frames[i] = model.subspace.shape(session.q) - problem.base
-        sizes[i] = session.q @ session.q
+        q[:] = session.q
+    frames = coordinates @ model.subspace.basis.T + (model.subspace.tau - problem.base)
+    sizes = (coordinates**2).sum(axis=1)
     inputs = problem.inputs(parameters)
     _, gradients = problem.system.evaluate(frames, inputs, threads=threads or 0)
     squares = (gradients.reshape(len(parameters), -1, 3) ** 2).sum(axis=2)
