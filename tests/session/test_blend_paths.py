@@ -57,7 +57,7 @@ def test_a_path_does_not_depend_on_the_way(lizards: InterpolationModel, seed: in
 
 @pytest.mark.parametrize("seed", range(6))
 def test_no_step_is_long(lizards: InterpolationModel, seed: int) -> None:
-    """St.Venant-Kirchhoff's tails snap; see docs/benchmarks.md."""
+    """St.Venant-Kirchhoff's tails snap; see docs/notes/blend-paths.md."""
     forth = walked(lizards.session(), *ends(seed))
     steps = np.linalg.norm(np.diff(forth, axis=0), axis=2).max(axis=1)
     assert steps.max() < 4.0 * np.median(steps)
