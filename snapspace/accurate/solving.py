@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import training_tolerance
 from ..snapshots import Checkpoint, Progress, SolveProgress, SolverOptions
-from .plan import plan_of
+from .plan import is_large, plan_of
 
-#: Tolerance of held-out samples, relative to that of the others.
+#: Tolerance of held-out samples, relative to the usual one of the others.
 JUDGING = 0.01
 
 
@@ -31,15 +31,17 @@ class Solving:
         """Of samples that train."""
         if self.options is not None:
             return self.options
-        largest = plan_of(problem).most_dimensions
-        return SolverOptions(tolerance=training_tolerance(problem, largest))
+        tight = self._tight(problem)
+        if tight is None or not is_large(problem):
+            return SolverOptions(tolerance=tight)
+        return SolverOptions(tolerance=tight * plan_of(problem).looser_if_large)
 
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Of samples that judge.
 
         They are solved more tightly: along soft modes the others are off by as much as a model.
         """
-        usual = self.usual(problem)
+        usual = self.options or SolverOptions(tolerance=self._tight(problem))
         return replace(
             usual,
             tolerance=JUDGING * usual.resolved(problem).tolerance,
@@ -47,6 +49,10 @@ class Solving:
             precision=None,
             max_iterations=5000,
         )
+
+    @staticmethod
+    def _tight(problem: PosingProblem | InterpolationProblem) -> float | None:
+        return training_tolerance(problem, plan_of(problem).most_dimensions)
 
     def loose(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Of samples for a first impression.

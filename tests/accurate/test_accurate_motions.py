@@ -7,6 +7,7 @@ import pytest
 
 from snapspace import PosingProblem, StableNeoHookean, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
+from snapspace.accurate.solving import Solving
 
 from ..snapshots.creatures import posing_creature
 
@@ -66,3 +67,13 @@ def test_it_is_the_same_on_any_number_of_threads(
 
 def test_large_meshes_have_fewer_samples_by_default(problem: PosingProblem) -> None:
     assert usual_most_samples(problem) == 640
+
+
+def test_samples_of_large_bodies_are_looser_and_those_that_judge_are_not(
+    problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual, judging = Solving().usual(problem), Solving().judging(problem)
+    monkeypatch.setattr("snapspace.accurate.plan.FEWER_SAMPLES", usual_most_samples(problem))
+    assert usual.tolerance is not None
+    assert Solving().usual(problem).tolerance == pytest.approx(10 * usual.tolerance)
+    assert Solving().judging(problem) == judging
