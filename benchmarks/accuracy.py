@@ -84,7 +84,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "--problem", nargs="+", choices=problems.NAMES, default=list(problems.NAMES)
+        "--problem", nargs="+", default=list(problems.NAMES), metavar="NAME", help=problems.HELP
     )
     parser.add_argument("--target-error", type=float, help="as of `snapspace build`")
     parser.add_argument("--validate", type=int, default=30, help="unseen motions")

@@ -67,7 +67,7 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument(
-        "--problem", nargs="+", choices=problems.NAMES, default=list(problems.NAMES)
+        "--problem", nargs="+", default=list(problems.NAMES), metavar="NAME", help=problems.HELP
     )
     parser.add_argument("--unseen", type=int, default=60, help="motions that estimates are for")
     parser.add_argument("--json", action="store_true")

@@ -23,7 +23,9 @@ STIFFNESS = 2e5
 
 
 def read(name: str) -> ss.PosingProblem:
-    """A problem by one of the names of NAMES."""
+    """A problem by one of the names of NAMES, or `creature:TETS` of another size."""
+    if name.startswith("creature:"):
+        return common.creature_problem(int(name.partition(":")[2]))
     if name in GENERATED:
         return GENERATED[name]()
     if name not in SHARED:
@@ -113,6 +115,8 @@ GENERATED: dict[str, Callable[[], ss.PosingProblem]] = {
     "tripod": tripod,
 }
 NAMES = (*SHARED, *GENERATED)
+#: Of --problem.
+HELP = f"of {', '.join(NAMES)}, or creature:TETS"
 #: Defaults are chosen on these, and judged on the others.
 CHOOSING = ("dragon", "elephant", "armadillo", "creature", "creature_with_tail")
 JUDGING = ("spot", "dog_head", "hand_five_fingers", "bar", "bridge", "helix", "tripod")
