@@ -56,8 +56,8 @@ void bind_blended(nb::module_& m) {
             new (self) BlendedCubatureLoop(
                 live::blending_solver(cubature_arrays(rows, weights, material),
                                       pose_arrays(corners, weights.size())),
-                "the reduced Hessian at the mean shape is not positive definite; the cubature has "
-                "too few tets");
+                "the reduced Hessian at the mean shape is far from positive definite; the model is "
+                "damaged");
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"));
 }

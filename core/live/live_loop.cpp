@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "live/second_thread.h"
 #include "online/blended_cubature.h"
 #include "online/blended_quartic.h"
 #include "online/blending_solver.h"
@@ -111,6 +112,13 @@ BlendedCubature made(const CubatureArrays& arrays, const PoseArrays& poses) {
           arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau}};
 }
 
+/// For a live solve: large evaluations are shared with a second thread.
+template <class Sum>
+Sum shared(Sum sum) {
+  sum.set_halves(SecondThread::instance());
+  return sum;
+}
+
 template <class Elastic>
 SolverPointer posing(Elastic elastic, const HandleArrays& handles) {
   return std::make_unique<SolverOf<PosingSolver<Elastic>>>(std::move(elastic), handles.handles,
@@ -142,7 +150,7 @@ SolverPointer posing_solver(int dimension, const double* coefficients, bool sing
 }
 
 SolverPointer posing_solver(const CubatureArrays& arrays, const HandleArrays& handles) {
-  return posing(made(arrays), handles);
+  return posing(shared(made(arrays)), handles);
 }
 
 SolverPointer blending_solver(int dimension, int poses, const double* coefficients, bool single) {
@@ -151,7 +159,7 @@ SolverPointer blending_solver(int dimension, int poses, const double* coefficien
 }
 
 SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(made(arrays, poses));
+  return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(shared(made(arrays, poses)));
 }
 
 }  // namespace snapspace::live

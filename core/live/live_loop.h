@@ -32,7 +32,8 @@ class TetFunction : public ReducedFunction {
 /// A live solver.
 class LiveSolver : public ReducedFunction {
  public:
-  /// False if the Hessian at rest is not positive definite.
+  /// False if the Hessian at rest is not positive definite, or that at the mean shape is far from
+  /// it: a solve has then no matrix to start from.
   [[nodiscard]] virtual bool valid() const = 0;
   [[nodiscard]] virtual int capacity() const = 0;
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity.

@@ -96,15 +96,19 @@ void BlendedCubature::gradients(int block, Tets G[3][3]) const {
 
 double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
-  double value = 0.0;
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets G[3][3], P[3][3];
-    gradients(b, G);
-    value += lane_sum(block_value_and_stress(b, G, P));
-    rows_.add_stresses(b, P);
-  }
+  double values[2] = {0.0, 0.0};
+  run_halves(rows_.size() < kLeastToShare ? nullptr : halves_, [&](int half) {
+    double value = 0.0;
+    for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
+      Tets G[3][3], P[3][3];
+      gradients(b, G);
+      value += lane_sum(block_value_and_stress(b, G, P));
+      rows_.add_stresses(half, b, P);
+    }
+    values[half] = value;
+  });
   rows_.end(gradient);
-  return value;
+  return values[0] + values[1];
 }
 
 BlendedCubature::Tets BlendedCubature::block_value_and_stress(int block, const Tets G[3][3],

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "material/tet_material.h"
+#include "online/halves.h"
 #include "online/tet_rows.h"
 
 namespace snapspace::online {
@@ -39,6 +40,9 @@ class BlendedCubature {
   /// Takes the weights of the poses.
   void set_weights(const double* weights);
 
+  /// Who runs large evaluations from now on; null for this thread alone. The result is the same.
+  void set_halves(Halves* halves) { halves_ = halves; }
+
   /// Value at q (d); `gradient` (d) is overwritten.
   double value_and_gradient(const double* q, double* gradient);
 
@@ -60,6 +64,7 @@ class BlendedCubature {
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
 
   TetRows rows_;
+  Halves* halves_ = nullptr;
   int kind_, poses_;
   bool collapses_;
   int numbers_count_, moduli_count_;   // of a tet and pose

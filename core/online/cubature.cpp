@@ -21,15 +21,19 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
 
 double Cubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
-  double value = 0.0;
-  for (int b = 0; b < rows_.blocks(); ++b) {
-    Tets G[3][3], P[3][3];
-    rows_.gradients(b, G);
-    value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
-    rows_.add_stresses(b, P);
-  }
+  double values[2] = {0.0, 0.0};
+  run_halves(rows_.size() < kLeastToShare ? nullptr : halves_, [&](int half) {
+    double value = 0.0;
+    for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
+      Tets G[3][3], P[3][3];
+      rows_.gradients(b, G);
+      value += lane_sum(value_and_stress(kind_, moduli_.data() + b * moduli_count_, G, P));
+      rows_.add_stresses(half, b, P);
+    }
+    values[half] = value;
+  });
   rows_.end(gradient);
-  return value;
+  return values[0] + values[1];
 }
 
 /// Hessians (9 x 9) of a block's tets by their displacement gradients, times weight; zero for lanes

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "material/tet_material.h"
+#include "online/halves.h"
 #include "online/tet_rows.h"
 
 namespace snapspace::online {
@@ -30,6 +31,9 @@ class Cubature {
   /// Restricts the energy to the first coordinates, 1 <= dimension <= capacity.
   void set_dimension(int dimension) { rows_.set_dimension(dimension); }
 
+  /// Who runs large evaluations from now on; null for this thread alone. The result is the same.
+  void set_halves(Halves* halves) { halves_ = halves; }
+
   /// Value at q (d); `gradient` (d) is overwritten.
   double value_and_gradient(const double* q, double* gradient);
 
@@ -47,6 +51,7 @@ class Cubature {
   void block_curvatures(int block, Tets hessian[9][9]) const;
 
   TetRows rows_;
+  Halves* halves_ = nullptr;
   int kind_, moduli_count_;
   std::vector<Tets> moduli_;  // block, modulus: times the weight; zero for lanes without a tet
 };

@@ -11,7 +11,7 @@ TetRows::TetRows(int dimension, int tets, const float* rows)
       pairs_((dimension + 1) / 2),
       tets_(tets),
       coordinates_(2 * pairs_, 0.0),
-      sums_(2 * pairs_) {
+      sums_(4 * pairs_) {
   const std::size_t size = static_cast<std::size_t>(tets) * 9 * dimension;
   double largest = 1e-200;
   for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, std::abs(double{rows[i]}));
@@ -60,7 +60,7 @@ void TetRows::gradients(int block, Tets G[3][3]) const {
   G[2][0] = g6, G[2][1] = g7, G[2][2] = g8;
 }
 
-void TetRows::add_stresses(int block, const Tets P[3][3]) {
+void TetRows::add_stresses(int half, int block, const Tets P[3][3]) {
   // Copies, which no write to the sums can change: they stay in registers.
   const Tets p0 = P[0][0], p1 = P[0][1], p2 = P[0][2], p3 = P[1][0], p4 = P[1][1], p5 = P[1][2],
              p6 = P[2][0], p7 = P[2][1], p8 = P[2][2];
@@ -72,7 +72,7 @@ void TetRows::add_stresses(int block, const Tets P[3][3]) {
     return x + (y + z);
   };
   const Tets* row = words(block);
-  Tets* sum = sums_.data();
+  Tets* sum = sums_.data() + static_cast<std::size_t>(half) * 2 * pairs_;
   for (int pair = 0; pair < pairs_; ++pair, row += 9, sum += 2) {
     sum[0] += force([row](int e) { return row[e]; });
     sum[1] += force([row](int e) { return second_numbers(row[e]); });
@@ -80,7 +80,8 @@ void TetRows::add_stresses(int block, const Tets P[3][3]) {
 }
 
 void TetRows::end(double* gradient) const {
-  for (int mode = 0; mode < dimension_; ++mode) gradient[mode] = lane_sum(sums_[mode]);
+  for (int mode = 0; mode < dimension_; ++mode)
+    gradient[mode] = lane_sum(sums_[mode] + sums_[2 * pairs_ + mode]);
 }
 
 TetRows::Tets TetRows::entry(const Tets* words, int mode, int e) {

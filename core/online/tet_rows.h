@@ -8,6 +8,9 @@
 
 namespace snapspace::online {
 
+/// Numbers to read from which an evaluation is worth two threads: about 10 microseconds of one.
+constexpr std::size_t kLeastToShare = std::size_t{1} << 16;
+
 /// Displacement gradients of few tets as linear maps G_e (9 x d) of the reduced coordinates, and
 /// forces back to coordinates. One tet per SIMD lane, a block of kWidth tets at a time.
 ///
@@ -23,6 +26,10 @@ class TetRows {
   /// @param rows  tets x 9 x dimension; entry 3 a + b of the second is d u_a / d x_b
   TetRows(int dimension, int tets, const float* rows);
 
+  /// Numbers that an evaluation reads.
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(blocks()) * kWidth * 9 * pairs_;
+  }
   [[nodiscard]] int dimension() const { return dimension_; }
   [[nodiscard]] int capacity() const { return capacity_; }
   [[nodiscard]] int tets() const { return tets_; }
@@ -37,9 +44,11 @@ class TetRows {
   void begin(const double* q);
   /// Displacement gradients of a block's tets at q.
   void gradients(int block, Tets G[3][3]) const;
-  /// Adds the forces of a block's stresses.
-  void add_stresses(int block, const Tets P[3][3]);
-  /// Writes the sum of all forces (d).
+  /// First block of a half, 0 or 1; that of half 2 is where the blocks end.
+  [[nodiscard]] int half_begin(int half) const { return half * blocks() / 2; }
+  /// Adds the forces of a block's stresses to those of its half.
+  void add_stresses(int half, int block, const Tets P[3][3]);
+  /// Writes the sum of all forces (d): those of both halves.
   void end(double* gradient) const;
 
   /// Adds a block's part G_e^T curvature G_e to the lower triangle of `hessian` (d x d).
@@ -58,7 +67,7 @@ class TetRows {
   std::vector<Tets> words_;          // block, pair of modes, entry of G; an odd last mode is joined
                                      // by zeros
   std::vector<double> coordinates_;  // q, and a zero if d is odd
-  std::vector<Tets> sums_;           // of forces, lane by lane
+  std::vector<Tets> sums_;           // of forces, half by half, lane by lane
 };
 
 /// Writes the matrices (9 x 9) of the first lanes one after the other; returns where they end.
