@@ -134,8 +134,8 @@ void bind_blending(nb::module_& m) {
             new (self) BlendingLoop(
                 live::blending_solver(dimension, static_cast<int>(coefficients.shape(0)),
                                       coefficients.data(), single),
-                "the reduced Hessian at the mean shape is not positive definite; the model is "
-                "damaged or its mean shape is not a minimum");
+                "the reduced Hessian at the mean shape is far from positive definite; the model is "
+                "damaged");
           },
           nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false,
           nb::keep_alive<1, 3>())

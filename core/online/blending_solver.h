@@ -20,11 +20,12 @@ class BlendingSolver final : public Objective {
         equal_(weights_),
         minimizer_(elastic_.dimension(), elastic_.poses(), Elastic::kHessianIsDear) {
     elastic_.set_weights(equal_.data());
-    valid_ = minimizer_.prepare(*this, dimension());
+    valid_ = minimizer_.prepare(*this, dimension()) != Start::none;
   }
 
-  /// False if the Hessian at the mean shape, q = 0 at equal weights, is not positive definite: a
-  /// solve has then no matrix to start from.
+  /// False if no multiple of the identity makes the Hessian at the mean shape, q = 0 at equal
+  /// weights, positive definite: a solve has then no matrix to start from. The mean shape of poses
+  /// that are far apart may be a saddle of the reduced energy, which is no error.
   [[nodiscard]] bool valid() const { return valid_; }
 
   [[nodiscard]] int poses() const { return elastic_.poses(); }

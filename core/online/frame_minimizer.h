@@ -15,7 +15,7 @@ class FrameMinimizer {
       : hessian_is_dear_(hessian_is_dear), minimizers_(capacity), drag_(capacity, inputs) {}
 
   /// As Minimizers::prepare; a new drag begins.
-  bool prepare(Objective& objective, int d) {
+  Start prepare(Objective& objective, int d) {
     d_ = d;
     drag_.clear();
     return minimizers_.prepare(objective, d);

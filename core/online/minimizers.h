@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -10,6 +11,10 @@
 #include "online/spd_inverse.h"
 
 namespace snapspace::online {
+
+/// What a solve starts from: the Hessian at tau as it is, with a multiple of the identity that
+/// makes it positive definite, or nothing, since it is far from that.
+enum class Start { definite, shifted, none };
 
 /// The minimisers of a live solve, and what they know of the objective from the start: its Hessian
 /// at tau, which is q = 0. All memory is taken in the constructor.
@@ -25,15 +30,20 @@ class Minimizers {
         origin_(capacity),
         gradient_(capacity) {}
 
-  /// Takes the Hessian at tau from objective.derivatives in d dimensions. False if it is not
-  /// positive definite: there is then nothing to start from.
-  bool prepare(Objective& objective, int d) {
+  /// Takes the Hessian at tau from objective.derivatives in d dimensions.
+  Start prepare(Objective& objective, int d) {
     d_ = d;
     objective.derivatives(origin_.data(), gradient_.data(), hessian_.data());
-    std::copy_n(hessian_.data(), static_cast<std::size_t>(d) * d, inverse_.data());
-    const bool definite = invert_spd(inverse_.data(), d, scratch_.data());
+    double largest = 0.0;
+    for (int i = 0; i < d; ++i) largest = std::max(largest, std::abs(hessian_[diagonal(i)]));
+    Start start = Start::definite;
+    for (double shift = kFirstShift * largest; !inverted(); shift *= kShiftFactor) {
+      if (!(shift > 0.0 && shift < kLargestShift * largest)) return Start::none;
+      for (int i = 0; i < d; ++i) hessian_[diagonal(i)] += shift;
+      start = Start::shifted;
+    }
     keep(inverse_);
-    return definite;
+    return start;
   }
 
   /// From q (d), in place: Newton, shifted along the Hessian at tau, or BFGS with its inverse as
@@ -60,6 +70,19 @@ class Minimizers {
   }
 
  private:
+  // Of the largest entry of the diagonal. A saddle's negative eigenvalues are far smaller.
+  static constexpr double kFirstShift = 1e-8, kShiftFactor = 4.0, kLargestShift = 0.1;
+
+  [[nodiscard]] std::size_t diagonal(int i) const {
+    return static_cast<std::size_t>(i) * (static_cast<std::size_t>(d_) + 1);
+  }
+
+  /// Sets inverse_ to that of hessian_. False if this is not positive definite.
+  bool inverted() {
+    std::copy_n(hessian_.data(), static_cast<std::size_t>(d_) * d_, inverse_.data());
+    return invert_spd(inverse_.data(), d_, scratch_.data());
+  }
+
   void keep(const std::vector<double>& inverse) {
     std::copy_n(inverse.data(), static_cast<std::size_t>(d_) * d_, last_.data());
   }

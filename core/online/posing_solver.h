@@ -20,7 +20,7 @@ class PosingSolver final : public Objective {
       : elastic_(std::move(elastic)),
         handles_(elastic_.dimension(), handles, K, L, S),
         minimizer_(elastic_.dimension(), elastic_.dimension(), Elastic::kHessianIsDear),
-        valid_(minimizer_.prepare(*this, elastic_.dimension())) {}
+        valid_(minimizer_.prepare(*this, elastic_.dimension()) == Start::definite) {}
 
   /// False if the Hessian at rest is not positive definite: a solve has then no matrix to start
   /// from.

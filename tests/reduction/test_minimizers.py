@@ -248,3 +248,36 @@ def test_coordinates_and_offsets_of_the_wrong_size_are_refused() -> None:
     for shape in ((3, 3, 4), (2, 4, 4), (2, 3, 3)):
         with pytest.raises(ValueError, match=re.escape("offsets must be (handles, 3, 4)")):
             loop.set_offsets(np.zeros(shape))
+
+
+@pytest.mark.parametrize("method", [core.Method.bfgs, core.Method.newton])
+def test_a_mean_shape_that_is_a_saddle_is_left_downhill(method: core.Method) -> None:
+    """Poses far apart: q/10 - q^2 + q^4 + 100 p^2 is concave along q and has its minimum there."""
+    order = [
+        (i, j, k, m)
+        for m in range(3)
+        for k in range(m + 1)
+        for j in range(k + 1)
+        for i in range(j + 1)
+    ]
+    terms = {(0, 0, 0, 1): 0.1, (0, 0, 1, 1): -1.0, (1, 1, 1, 1): 1.0, (0, 0, 2, 2): 100.0}
+    loop = core.BlendingLoop(2, np.array([[terms.get(term, 0.0) for term in order]]))
+    loop.set_weights(np.ones(1))
+    report = loop.solve(
+        method=method,
+        tolerance=1e-12,
+        max_iterations=50,
+        max_evaluations=100,
+        value_scale=1.0,
+        coordinate_scale=1.0,
+    )
+    assert report.status == core.Status.converged
+    lowest = min(np.roots([4.0, 0.0, -2.0, 0.1]).real)
+    assert loop.q == pytest.approx([lowest, 0.0], abs=1e-5)
+
+
+def test_a_mean_shape_without_a_finite_hessian_is_refused() -> None:
+    with pytest.raises(
+        ValueError, match="the reduced Hessian at the mean shape is far from positive"
+    ):
+        core.BlendingLoop(1, np.array([[0.0, 0.1, math.nan, 0.0, 1.0]]))
