@@ -16,8 +16,8 @@ FloatArray = NDArray[np.float64]
 
 #: Growth of the samples that train, from stage to stage.
 MORE_SAMPLES = 1.5
-#: The most samples by default: 640, but on large meshes 160.
-MOST_SAMPLES, FEWER_SAMPLES = 640, 160
+#: The most samples of large meshes by default.
+FEWER_SAMPLES = 160
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,8 +35,9 @@ class Plan:
     most_dimensions : so that a frame of a drag takes up to a millisecond
     impression, impression_dimension : loosely solved samples of a first impression, see
         `growing_models`, and the dimension of its model
-    most_vertices : of all samples together, where that is less than 640 and more than 160 samples:
-        half a minute on two cores
+    most_samples : of small meshes, by default
+    most_vertices : of all samples together, where that is less than `most_samples` and more than
+        160 samples: half a minute on two cores
     looser_if_large : factor of the tolerance of samples of bodies that get 160 of them, `is_large`
     """
 
@@ -51,6 +52,7 @@ class Plan:
     most_dimensions: int
     impression: int
     impression_dimension: int
+    most_samples: int
     most_vertices: int
     looser_if_large: float
 
@@ -85,6 +87,7 @@ BLENDS = Plan(
     most_dimensions=200,
     impression=0,
     impression_dimension=0,
+    most_samples=640,
     most_vertices=2_000_000,
     looser_if_large=1.0,
 )
@@ -98,9 +101,10 @@ MOTIONS = Plan(
     first=80,
     held_out=16,
     first_ratio=4.0,
-    most_dimensions=200,
+    most_dimensions=256,
     impression=36,
     impression_dimension=28,
+    most_samples=1280,
     most_vertices=6_000_000,
     looser_if_large=10.0,
 )
@@ -124,6 +128,7 @@ def is_large(problem: PosingProblem | InterpolationProblem) -> bool:
 
 
 def usual_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
-    """The most samples by default: 640, on large meshes fewer, but 160 at least."""
-    fitting = plan_of(problem).most_vertices // len(problem.mesh.vertices)
-    return min(MOST_SAMPLES, max(FEWER_SAMPLES, fitting))
+    """The most samples by default: fewer on larger meshes, but 160 at least."""
+    plan = plan_of(problem)
+    fitting = plan.most_vertices // len(problem.mesh.vertices)
+    return min(plan.most_samples, max(FEWER_SAMPLES, fitting))

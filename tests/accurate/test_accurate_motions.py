@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from snapspace import PosingProblem, StableNeoHookean, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
+from snapspace.accurate.plan import FEWER_SAMPLES, MOTIONS
 from snapspace.accurate.solving import Solving
 
 from ..snapshots.creatures import posing_creature
@@ -65,8 +68,16 @@ def test_it_is_the_same_on_any_number_of_threads(
     np.testing.assert_array_equal(again.model.subspace.basis, usual.model.subspace.basis)
 
 
-def test_large_meshes_have_fewer_samples_by_default(problem: PosingProblem) -> None:
-    assert usual_most_samples(problem) == 640
+def test_large_meshes_have_fewer_samples_by_default(
+    problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert usual_most_samples(problem) == MOTIONS.most_samples
+    monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", replace(MOTIONS, most_vertices=100_000))
+    allowed = 100_000 // len(problem.mesh.vertices)
+    assert FEWER_SAMPLES < allowed < MOTIONS.most_samples
+    assert usual_most_samples(problem) == allowed
+    monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", replace(MOTIONS, most_vertices=1))
+    assert usual_most_samples(problem) == FEWER_SAMPLES
 
 
 def test_samples_of_large_bodies_are_looser_and_those_that_judge_are_not(
