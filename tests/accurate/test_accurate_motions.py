@@ -72,12 +72,13 @@ def test_large_meshes_have_fewer_samples_by_default(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert usual_most_samples(problem) == MOTIONS.most_samples
-    monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", replace(MOTIONS, most_vertices=100_000))
-    allowed = 100_000 // len(problem.mesh.vertices)
-    assert FEWER_SAMPLES < allowed < MOTIONS.most_samples
-    assert usual_most_samples(problem) == allowed
-    monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", replace(MOTIONS, most_vertices=1))
-    assert usual_most_samples(problem) == FEWER_SAMPLES
+    for most_vertices, allowed in (
+        (400 * len(problem.mesh.vertices), 400),
+        (FEWER_SAMPLES, FEWER_SAMPLES),
+    ):
+        fewer = replace(MOTIONS, most_vertices=most_vertices)
+        monkeypatch.setattr("snapspace.accurate.plan.MOTIONS", fewer)
+        assert usual_most_samples(problem) == allowed
 
 
 def test_samples_of_large_bodies_are_looser_and_those_that_judge_are_not(
