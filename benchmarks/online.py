@@ -188,7 +188,7 @@ def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         small,
         problem=large_problem,
         subspace=ss.AffineSubspace(
-            large_problem.tau, basis, large_problem.mass(), subspace.eigenvalues
+            large_problem.tau, basis, large_problem.mass(), subspace.snapshot_energies
         ),
     )
     sessions = [small.session(), large.session()]

@@ -26,7 +26,7 @@ _DIMENSIONS = (1, 2, 5, 10, 20, 30, 40, 60, 80, 100, 150, 200, 300)
 def model_info(file: Path) -> Info:
     """JSON content and facts of a model file; ValueError if it is not one."""
     model = load(file)
-    subspace, eigenvalues = model.subspace, model.subspace.eigenvalues
+    subspace, energies = model.subspace, model.subspace.snapshot_energies
     if isinstance(model, PosingModel):
         figures_of_problem = problem_figures(model.problem)
         facts_of_problem = problem_facts(figures_of_problem)
@@ -42,14 +42,14 @@ def model_info(file: Path) -> Info:
         "energy": energy_text(model),
         "energy_fraction": subspace.energy_fraction,
         "lumped_mass": subspace.lumped,
-        "eigenvalues": None if eigenvalues is None else eigenvalues.tolist(),
+        "snapshot_energies": None if energies is None else energies.tolist(),
         **figures_of_problem,
         "mesh": mesh_figures(model.problem.mesh),
         "provenance": model.provenance,
     }
     facts = [
         ("dimension", f"{model.dimension}, from {figures['samples']} snapshots"),
-        ("not captured", _decay(eigenvalues, model.dimension)),
+        ("not captured", _decay(energies, model.dimension)),
         ("energy", figures["energy"]),
         ("file", in_bytes(figures["bytes"])),
         *facts_of_problem,
@@ -68,11 +68,11 @@ def energy_text(model: ReducedModel) -> str:
     return "exact quartic"
 
 
-def _decay(eigenvalues: NDArray[np.float64] | None, dimension: int) -> str:
+def _decay(energies: NDArray[np.float64] | None, dimension: int) -> str:
     """The snapshots' relative error beyond d modes: the root of the share of their energy."""
-    if eigenvalues is None:
+    if energies is None:
         return "not known: the basis is not from snapshots"
-    tails = np.cumsum(eigenvalues[::-1])[::-1] / eigenvalues.sum()
+    tails = np.cumsum(energies[::-1])[::-1] / energies.sum()
     shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
     errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)
     return ", ".join(f"{in_percent(error)} at d = {d}" for d, error in errors)

@@ -9,7 +9,7 @@ import numpy as np
 from ..problem import InterpolationProblem, Poses
 from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics, coefficient_count
 from ..subspace import AffineSubspace
-from . import basis, eigenvalues, shown_surface
+from . import basis, shown_surface, snapshot_energies
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -36,7 +36,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
         "mean_shape": model.subspace.tau,
         **shown_surface.surface_arrays(model.surface),
         "basis": basis.stored_basis(model.subspace),
-        **eigenvalues.eigenvalue_arrays(model.subspace),
+        **snapshot_energies.energy_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
         **_blend_arrays(model.blends),
         "training_parameters": model.training_parameters,

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
-from . import eigenvalues, error_estimator, interpolation, material, posing, shown_surface
+from . import error_estimator, interpolation, material, posing, shown_surface, snapshot_energies
 from .container import check_dtypes, checksum, read_container, write_container
 
 FORMAT = "snapspace-model"
@@ -87,7 +87,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: a model of kind '{kind}', this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    for part in (error_estimator, shown_surface, material, eigenvalues):
+    for part in (error_estimator, shown_surface, material, snapshot_energies):
         check_dtypes(path, arrays, part.dtypes(arrays))
     check_dtypes(path, arrays, _DTYPES[kind])
     if header.get("checksum") != checksum(arrays, header):

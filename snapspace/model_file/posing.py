@@ -10,7 +10,7 @@ from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
 from ..subspace import AffineSubspace
-from . import basis, eigenvalues, shown_surface
+from . import basis, shown_surface, snapshot_energies
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -45,7 +45,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "handle_vertices": problem.pinned,
         "handle_sizes": np.array(sizes, np.int32),
         "basis": basis.stored_basis(model.subspace),
-        **eigenvalues.eigenvalue_arrays(model.subspace),
+        **snapshot_energies.energy_arrays(model.subspace),
         **material_file.material_arrays(problem.material),
         **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,

@@ -23,14 +23,16 @@ class AffineSubspace:
     tau : (3n,) reference shape, x0 y0 z0 x1 ...
     basis : (3n, d) U, with M-orthonormal columns; those of a PCA are sorted, best first
     mass : (n, n) scalar mass matrix M of the reference shape
-    eigenvalues : (k,) of the snapshots' Gram matrix, descending; those beyond d are the squared
-    error on the snapshots. None for a basis that is not from snapshots
+    snapshot_energies : (k,) squared M-norms of all snapshots together along each column, and what
+    they have beyond the last one: for every d, those beyond d are the squared error of the first d
+    columns. Those of a PCA in M are eigenvalues of the Gram matrix. None for a basis that is not
+    from snapshots
     """
 
     tau: FloatArray
     basis: FloatArray
     mass: csr_array
-    eigenvalues: FloatArray | None = None
+    snapshot_energies: FloatArray | None = None
 
     @property
     def dimension(self) -> int:
@@ -48,15 +50,15 @@ class AffineSubspace:
 
         None for a basis that is not from snapshots.
         """
-        if self.eigenvalues is None:
+        if self.snapshot_energies is None:
             return None
-        return float(self.eigenvalues[: self.dimension].sum() / self.eigenvalues.sum())
+        return float(self.snapshot_energies[: self.dimension].sum() / self.snapshot_energies.sum())
 
     def leading(self, dimension: int) -> AffineSubspace:
-        """The first columns; of a PCA the best subspace of that dimension for its snapshots."""
+        """The first columns; of a PCA the best subspace of that dimension in its norm."""
         check_dimension(dimension, self.dimension)
         basis = np.asfortranarray(self.basis[:, :dimension])
-        return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
+        return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
 
     def in_single_precision(self) -> AffineSubspace:
         """The same with the basis rounded to single precision, which files then hold without loss.
@@ -65,7 +67,7 @@ class AffineSubspace:
         displacements.
         """
         basis = self.basis.astype(np.float32).astype(np.float64)
-        return AffineSubspace(self.tau, basis, self.mass, self.eigenvalues)
+        return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
 
     @single_threaded_blas
     def coordinates(self, shapes: ArrayLike) -> FloatArray:

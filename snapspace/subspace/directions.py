@@ -48,7 +48,7 @@ def affine_subspace(
     Returns
     -------
     AffineSubspace
-        With k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no eigenvalues.
+        With k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no energies.
 
     Raises
     ------

@@ -32,7 +32,7 @@ def test_a_model(run: Run, model: Path) -> None:
     assert figures["kind"] == "model"
     assert figures["bytes"] == model.stat().st_size
     assert (figures["dimension"], figures["samples"], figures["parameters"]) == (10, 24, 6)
-    assert figures["eigenvalues"] == loaded.subspace.eigenvalues.tolist()
+    assert figures["snapshot_energies"] == loaded.subspace.snapshot_energies.tolist()
     assert figures["energy_fraction"] == loaded.subspace.energy_fraction
     assert [handle["name"] for handle in figures["handles"]] == ["left", "right"]
     assert [handle["moves"] for handle in figures["handles"]] == [False, True]

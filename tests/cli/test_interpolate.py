@@ -158,7 +158,7 @@ def test_frames_and_units_of_the_poses_do_not_matter(
     first, second = loaded(plain), loaded(other)
     np.testing.assert_allclose(second.problem.tau, first.problem.tau, rtol=0, atol=1e-6)
     np.testing.assert_allclose(
-        second.subspace.eigenvalues, first.subspace.eigenvalues, rtol=1e-4, atol=1e-9
+        second.subspace.snapshot_energies, first.subspace.snapshot_energies, rtol=1e-4, atol=1e-9
     )
     shapes = []
     for model in (first, second):

@@ -59,7 +59,7 @@ def assert_same_model(a: InterpolationModel, b: InterpolationModel) -> None:
     np.testing.assert_array_equal(a.problem.poses.shapes, b.problem.poses.shapes)
     np.testing.assert_array_equal(a.problem.poses.tets, b.problem.poses.tets)
     np.testing.assert_array_equal(a.problem.pose_shapes, b.problem.pose_shapes)
-    for attribute in ("tau", "basis", "eigenvalues"):
+    for attribute in ("tau", "basis", "snapshot_energies"):
         np.testing.assert_array_equal(
             getattr(a.subspace, attribute), getattr(b.subspace, attribute)
         )

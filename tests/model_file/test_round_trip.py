@@ -41,7 +41,7 @@ def assert_same_model(a: ReducedModel, b: ReducedModel) -> None:
     assert a.problem.material == b.problem.material
     assert a.problem.stiffness == b.problem.stiffness
     np.testing.assert_array_equal(a.problem.domain.half_widths, b.problem.domain.half_widths)
-    for attribute in ("tau", "basis", "eigenvalues"):
+    for attribute in ("tau", "basis", "snapshot_energies"):
         np.testing.assert_array_equal(
             getattr(a.subspace, attribute), getattr(b.subspace, attribute)
         )
@@ -113,7 +113,7 @@ def test_a_basis_that_is_not_from_snapshots_survives(tmp_path: Path) -> None:
     directions = np.random.default_rng(0).normal(size=(problem.tau.size, 3))
     made = reduce(problem, affine_subspace(directions, problem), threads=1)
     again = load(made.save(tmp_path / "m.snapspace"))
-    assert again.subspace.eigenvalues is None
+    assert again.subspace.snapshot_energies is None
     np.testing.assert_array_equal(again.subspace.basis, made.subspace.basis)
 
 

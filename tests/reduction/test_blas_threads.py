@@ -32,7 +32,7 @@ def test_blas_threads_do_not_change_a_bit(snapshots: ss.Snapshots) -> None:
     one, two = model_of(snapshots, 1), model_of(snapshots, 2)
     for name, a, b in (
         ("basis", one.subspace.basis, two.subspace.basis),
-        ("eigenvalues", one.subspace.eigenvalues, two.subspace.eigenvalues),
+        ("energies", one.subspace.snapshot_energies, two.subspace.snapshot_energies),
         ("quartic", one.elastic.coefficients, two.elastic.coefficients),
         ("K", one.handles.K, two.handles.K),
         ("L", one.handles.L, two.handles.L),

@@ -38,7 +38,7 @@ def test_the_basis_is_orthonormal_and_spans_the_directions() -> None:
     for k in range(7):
         assert left(given[:, [k]], subspace.basis) < 1e-12
     np.testing.assert_array_equal(subspace.tau, PROBLEM.tau)
-    assert subspace.eigenvalues is None
+    assert subspace.snapshot_energies is None
     assert subspace.energy_fraction is None
     assert subspace.leading(3).dimension == 3
 

@@ -50,7 +50,7 @@ def test_by_hand() -> None:
     e1, e2 = np.eye(12)[[0, 7]]
     shapes = tau[:, None] + np.column_stack([3 * e1, -4 * e1, 2 * e2])
     subspace = pca(shapes, tau, csr_array(identity(4)), dimension=2)
-    np.testing.assert_allclose(subspace.eigenvalues, [25.0, 4.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(subspace.snapshot_energies, [25.0, 4.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(subspace.basis, np.column_stack([e1, e2]), atol=1e-12)
     coordinates = subspace.coordinates(shapes)
     np.testing.assert_allclose(coordinates, [[3, -4, 0], [0, 0, 2]], atol=1e-12)
@@ -66,7 +66,7 @@ def test_orthonormal_over_six_decades(mass: csr_array) -> None:
     gram = mass_gram(mass, subspace.basis, subspace.basis)
     np.testing.assert_allclose(gram, np.eye(7), rtol=0, atol=1e-12)
     # and every direction of the plan is in the space, the faintest too
-    assert squared_error(shapes, subspace.basis, mass) < 1e-20 * subspace.eigenvalues[0]
+    assert squared_error(shapes, subspace.basis, mass) < 1e-20 * subspace.snapshot_energies[0]
 
 
 @pytest.mark.parametrize("mass", MASSES.values(), ids=MASSES)
@@ -76,12 +76,12 @@ def test_error_is_the_sum_of_the_discarded_eigenvalues(mass: csr_array, dimensio
     subspace = pca(shapes, TAU, mass, dimension=dimension)
     np.testing.assert_allclose(
         squared_error(shapes, subspace.basis, mass),
-        subspace.eigenvalues[dimension:].sum(),
+        subspace.snapshot_energies[dimension:].sum(),
         rtol=1e-6,
-        atol=1e-13 * subspace.eigenvalues[0],
+        atol=1e-13 * subspace.snapshot_energies[0],
     )
     total = (mass_norms(mass, shapes - TAU[:, None]) ** 2).sum()
-    assert subspace.eigenvalues.sum() == pytest.approx(total, rel=1e-12)
+    assert subspace.snapshot_energies.sum() == pytest.approx(total, rel=1e-12)
     kept = 1.0 - squared_error(shapes, subspace.basis, mass) / total
     assert subspace.energy_fraction == pytest.approx(kept, abs=1e-12)
 
@@ -91,9 +91,9 @@ def test_the_planted_space_is_found_and_nothing_more() -> None:
     shapes = planted(np.array([3.0, 1.0, 0.2]), 15, seed=4)
     subspace = pca(shapes, TAU, mass, energy_fraction=1.0)
     assert subspace.dimension == 3
-    assert squared_error(shapes, subspace.basis, mass) < 1e-24 * subspace.eigenvalues[0]
+    assert squared_error(shapes, subspace.basis, mass) < 1e-24 * subspace.snapshot_energies[0]
     unseen = planted(np.array([3.0, 1.0, 0.2]), 40, seed=4)  # the same space, other weights
-    assert squared_error(unseen, subspace.basis, mass) < 1e-22 * subspace.eigenvalues[0]
+    assert squared_error(unseen, subspace.basis, mass) < 1e-22 * subspace.snapshot_energies[0]
     with pytest.raises(
         ValueError, match=r"pca: dimension 4 exceeds the 3 independent directions of 15 usable"
     ):
@@ -121,16 +121,18 @@ def test_for_any_snapshots(seed: int, count: int, dimension: int) -> None:
     rng = np.random.default_rng(seed)
     shapes = planted(rng.uniform(0.1, 1.0, 5), count, seed=seed)
     subspace = pca(shapes, TAU, mass, dimension=dimension)
-    scale = subspace.eigenvalues[0]
+    scale = subspace.snapshot_energies[0]
     gram = mass_gram(mass, subspace.basis, subspace.basis)
     np.testing.assert_allclose(gram, np.eye(dimension), rtol=0, atol=1e-12)
     assert squared_error(shapes, subspace.basis, mass) == pytest.approx(
-        subspace.eigenvalues[dimension:].sum(), rel=1e-9, abs=1e-12 * scale
+        subspace.snapshot_energies[dimension:].sum(), rel=1e-9, abs=1e-12 * scale
     )
 
     shuffled = pca(shapes[:, rng.permutation(count)], TAU, mass, dimension=dimension)
-    np.testing.assert_allclose(shuffled.eigenvalues, subspace.eigenvalues, atol=1e-13 * scale)
-    gap = subspace.eigenvalues[dimension - 1] - subspace.eigenvalues[dimension]
+    np.testing.assert_allclose(
+        shuffled.snapshot_energies, subspace.snapshot_energies, atol=1e-13 * scale
+    )
+    gap = subspace.snapshot_energies[dimension - 1] - subspace.snapshot_energies[dimension]
     assert angles(subspace.basis, shuffled.basis, mass).max() < 1e-7 + 1e-12 * scale / gap
 
     carried = shapes + 5.0
@@ -207,7 +209,7 @@ def test_the_same_call_gives_the_same_bits() -> None:
     shapes = planted(np.array([2.0, 1.0, 0.5]), 9)
     one, two = (pca(shapes, TAU, mass, dimension=3) for _ in range(2))
     np.testing.assert_array_equal(one.basis, two.basis)
-    np.testing.assert_array_equal(one.eigenvalues, two.eigenvalues)
+    np.testing.assert_array_equal(one.snapshot_energies, two.snapshot_energies)
 
 
 SHAPES = planted(np.array([2.0, 1.0, 0.5]), 5)

@@ -1,0 +1,31 @@
+"""handle_products: inner products of displacements in the mass of the handles alone."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..blas import single_threaded_blas
+from ..displacements import DisplacementRows
+from ..problem import PosingProblem
+
+FloatArray = NDArray[np.float64]
+
+
+@single_threaded_blas
+def handle_products(problem: PosingProblem, displacements: DisplacementRows) -> FloatArray:
+    """Products d_i^T M_h d_j of displacements (k, 3n): (k, k).
+
+    M_h is the lumped mass of the vertices of handles, and zero elsewhere. One block of columns is
+    in memory at a time.
+    """
+    lumped = np.zeros_like(problem.mesh.vertex_masses)
+    lumped[problem.pinned] = problem.mesh.vertex_masses[problem.pinned]
+    roots = np.repeat(np.sqrt(lumped), 3)
+    products = np.zeros((len(displacements), len(displacements)))
+    for columns, block in displacements.blocks():
+        inside = np.flatnonzero(roots[columns])
+        if len(inside):
+            part = block[:, inside] * roots[columns][inside]
+            products += part @ part.T
+    return products
