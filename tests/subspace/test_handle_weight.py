@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.linalg import subspace_angles
@@ -75,7 +77,7 @@ def test_errors_of_reduced_solutions_fall_with_the_dimension() -> None:
         ]
 
     heavy, plain = medians(1000.0), medians(0.0)
-    assert all(later < earlier for earlier, later in zip(heavy, heavy[1:], strict=False))
+    assert all(later < earlier for earlier, later in pairwise(heavy))
     assert heavy[1] < 0.75 * plain[1], "at d = 10"
     assert heavy[-1] < 1.15 * plain[-1], "at d = 40 nothing is lost"
 
