@@ -51,8 +51,8 @@ def snapshot_pca(
     ----------
     snapshots : Snapshots
     dimension, energy_fraction : int, float in (0, 1]
-        Give one: d, or the smallest d at which the best subspace in M holds that fraction of the
-        snapshots' squared M-norm.
+        Give one: d, or the smallest d at which the subspace holds that fraction of the snapshots'
+        squared M-norm.
     lumped : bool, default False
         Diagonal instead of consistent mass matrix.
     include_unconverged : bool, default False
@@ -170,22 +170,23 @@ def _pca(
     """
     eigenvalues, vectors = _descending(gram)
     rank = _rank(eigenvalues, tau, mass)
-    if energy_fraction is not None:
-        held = np.cumsum(eigenvalues[:rank]) / eigenvalues.sum()
-        dimension = min(rank, int(np.searchsorted(held, energy_fraction * (1 - 1e-15))) + 1)
-    assert dimension is not None
-    if dimension > rank:
+    count = rank if dimension is None else dimension
+    if count > rank:
         raise ValueError(
-            f"pca: dimension {dimension} exceeds the {rank} independent directions of "
+            f"pca: dimension {count} exceeds the {rank} independent directions of "
             f"{len(eigenvalues)} usable snapshots; take more samples or a smaller dimension"
         )
-    check_dimension(dimension, rank)
+    check_dimension(count, rank)
     if heavy is None:
-        energies, weights = eigenvalues, _scaled(eigenvalues, vectors, dimension)
+        energies, weights = eigenvalues, _scaled(eigenvalues, vectors, count)
     else:
-        weights = _orthonormal(_scaled(*_descending(heavy), dimension), gram)
-        held = ((weights @ gram) ** 2).sum(axis=1)
-        energies = np.append(held, max(0.0, gram.trace() - held.sum()))
+        weights = _orthonormal(_scaled(*_descending(heavy), count), gram)
+        along = ((weights @ gram) ** 2).sum(axis=1)
+        energies = np.append(along, max(0.0, gram.trace() - along.sum()))
+    if energy_fraction is not None:
+        held = np.cumsum(energies[:count]) / energies.sum()
+        enough = int(np.searchsorted(held, energy_fraction * (1 - 1e-15))) + 1
+        weights = weights[: min(rank, enough)]
     directions = displacements.combined(weights)
     orthonormalise(directions, mass)
     for direction in directions:
