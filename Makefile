@@ -29,6 +29,7 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/python tools/check_readme_types.py
 	$(BIN)/python tools/build_page.py --check
 	$(BIN)/clang-format --dry-run --Werror $$(find core web/engine -name '*.h' -o -name '*.cpp')
 

@@ -14,6 +14,6 @@ problem = ss.PosingProblem(mesh, handles, domain=domain)
 model = ss.accurate_model(problem).model  # 0.3 % off, on motions that it was not made of
 model.save("creature.snapspace")
 
-session = ss.load("creature.snapspace").session()
+session = ss.load_posing("creature.snapspace").session()
 report = session.move("head", euler=(0, 0, 0.6), translation=(0, 0.1, 0.1))
 ss.write_surface("creature.obj", session.vertices, mesh.surface)

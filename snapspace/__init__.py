@@ -3,6 +3,7 @@
 from importlib.metadata import version as _version
 
 from .accurate import AccurateModel, Growth, accurate_model, growing_models
+from .animation import write_animation
 from .calibration import calibrated
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
@@ -34,7 +35,7 @@ from .mesh import (
     write_surface,
     write_tets,
 )
-from .model_file import load, save_model
+from .model_file import load, load_blending, load_posing, save_model
 from .page import export_html
 from .problem import (
     CertainRange,
@@ -159,6 +160,8 @@ __all__ = [
     "in_box",
     "in_sphere",
     "load",
+    "load_blending",
+    "load_posing",
     "load_snapshots",
     "mass_matrix",
     "matched_scales",
@@ -180,6 +183,7 @@ __all__ = [
     "split_errors",
     "stuff_surface",
     "validate",
+    "write_animation",
     "write_surface",
     "write_tets",
 ]

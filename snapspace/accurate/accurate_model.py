@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import PosingModel
+from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
 from .model_search import Aim, Model, ModelSearch, Tell
 from .solving import Solving
 from .step import Step
 
+ModelOf = TypeVar("ModelOf", bound=Model)
+
 
 @dataclass(frozen=True)
-class AccurateModel:
+class AccurateModel(Generic[ModelOf]):
     """A model of motions or blends, and how it came about.
 
     model : the first that met the target, or else that with the least error
@@ -29,7 +32,7 @@ class AccurateModel:
     target : the error that was asked for
     """
 
-    model: Model
+    model: ModelOf
     snapshots: Snapshots
     held_out: NDArray[np.bool_]
     steps: tuple[Step, ...]
@@ -42,6 +45,41 @@ class AccurateModel:
         return self.step.error <= self.target
 
 
+@overload
+def accurate_model(
+    problem: PosingProblem,
+    *,
+    target_error: float | None = None,
+    most_samples: int | None = None,
+    budget: float | None = None,
+    seed: int = 0,
+    options: SolverOptions | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    checkpoint: Checkpoint | None = None,
+    executor: Executor | None = None,
+    start: PosingModel | None = None,
+    surface: EmbeddedSurface | None = None,
+    tell: Tell | None = None,
+) -> AccurateModel[PosingModel]: ...
+@overload
+def accurate_model(
+    problem: InterpolationProblem,
+    *,
+    target_error: float | None = None,
+    most_samples: int | None = None,
+    budget: float | None = None,
+    seed: int = 0,
+    options: SolverOptions | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    checkpoint: Checkpoint | None = None,
+    executor: Executor | None = None,
+    start: None = None,
+    surface: EmbeddedSurface | None = None,
+    tell: Tell | None = None,
+) -> AccurateModel[InterpolationModel]: ...
+@overload
 def accurate_model(
     problem: PosingProblem | InterpolationProblem,
     *,
@@ -57,7 +95,23 @@ def accurate_model(
     start: PosingModel | None = None,
     surface: EmbeddedSurface | None = None,
     tell: Tell | None = None,
-) -> AccurateModel:
+) -> AccurateModel[Any]: ...
+def accurate_model(
+    problem: PosingProblem | InterpolationProblem,
+    *,
+    target_error: float | None = None,
+    most_samples: int | None = None,
+    budget: float | None = None,
+    seed: int = 0,
+    options: SolverOptions | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    checkpoint: Checkpoint | None = None,
+    executor: Executor | None = None,
+    start: PosingModel | None = None,
+    surface: EmbeddedSurface | None = None,
+    tell: Tell | None = None,
+) -> AccurateModel[Any]:
     """Solves samples until the model of some meets a target on the others.
 
     The first stage solves some samples to train on, and a few, more tightly, to judge by. The

@@ -186,7 +186,7 @@ def build_accurate_model(
     return Built(model, built.snapshots, output, seconds, validation)
 
 
-def _tell_outcome(built: AccurateModel, budget: float | None) -> None:
+def _tell_outcome(built: AccurateModel[Any], budget: float | None) -> None:
     if built.reached:
         return
     step = built.step

@@ -10,6 +10,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from ..animation import write_animation
 from ..mesh.input_path import writable_path
 from ..pictures import save_png
 from ..reduction import InterpolationModel
@@ -21,12 +22,18 @@ from .blend_picture import blend_picture
 from .blend_shape import BlendedShape, shape_at, write_blended
 from .console import notice, print_facts, print_json
 from .even_path import PathJump, even_path
-from .files import SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
+from .files import SURFACE_OUTPUTS, TET_OUTPUTS
+from .frames import (
+    check_frames_output,
+    format_option,
+    is_film,
+    notice_old_frames,
+    rate_option,
+)
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
 
 EVEN = ("shape", "weights")
-FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUTPUTS)
 
 
 @click.command(short_help="Blend poses and write the shapes.")
@@ -51,14 +58,10 @@ FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUT
     type=FILE,
     metavar="FILE|DIR",
     help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path a "
-    "folder.",
+    "folder, or a film as .gif or .mp4.",
 )
-@click.option(
-    "--format",
-    "kind",
-    type=click.Choice(FORMATS),
-    help="Of the files in the folder of --path [default: obj].",
-)
+@format_option
+@rate_option
 @click.option(
     "--linear", is_flag=True, help="Also write the straight blend, as NAME-linear, to compare with."
 )
@@ -74,6 +77,7 @@ def blend(
     even: str | None,
     output: Path | None,
     kind: str | None,
+    frames_per_second: float | None,
     linear: bool,
     extrapolate: bool,
     png: Path | None,
@@ -87,6 +91,7 @@ def blend(
     Examples:
       snapspace blend lion.snapspace --weights 0.3,0.7 -o out.obj
       snapspace blend centaur.snapspace --path 60 -o frames/ --linear --png path.png
+      snapspace blend centaur.snapspace --path 90 -o centaur.mp4
 
     With --path the vertex that moves most moves as far from frame to frame, and every pose is a
     frame if there are as many frames as poses. Where the shape jumps however small the step, the
@@ -96,11 +101,17 @@ def blend(
         raise ValueError("give either --weights or --path")
     if kind is not None and frames is None:
         raise ValueError("--format is for --path; the extension of -o tells the format of one file")
+    if frames_per_second is not None and frames is None:
+        raise ValueError("--fps is for a film of --path")
+    if linear and is_film(output):
+        raise ValueError("--linear writes files beside others; give a folder in place of a film")
     if even is not None and frames is None:
         raise ValueError("--even is for --path; --weights has one shape")
     model = load_interpolation(model_file, dimension)
     single = None if weights is None else _weights(model, weights, extrapolate=extrapolate)
-    _check_outputs(output, png, folder=frames is not None)
+    _check_outputs(output, png, path=frames is not None)
+    if frames is not None:
+        check_frames_output(output, kind=kind, frames_per_second=frames_per_second)
     session = model.session()
     jumps: list[PathJump] = []
     if single is not None:
@@ -110,7 +121,12 @@ def blend(
         shapes, jumps = _walked(model, session, frames, even or "shape", linear=linear)
     _check(model, shapes)
     begin = time.perf_counter()
-    written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
+    if output is not None and is_film(output):
+        film = [shape.vertices for shape in shapes]
+        rate = frames_per_second or 30.0
+        written = write_animation(output, model, film, frames_per_second=rate, up=up)
+    else:
+        written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:
         save_png(png, blend_picture(model, shapes, up=up))
         written.append(png)
@@ -149,16 +165,12 @@ def _walked(
     return shapes, path.jumps
 
 
-def _check_outputs(output: Path | None, png: Path | None, *, folder: bool) -> None:
-    """ValueError unless the files can be written: before anything is. Makes the folder."""
+def _check_outputs(output: Path | None, png: Path | None, *, path: bool) -> None:
+    """ValueError unless the files of one shape can be written: before anything is."""
     if png is not None:
         writable_path(png, known=(".png",))
-    if output is None:
-        return
-    if not folder:
+    if output is not None and not path:
         writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
-        return
-    make_folder(output, option="-o")
 
 
 def _write(
@@ -172,24 +184,12 @@ def _write(
     if output is None:
         return []
     if folder:
-        _notice_old_frames(output, len(shapes))
+        notice_old_frames(output, len(shapes))
     written = []
     for number, shape in enumerate(shapes):
         path = output / f"frame-{number:04d}.{kind}" if folder else output
         written += write_blended(model, shape, path)
     return written
-
-
-def _notice_old_frames(folder: Path, frames: int) -> None:
-    """Frames of a longer path would follow those of this one in a film."""
-    old = [path for path in folder.glob("frame-*.*") if _number(path) >= frames]
-    if old:
-        notice(f"notice: {folder} also holds {len(old)} files of a longer path; delete them")
-
-
-def _number(frame: Path) -> int:
-    digits = frame.stem.removesuffix("-linear").removeprefix("frame-")
-    return int(digits) if digits.isdecimal() else -1
 
 
 def _check(model: InterpolationModel, shapes: list[BlendedShape]) -> None:

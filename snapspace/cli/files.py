@@ -1,4 +1,4 @@
-"""Extensions by what they hold; a test keeps them equal to what the mesh room reads and writes."""
+"""Extensions by what they hold; a test keeps them equal to those of the packages."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ TET_INPUTS = (".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg"
 SURFACE_INPUTS = (".obj", ".off", ".ply", ".stl")
 TET_OUTPUTS = (".msh", ".vtu", ".vtk", ".mesh")
 SURFACE_OUTPUTS = (".obj", ".ply", ".off", ".stl")
+FILMS = (".gif", ".mp4")
 
 
 def make_folder(folder: Path, *, option: str) -> None:

@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 
 from ..mesh import write_surface, write_tets
 from ..mesh.input_path import writable_path
-from ..pictures import render, save_png, tint
+from ..pictures import render, save_png
 from ..reduction import PosingModel, ReducedModel
 from .console import notice, print_facts, print_json
 from .files import SURFACE_OUTPUTS, TET_OUTPUTS
+from .frames import check_frames_output, format_option, rate_option
 from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
+from .pose_path import handle_colors, posed_path
 
 
 @click.command(cls=MotionCommand, short_help="Move handles and write the shape.")
@@ -34,8 +36,18 @@ from .options import FILE, json_option, leading_option, up_option, vector_option
     "--output",
     type=FILE,
     metavar="FILE",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh.",
+    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path a "
+    "folder, or a film as .gif or .mp4.",
 )
+@click.option(
+    "--path",
+    "frames",
+    type=click.IntRange(min=2),
+    metavar="N",
+    help="N shapes on the way from rest to the motions, in place of the last one alone.",
+)
+@format_option
+@rate_option
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
 @up_option
 @leading_option
@@ -46,6 +58,9 @@ def pose(
     /,
     model_file: Path,
     output: Path | None,
+    frames: int | None,
+    kind: str | None,
+    frames_per_second: float | None,
     png: Path | None,
     up: str,
     dimension: int | None,
@@ -62,15 +77,35 @@ def pose(
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 --translate 0,0,1 -o out.obj
       snapspace pose hand.snapspace --handle thumb --euler -20,0,0 --handle index --euler 30,0,0 \\
           -o hand.vtu --png hand.png
+      snapspace pose dragon.snapspace --handle head --euler 0,0,30 --path 60 -o nod.mp4
+
+    With --path centroids move straight and handles turn about one axis; the way begins and ends
+    slowly.
     """
     motions = motions_in_order(ctx)
-    _check_outputs(output, png)
+    if frames is None:
+        if kind is not None or frames_per_second is not None:
+            raise ValueError("--format and --fps are for --path")
+        _check_outputs(output, png)
+    else:
+        check_frames_output(output, kind=kind, frames_per_second=frames_per_second)
+        if png is not None:
+            raise ValueError("--png is a picture of one shape; with --path give -o FILE.gif")
     model = load_posing(model_file, dimension)
     problem = model.problem
     parameters, carrier = as_parameters(problem, motions)
     for name in beyond_domain(problem, parameters):
         notice(f"notice: '{name}' moves farther than the samples did; the shape may be poor")
 
+    if frames is not None:
+        path = posed_path(model, motions, frames)
+        files = path.written(
+            output, kind=kind or "obj", frames_per_second=frames_per_second or 30.0, up=up
+        )
+        path.print_report(files)
+        if as_json:
+            print_json({"dimension": model.dimension, **path.as_json(files)})
+        return
     session = model.session()
     begin = time.perf_counter()
     report = session.pose(parameters)
@@ -118,9 +153,7 @@ def _check_outputs(output: Path | None, png: Path | None) -> None:
 
 def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:
     surface = model.surface
-    regions = [surface.following(handle.vertices) for handle in model.problem.handles]
-    colors = tint(len(surface.corners), regions)
-    return render(surface.vertices(vertices), surface.faces, colors=colors, up=up)
+    return render(surface.vertices(vertices), surface.faces, colors=handle_colors(model), up=up)
 
 
 def _print_report(figures: dict[str, Any]) -> None:

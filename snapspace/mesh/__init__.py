@@ -17,10 +17,12 @@ from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
 from .surface import boundary_faces, compact_surface, vertex_normals
 from .tet_mesh import TetMesh
-from .write import write_surface, write_tets
+from .write import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
 
 __all__ = [
+    "SURFACE_OUTPUTS",
     "SURFACE_SUFFIXES",
+    "TET_OUTPUTS",
     "TET_SUFFIXES",
     "EmbeddedSurface",
     "MeshNotice",

@@ -167,3 +167,6 @@ _SURFACE_WRITERS: dict[str, Callable[[Path, FloatArray, IndexArray], None]] = {
     ".off": write_off,
     ".stl": _write_stl,
 }
+
+#: Extensions of `write_tets` and `write_surface`.
+TET_OUTPUTS, SURFACE_OUTPUTS = tuple(_TET_FORMATS), tuple(_SURFACE_WRITERS)

@@ -79,15 +79,17 @@ def render_row(
     strip = round(2.2 * text) if labels is not None else 0
     rows = -(-count // columns)
     sheet = backdrop(columns * width, rows * (height + strip), background)
-    exposures = scene.exposures(
-        size=(width, height),
-        azimuth=azimuth,
-        elevation=elevation,
-        up=up,
-        field_of_view=field_of_view,
-        margin=margin,
-        ground=ground,
-        samples=checked_samples(samples, who="render_row"),
+    exposures = list(
+        scene.exposures(
+            size=(width, height),
+            azimuth=azimuth,
+            elevation=elevation,
+            up=up,
+            field_of_view=field_of_view,
+            margin=margin,
+            ground=ground,
+            samples=checked_samples(samples, who="render_row"),
+        )
     )
     corners = [_corner(i, columns, count, width, height + strip) for i in range(count)]
     for corner, exposure in zip(corners, exposures, strict=True):

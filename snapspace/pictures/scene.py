@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,8 +62,8 @@ class Scene:
         margin: float,
         ground: bool,
         samples: int,
-    ) -> list[Exposure]:
-        """Each shape with the same camera, light and ground level."""
+    ) -> Iterator[Exposure]:
+        """Each shape with the same camera, light and ground level, one after the other."""
         points = np.concatenate(self.shapes)
         camera = Camera.framing(
             points,
@@ -79,15 +79,6 @@ class Scene:
         level = float((points @ horizontal_axes(up)[2]).min())
         # The ground covers about three times the frame: nodes every ten pixels or so.
         nodes = int(np.clip(max(size) * 0.27, 48, 480))
-        return [
-            expose(
-                shape,
-                self.faces,
-                albedo,
-                camera,
-                light,
-                Ground.below(shape, up=up, level=level, nodes=nodes) if ground else None,
-                samples=samples,
-            )
-            for shape, albedo in zip(self.shapes, self.albedo, strict=True)
-        ]
+        for shape, albedo in zip(self.shapes, self.albedo, strict=True):
+            below = Ground.below(shape, up=up, level=level, nodes=nodes) if ground else None
+            yield expose(shape, self.faces, albedo, camera, light, below, samples=samples)

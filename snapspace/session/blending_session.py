@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
 from .session import Session
+from .trajectory import between_rows, checked_way
 
 FloatArray = NDArray[np.float64]
 
@@ -80,6 +82,37 @@ class BlendingSession(Session[InterpolationModel]):
             self._set_weights(before)
             self._loop.q = shape
         return report
+
+    def animate(
+        self, keys: Sequence[ArrayLike], *, frames: int = 60, easing: str = "smooth"
+    ) -> Iterator[FrameReport]:
+        """Blends from the present weights through keys, frame by frame.
+
+        `vertices` is the shape of each frame; `write_animation` writes them as files, GIF or MP4.
+
+        Parameters
+        ----------
+        keys : sequence of weights (poses,), as for `blend`
+        frames : int, default 60
+            The first has the present weights, and the last is the last key.
+        easing : "smooth" or "linear", default "smooth"
+            Whether each leg begins and ends slowly.
+
+        Yields
+        ------
+        FrameReport
+            Of each frame, once it is solved.
+
+        Raises
+        ------
+        ValueError
+            As for `blend`, for no keys, fewer than two frames or an unknown easing; the shape stays
+            as it was.
+        """
+        weights = [self.model.problem.weights(key) for key in keys]
+        states = np.array([self._weights, *weights])
+        ways = between_rows(states, *checked_way(frames, len(states), easing))
+        return (self.blend(w, extrapolate=True) for w in ways)
 
     def put(self, weights: ArrayLike, q: ArrayLike) -> None:
         """Takes a frame that was solved elsewhere, as in the page; nothing is solved.

@@ -2,21 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..problem import affine_offset
 from .finite_input import finite
+from .given_rotation import Turn, given_rotation, is_rotation
 
 FloatArray = NDArray[np.float64]
+#: A turn about the centroid, and a translation.
+Motion: TypeAlias = tuple[Turn, ArrayLike]
 
 
 def world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
     """The (3, 4) map of world positions that an offset [A - I | t] about a center stands for."""
     linear = offset[:, :3] + np.eye(3)
     return np.column_stack([linear, center + offset[:, 3] - linear @ center])
+
+
+def wanted_maps(
+    motions: Mapping[str, Motion], center: Callable[[str], FloatArray], *, who: str
+) -> dict[str, FloatArray]:
+    """Maps (3, 4) by handle, of turns about their centers and translations.
+
+    ValueError, which names the handle, for a turn or a translation that is none; `center` refuses
+    unknown handles.
+    """
+    maps = {}
+    for handle, (turn, translation) in motions.items():
+        about = center(handle)
+        linear = given_rotation(turn, f"{who}: euler of '{handle}'")
+        shift = finite(translation, (3,), f"{who}: translation of '{handle}'")
+        maps[handle] = world_map(np.column_stack([linear - np.eye(3), shift]), about)
+    return maps
 
 
 def given_maps(
@@ -32,7 +53,7 @@ def given_maps(
     for name, center, (rotation, translation) in zip(names, centers, motions, strict=True):
         turn = finite(rotation, (3, 3), f"put: the rotation of '{name}'")
         shift = finite(translation, (3,), f"put: the translation of '{name}'")
-        if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-6) or np.linalg.det(turn) < 0:
+        if not is_rotation(turn, to=1e-6):
             raise ValueError(f"put: the matrix of '{name}' is no rotation")
         maps[name] = world_map(np.column_stack([turn - np.eye(3), shift]), center)
     return maps

@@ -10,18 +10,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..certificate import PosingProbe, ResidualSample
-from ..problem import rigid_offset
 from ..reduction import PosingModel
 from .display_shapes import Vertices
 from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
-from .handle_maps import given_maps, relative_offsets, world_map
+from .given_rotation import Turn, is_rotation
+from .handle_maps import Motion, given_maps, relative_offsets, wanted_maps, world_map
 from .motion_space import MotionSpace
 from .posing_loop import posing_loop
 from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
+from .trajectory import between_maps, checked_way
 
 FloatArray = NDArray[np.float64]
 
@@ -61,7 +62,8 @@ class PosingSession(Session[PosingModel]):
         self,
         handle: str,
         *,
-        euler: ArrayLike = (0.0, 0.0, 0.0),
+        euler: ArrayLike | None = None,
+        rotation: Turn | None = None,
         translation: ArrayLike = (0.0, 0.0, 0.0),
     ) -> FrameReport:
         """Puts a handle at a rigid motion from rest about its centroid, and solves.
@@ -73,31 +75,80 @@ class PosingSession(Session[PosingModel]):
         Parameters
         ----------
         handle : str
-        euler : three angles in radians, extrinsic x, y, z
+        euler : three angles in radians, extrinsic x, y, z; default none
+        rotation : instead of `euler`
+            A matrix (3, 3), a quaternion (x, y, z, w) of any length, or SciPy's `Rotation`.
         translation : three lengths
 
         Raises
         ------
         ValueError
-            For an unknown handle, or values that are not three finite numbers: the message names
-            handle and entry, handles and shape stay as they were. They also do if the motion is so
-            large that the energy overflows; the report's status is then not_finite.
+            For an unknown handle, `euler` and `rotation` together, a matrix that is no rotation, or
+            values that are not finite or not as many: the message names handle and entry, handles
+            and shape stay as they were. They also do if the motion is so large that the energy
+            overflows; the report's status is then not_finite.
         """
-        return self.move_all({handle: (euler, translation)})
+        if rotation is not None and euler is not None:
+            raise ValueError(f"move: '{handle}' has both euler and rotation; give one of them")
+        turn = euler if rotation is None else rotation
+        return self.move_all({handle: ((0.0, 0.0, 0.0) if turn is None else turn, translation)})
 
-    def move_all(self, motions: Mapping[str, tuple[ArrayLike, ArrayLike]]) -> FrameReport:
-        """Puts several handles at rigid motions (euler, translation), and solves once.
+    def move_all(self, motions: Mapping[str, Motion]) -> FrameReport:
+        """Puts several handles at rigid motions, and solves once.
 
         As `move`; handles that are not named stay where they are. If one motion is refused, none is
         made.
+
+        Parameters
+        ----------
+        motions : mapping of a handle to (turn, translation)
+            The turn are Euler angles, or a rotation as for `move`.
         """
-        maps = {}
-        for handle, (euler, translation) in motions.items():
-            center = self._center(handle)
-            turn = finite(euler, (3,), f"move: euler of '{handle}'")
-            shift = finite(translation, (3,), f"move: translation of '{handle}'")
-            maps[handle] = world_map(rigid_offset(turn, shift), center)
-        return self._solve_at(*self._moved(maps))
+        return self._solve_at(*self._moved(self._wanted(motions, who="move")))
+
+    def animate(
+        self, keys: Sequence[Mapping[str, Motion]], *, frames: int = 60, easing: str = "smooth"
+    ) -> Iterator[FrameReport]:
+        """Moves the handles from where they are through keys, frame by frame.
+
+        Centroids move straight, and handles turn at an even rate about one axis. `vertices` is the
+        shape of each frame; `write_animation` writes them as files, GIF or MP4.
+
+        Parameters
+        ----------
+        keys : sequence of mappings as for `move_all`
+            A handle that a key does not name stays where it was at the key before.
+        frames : int, default 60
+            The first is where the handles are now, and the last is the last key.
+        easing : "smooth" or "linear", default "smooth"
+            Whether each leg begins and ends slowly.
+
+        Yields
+        ------
+        FrameReport
+            Of each frame, once it is solved.
+
+        Raises
+        ------
+        ValueError
+            As for `move_all`, for no keys, fewer than two frames or an unknown easing; and where a
+            handle is at an affine map that is not a rigid motion. Nothing is moved then.
+
+        Examples
+        --------
+        >>> nod = session.animate([{"head": ((0, 0.6, 0), (0, 0, 0))}], frames=48)
+        >>> shapes = [session.vertices for _ in nod]
+        """
+        if not all(is_rotation(linear) for linear in self._maps[:, :, :3]):
+            raise ValueError("animate: a handle is at a map that is no rigid motion; reset() first")
+        states = [self._maps]
+        for key in keys:
+            states.append(states[-1].copy())
+            for handle, target in self._wanted(key, who="animate").items():
+                states[-1][self.model.problem.handles.index(handle)] = target
+        centers = self.model.problem.centroids
+        ways = between_maps(np.array(states), centers, *checked_way(frames, len(states), easing))
+        return (self._solve_at(maps, relative_offsets(maps, centers)) for maps in ways)
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:
         """Puts a handle at an affine map (3, 4) of world positions (v, 1), and solves.
@@ -111,8 +162,7 @@ class PosingSession(Session[PosingModel]):
         self._center(handle)
         wanted = finite(matrix, (3, 4), f"move_affine: the matrix of '{handle}'")
         linear = wanted[:, :3]
-        rigid = np.allclose(linear @ linear.T, np.eye(3), atol=1e-9) and np.linalg.det(linear) > 0
-        if self.model.problem.handles.index(handle) == 0 and not rigid:
+        if self.model.problem.handles.index(handle) == 0 and not is_rotation(linear):
             raise ValueError(
                 f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
                 "only"
@@ -195,6 +245,9 @@ class PosingSession(Session[PosingModel]):
 
     def _make_probe(self, sample: ResidualSample) -> PosingProbe:
         return PosingProbe(self.model.problem, self.model.subspace, sample)
+
+    def _wanted(self, motions: Mapping[str, Motion], *, who: str) -> dict[str, FloatArray]:
+        return wanted_maps(motions, self._center, who=who)
 
     def _center(self, handle: str) -> FloatArray:
         center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]

@@ -101,6 +101,7 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "validation",
     },
+    "animation": {"mesh", "pictures", "reduction"},
     "page": {"certificate", "mesh", "model_file", "reduction"},
     "server": {
         "accurate",

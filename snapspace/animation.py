@@ -1,0 +1,107 @@
+"""write_animation: the frames of a session as numbered files, GIF or MP4."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
+from .reduction import ReducedModel
+
+
+def write_animation(
+    path: str | os.PathLike[str],
+    model: ReducedModel,
+    shapes: Iterable[ArrayLike],
+    *,
+    kind: str = "obj",
+    frames_per_second: float = 30.0,
+    **picture: Any,
+) -> list[Path]:
+    """Writes shapes of a model, as `session.animate` makes them.
+
+    Parameters
+    ----------
+    path : path
+        A film, `.gif` or `.mp4`; or else a folder, which is made, for frame-0000.obj,
+        frame-0001.obj and so on. Files of earlier frames there are replaced.
+    model : ReducedModel
+    shapes : iterable of (n, 3)
+        Vertices of the tets.
+    kind : str, default "obj"
+        Of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu, vtk or
+        mesh.
+    frames_per_second : float, default 30
+        Of a film.
+    **picture
+        Of a film: size, azimuth, elevation, up, colors and others, see `pictures.save_film`.
+
+    Returns
+    -------
+    list of Path
+        The files written: the film, or those of the frames in their order.
+
+    Raises
+    ------
+    ValueError
+        For an unknown kind, a folder that cannot be made, options of a picture without a film, and
+        as for `save_film`.
+
+    Examples
+    --------
+    >>> frames = session.animate([{"head": ((0, 0, 0.6), (0, 0, 0.2))}], frames=48)
+    >>> write_animation("nod.gif", session.model, (session.vertices for _ in frames))
+    """
+    target = Path(path)
+    if target.suffix.lower() in (".gif", ".mp4"):
+        from .pictures import save_film
+
+        surface = model.surface
+        seen = [surface.vertices(_checked(shape, model)) for shape in shapes]
+        rate = frames_per_second
+        return [save_film(target, seen, surface.faces, frames_per_second=rate, **picture)]
+    if picture:
+        raise ValueError(
+            f"write_animation: {', '.join(picture)} is for films, but {target} is a folder; give a "
+            "name that ends in .gif or .mp4"
+        )
+    return _written(target, model, shapes, f".{kind}")
+
+
+def _written(
+    folder: Path, model: ReducedModel, shapes: Iterable[ArrayLike], suffix: str
+) -> list[Path]:
+    if suffix not in SURFACE_OUTPUTS + TET_OUTPUTS:
+        known = ", ".join(known.removeprefix(".") for known in SURFACE_OUTPUTS + TET_OUTPUTS)
+        raise ValueError(f"write_animation: unknown kind '{suffix[1:]}'; known are {known}")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(
+            f"write_animation: cannot make the folder {folder} ({error.strerror}); give another"
+        ) from None
+    files = []
+    for number, shape in enumerate(shapes):
+        vertices = _checked(shape, model)
+        file = folder / f"frame-{number:04d}{suffix}"
+        if suffix in SURFACE_OUTPUTS:
+            write_surface(file, model.surface.vertices(vertices), model.surface.faces)
+        else:
+            write_tets(file, model.problem.mesh, vertices=vertices)
+        files.append(file)
+    return files
+
+
+def _checked(shape: ArrayLike, model: ReducedModel) -> NDArray[np.float64]:
+    vertices = np.asarray(shape, np.float64)
+    expected = model.problem.mesh.vertices.shape
+    if vertices.shape != expected:
+        raise ValueError(
+            f"write_animation: a shape is {vertices.shape}, but the model's vertices are {expected}"
+        )
+    return vertices

@@ -1,0 +1,60 @@
+"""Where the frames of a path go: a folder of numbered files, or a film."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from ..mesh.input_path import writable_path
+from .console import notice
+from .files import FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
+
+FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUTPUTS)
+
+format_option = click.option(
+    "--format",
+    "kind",
+    type=click.Choice(FORMATS),
+    help="Of the files in the folder of --path [default: obj].",
+)
+rate_option = click.option(
+    "--fps",
+    "frames_per_second",
+    type=click.FloatRange(1, 100),
+    help="Frames per second of a film of --path [default: 30].",
+)
+
+
+def is_film(output: Path | None) -> bool:
+    """Whether an output is a film, by its extension."""
+    return output is not None and output.suffix.lower() in FILMS
+
+
+def check_frames_output(
+    output: Path | None, *, kind: str | None, frames_per_second: float | None
+) -> None:
+    """ValueError unless frames can be written there: before any is solved. Makes the folder."""
+    film = is_film(output)
+    if kind is not None and film:
+        raise ValueError(f"--format {kind} is for files in a folder, but -o {output} is a film")
+    if frames_per_second is not None and not film:
+        raise ValueError("--fps is for a film; give -o FILE.gif or -o FILE.mp4")
+    if output is None:
+        return
+    if film:
+        writable_path(output, known=FILMS)
+    else:
+        make_folder(output, option="-o")
+
+
+def notice_old_frames(folder: Path, frames: int) -> None:
+    """Says so where files of a longer path would follow those of this one."""
+    old = [path for path in folder.glob("frame-*.*") if _number(path) >= frames]
+    if old:
+        notice(f"notice: {folder} also holds {len(old)} files of a longer path; delete them")
+
+
+def _number(frame: Path) -> int:
+    digits = frame.stem.removesuffix("-linear").removeprefix("frame-")
+    return int(digits) if digits.isdecimal() else -1

@@ -1,0 +1,100 @@
+"""The path of `snapspace pose --path`: from rest to the motions of the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..animation import write_animation
+from ..pictures import tint
+from ..reduction import PosingModel
+from ..session import FrameReport
+from .console import notice, print_facts
+from .frames import is_film, notice_old_frames
+from .motions import Motion
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PosedPath:
+    """Shapes (n, 3) of the tets, and how each was solved."""
+
+    model: PosingModel
+    shapes: list[FloatArray]
+    reports: list[FrameReport]
+
+    def written(
+        self, output: Path | None, *, kind: str, frames_per_second: float, up: str
+    ) -> list[Path]:
+        """Writes the shapes to a folder or a film, in which handles are tinted."""
+        if output is None:
+            return []
+        if is_film(output):
+            return write_animation(
+                output,
+                self.model,
+                self.shapes,
+                frames_per_second=frames_per_second,
+                colors=handle_colors(self.model),
+                up=up,
+            )
+        notice_old_frames(output, len(self.shapes))
+        return write_animation(output, self.model, self.shapes, kind=kind)
+
+    def as_json(self, files: list[Path]) -> dict[str, Any]:
+        """With the keys of `snapspace pose --path --json`."""
+        inverted = self.model.problem.energy.inverted_tets
+        frames = [
+            {
+                "status": report.status,
+                "iterations": report.iterations,
+                "value": report.value,
+                "solve_ms": 1e3 * report.seconds,
+                "inverted_tets": inverted(shape),
+            }
+            for shape, report in zip(self.shapes, self.reports, strict=True)
+        ]
+        return {"frames": frames, "written": [str(file) for file in files]}
+
+    def print_report(self, files: list[Path]) -> None:
+        """For people."""
+        failed = [report for report in self.reports if not report.converged]
+        if failed:
+            notice(
+                f"notice: {len(failed)} of {len(self.reports)} solves ended with "
+                f"{failed[0].status}; those shapes may be poor"
+            )
+        solve = 1e3 * np.median([report.seconds for report in self.reports])
+        more = f" and {len(files) - 1} more" if len(files) > 1 else ""
+        facts = [
+            ("shapes", f"{len(self.shapes)}, {len(self.shapes) - len(failed)} converged"),
+            ("solve", f"{solve:.2f} ms"),
+            ("written", f"{files[0]}{more}" if files else "nothing; -o DIR or -o FILE.gif does"),
+        ]
+        print_facts("posed", facts)
+
+
+def posed_path(model: PosingModel, motions: Mapping[str, Motion], frames: int) -> PosedPath:
+    """Solves the way from rest to the motions."""
+    session = model.session()
+    key = {
+        name: (np.deg2rad(motion.euler or (0.0,) * 3), motion.translation or (0.0,) * 3)
+        for name, motion in motions.items()
+    }
+    shapes, reports = [], []
+    for report in session.animate([key], frames=frames):
+        reports.append(report)
+        shapes.append(session.vertices)
+    return PosedPath(model, shapes, reports)
+
+
+def handle_colors(model: PosingModel) -> FloatArray:
+    """Colours of the shown surface's vertices, (s, 3), with the handles tinted."""
+    regions = [model.surface.following(handle.vertices) for handle in model.problem.handles]
+    return tint(len(model.surface.corners), regions)

@@ -1,0 +1,148 @@
+"""Films of shapes: GIF and MP4."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from .backdrop import backdrop, to_bytes
+from .checks import checked_samples, checked_size
+from .scene import Scene
+
+FILMS = (".gif", ".mp4")
+
+
+def save_film(
+    path: str | os.PathLike[str],
+    shapes: Sequence[Any],
+    faces: Any,
+    *,
+    frames_per_second: float = 30.0,
+    size: tuple[int, int] = (640, 480),
+    azimuth: float = -60.0,
+    elevation: float = 15.0,
+    up: str = "z",
+    colors: Any = None,
+    ground: bool = True,
+    background: Sequence[float] | None = None,
+    field_of_view: float = 24.0,
+    margin: float = 0.10,
+    samples: int = 2,
+) -> Path:
+    """Draws shapes of one mesh as `render` does, and writes them as a film that repeats.
+
+    The camera stands still, and frames all shapes together. The file is complete or not there.
+
+    Parameters
+    ----------
+    path : path
+        Ends in .gif, or in .mp4 (H.264), which takes `pip install "snapspace[video]"`.
+    shapes : sequence of (n, 3)
+        A frame for each.
+    faces : array_like of int, (f, 3)
+    frames_per_second : float, default 30
+        From 1 to 100. GIF knows hundredths of a second alone: 30 becomes 33.
+    size : (int, int), default (640, 480)
+        In pixels; both even for .mp4.
+    azimuth, elevation, up, colors, ground, background, field_of_view, margin, samples
+        As for `render`.
+
+    Returns
+    -------
+    Path
+        The file written.
+
+    Raises
+    ------
+    ValueError
+        As `render`; for no shapes, another extension, a folder that does not exist, a rate out of
+        range, a size that is not even, or .mp4 without its extra.
+    """
+    target = _checked_path(path)
+    width, height = checked_size(size, who="save_film")
+    if not 1.0 <= frames_per_second <= 100.0:
+        raise ValueError(
+            f"save_film: frames_per_second is {frames_per_second}, but must be from 1 to 100"
+        )
+    if not len(shapes):
+        raise ValueError("save_film: there are no shapes; give one for each frame")
+    movie = target.suffix.lower() == ".mp4"
+    if movie:
+        _check_movie(width, height)
+    paper = backdrop(width, height, background)
+    scene = Scene.of(shapes, faces, [colors] * len(shapes), who="save_film")
+    exposures = scene.exposures(
+        size=(width, height),
+        azimuth=azimuth,
+        elevation=elevation,
+        up=up,
+        field_of_view=field_of_view,
+        margin=margin,
+        ground=ground,
+        samples=checked_samples(samples, who="save_film"),
+    )
+    frames = (to_bytes(one.over(paper * one.shadow()[:, :, None])) for one in exposures)
+    with tempfile.TemporaryDirectory(prefix=".film-", dir=target.parent) as folder:
+        unfinished = Path(folder) / f"film{target.suffix.lower()}"
+        if movie:
+            _write_movie(unfinished, frames, (width, height), frames_per_second)
+        else:
+            _write_gif(unfinished, frames, frames_per_second)
+        os.replace(unfinished, target)
+    return target
+
+
+def _write_gif(path: Path, frames: Iterator[NDArray[np.uint8]], rate: float) -> None:
+    # without dithering what stands still stays still, and files are small
+    none, cut = Image.Dither.NONE, Image.Quantize.MEDIANCUT
+    images = (Image.fromarray(frame).quantize(256, method=cut, dither=none) for frame in frames)
+    first = next(images)
+    duration = 10 * max(1, round(100.0 / rate))  # ms
+    first.save(path, save_all=True, append_images=images, duration=duration, loop=0, optimize=False)
+
+
+def _write_movie(
+    path: Path, frames: Iterator[NDArray[np.uint8]], size: tuple[int, int], rate: float
+) -> None:
+    import imageio_ffmpeg
+
+    writer = imageio_ffmpeg.write_frames(
+        str(path), size, fps=rate, codec="libx264", quality=8, macro_block_size=2
+    )
+    writer.send(None)
+    try:
+        for frame in frames:
+            writer.send(np.ascontiguousarray(frame))
+    finally:
+        writer.close()
+
+
+def _checked_path(path: str | os.PathLike[str]) -> Path:
+    target = Path(path)
+    if target.suffix.lower() not in FILMS:
+        raise ValueError(
+            f"save_film: {target} has an unknown extension; known are {', '.join(FILMS)}"
+        )
+    if not target.parent.is_dir():
+        raise ValueError(f"save_film: folder {target.parent} does not exist; create it first")
+    if target.is_dir():
+        raise ValueError(f"save_film: {target} is a folder; give the name of a file")
+    return target
+
+
+def _check_movie(width: int, height: int) -> None:
+    if width % 2 or height % 2:
+        raise ValueError(f"save_film: size is {width} x {height}, but .mp4 takes even numbers")
+    try:
+        import imageio_ffmpeg  # noqa: F401
+    except ImportError:
+        raise ValueError(
+            'save_film: .mp4 needs imageio-ffmpeg: pip install "snapspace[video]", or give a .gif'
+        ) from None

@@ -1,0 +1,54 @@
+"""given_rotation: a user's rotation, in any of the usual forms."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial.transform import Rotation
+
+from ..problem import rotation_matrix
+from .finite_input import finite
+
+FloatArray = NDArray[np.float64]
+#: Three Euler angles (radians, extrinsic x, y, z), a matrix (3, 3), a quaternion (x, y, z, w), or a
+#: rotation of SciPy.
+Turn: TypeAlias = "ArrayLike | Rotation"
+
+
+def given_rotation(turn: Turn, name: str) -> FloatArray:
+    """The rotation as a matrix (3, 3); ValueError, with the name, if it is none.
+
+    A quaternion of another length than one is made one; a matrix must be orthogonal to 1e-6.
+    """
+    if isinstance(turn, Rotation):
+        if not turn.single:
+            raise ValueError(f"{name} is {len(turn)} rotations, but it must be one")
+        return _of(turn)
+    shape = np.shape(turn)
+    if shape == (4,):
+        quaternion = finite(turn, (4,), name)
+        if not quaternion.any():
+            raise ValueError(f"{name} is the quaternion zero, which is no rotation")
+        return _of(Rotation.from_quat(quaternion / np.abs(quaternion).max()))
+    if shape == (3, 3):
+        matrix = finite(turn, (3, 3), name)
+        if not is_rotation(matrix, to=1e-6):
+            raise ValueError(
+                f"{name} is a matrix that is no rotation; its columns must be orthonormal and "
+                "right-handed (move_affine takes any matrix)"
+            )
+        return matrix
+    return rotation_matrix(finite(turn, (3,), name))
+
+
+def is_rotation(matrix: FloatArray, *, to: float = 1e-9) -> bool:
+    """Whether a matrix (3, 3) is orthogonal, each entry of R R^T to so much, and right-handed."""
+    orthogonal = np.allclose(matrix @ matrix.T, np.eye(3), rtol=0.0, atol=to)
+    return bool(orthogonal and np.linalg.det(matrix) > 0)
+
+
+def _of(rotation: Rotation) -> FloatArray:
+    matrix: FloatArray = rotation.as_matrix()
+    return matrix
