@@ -9,9 +9,9 @@ from pathlib import Path
 import click
 
 from ..accurate import MOTIONS
+from ..disk.atomic_file import atomic_file
 from ..generators import creature
 from ..mesh import write_tets
-from ..mesh.atomic_file import atomic_file
 from ..page import export_html
 from ..pictures import save_png
 from ..problem import read_problem

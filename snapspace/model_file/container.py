@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
-from ..mesh.atomic_file import atomic_file
-from ..mesh.safetensors_bytes import safetensors_bytes
+from ..disk.atomic_file import atomic_file
+from ..disk.safetensors_bytes import safetensors_bytes
 
 Arrays = dict[str, NDArray[Any]]
 #: The type of an array, or those that it may have.

@@ -70,7 +70,14 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
     assert_same_model(path, tmp_path / "at_once.snapspace")
 
 
-@pytest.mark.parametrize("damage", [Path.unlink, lambda path: path.write_bytes(b"half")])
+def flip_a_bit(path: Path) -> None:
+    """Of a coordinate: without a checksum the model would be another, and nobody would know."""
+    content = bytearray(path.read_bytes())
+    content[-4] ^= 1
+    path.write_bytes(content)
+
+
+@pytest.mark.parametrize("damage", [Path.unlink, flip_a_bit])
 def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
     run: Run,
     tmp_path: Path,
@@ -89,6 +96,8 @@ def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
 
     resumed = run(*surface_words, "-o", path, "--json")
     assert "resuming: 1 of 2 poses were fitted before" in resumed.err
+    told = "not used (its content has changed); its pose is fitted again" in resumed.err
+    assert told == (damage is flip_a_bit)
     # the pose is bitwise the same, so the samples still belong to it
     assert "resuming: 6 of 6 samples were finished before" in resumed.err
     assert [fit["name"] for fit in resumed.json["fits"]] == ["bent", "twisted"]
