@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -38,10 +39,25 @@ def kept_files(folder: Path) -> list[str]:
     return sorted(names)
 
 
+@pytest.mark.parametrize(
+    ("sent", "code", "word"), [(None, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")]
+)
 def test_ctrl_c_keeps_the_poses_that_are_fitted(
-    run: Run, tmp_path: Path, surface_words: list[object], monkeypatch: pytest.MonkeyPatch
+    run: Run,
+    tmp_path: Path,
+    surface_words: list[object],
+    monkeypatch: pytest.MonkeyPatch,
+    sent: signal.Signals | None,
+    code: int,
+    word: str,
 ) -> None:
+    """Of SIGTERM as well: it comes while compiled code fits on another thread."""
     path = tmp_path / "m.snapspace"
+
+    def stop() -> None:
+        if sent is None:
+            raise KeyboardInterrupt
+        signal.raise_signal(sent)
 
     @contextmanager
     def stop_after_the_first(*_: object, **__: object) -> Iterator[Callable[[int, int], None]]:
@@ -51,10 +67,10 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
         patch.setattr(interruptible, "POLL_SECONDS", 0.002)
         patch.setattr(pose_files, "step_progress", stop_after_the_first)
         result = run(*surface_words, "--threads", 1, "-o", path, "--json")
-    assert (result.code, result.out) == (130, "")
+    assert (result.code, result.out) == (code, "")
     line = result.err.splitlines()[-1]
     told = re.fullmatch(
-        r"snapspace: interrupted: ([12]) of 2 fitted poses are kept; the same command goes on "
+        rf"snapspace: {word}: ([12]) of 2 fitted poses are kept; the same command goes on "
         "from there",
         line,
     )
