@@ -35,7 +35,7 @@ FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUT
 @click.option(
     "--path",
     "frames",
-    type=click.IntRange(min=2),
+    type=click.IntRange(2, 1_000_000),
     metavar="N",
     help="Instead of --weights: N shapes from the first pose through all poses to the last.",
 )
