@@ -13,6 +13,7 @@ import click
 
 from .. import __version__
 from ..mesh import MeshNotice
+from ..reduction import LongWorkNotice
 from ..snapshots import CheckpointNotice
 from ..stopping import ctrl_c_as_itself
 from .blend import blend
@@ -29,6 +30,9 @@ from .validate import validate
 from .view import view
 
 OK, FAULT, USER_ERROR, INTERRUPTED, BROKEN_PIPE, TERMINATED = 0, 1, 2, 130, 141, 143
+
+#: Warnings that are for the user of the program.
+NOTICES = (MeshNotice, CheckpointNotice, LongWorkNotice)
 
 
 @click.group(
@@ -120,14 +124,14 @@ def _usage(error: click.ClickException) -> str:
 
 @contextmanager
 def _notices() -> Iterator[None]:
-    """Shows each `MeshNotice` and `CheckpointNotice` as one line."""
+    """Shows each warning of `NOTICES` as one line."""
     with warnings.catch_warnings():
-        warnings.simplefilter("always", MeshNotice)
-        warnings.simplefilter("always", CheckpointNotice)
+        for kind in NOTICES:
+            warnings.simplefilter("always", kind)
         ordinary = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
-            if issubclass(category, MeshNotice | CheckpointNotice):
+            if issubclass(category, NOTICES):
                 notice(f"notice: {message}")
             else:
                 ordinary(message, category, *where, **to)

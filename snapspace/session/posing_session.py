@@ -13,7 +13,7 @@ from ..certificate import PosingProbe, ResidualSample
 from ..problem import rigid_offset
 from ..reduction import PosingModel
 from .display_shapes import Vertices
-from .finite_input import finite
+from .finite_input import finite, radians
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
 from .handle_maps import given_maps, relative_offsets, world_map
@@ -73,7 +73,8 @@ class PosingSession(Session[PosingModel]):
         Parameters
         ----------
         handle : str
-        euler : three angles in radians, extrinsic x, y, z
+        euler : three angles in radians, extrinsic x, y, z; beyond a full turn with a warning, since
+            they look like degrees
         translation : three lengths
 
         Raises
@@ -94,7 +95,7 @@ class PosingSession(Session[PosingModel]):
         maps = {}
         for handle, (euler, translation) in motions.items():
             center = self._center(handle)
-            turn = finite(euler, (3,), f"move: euler of '{handle}'")
+            turn = radians(euler, f"move: euler of '{handle}'")
             shift = finite(translation, (3,), f"move: translation of '{handle}'")
             maps[handle] = world_map(rigid_offset(turn, shift), center)
         return self._solve_at(*self._moved(maps))
