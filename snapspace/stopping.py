@@ -13,12 +13,29 @@ from types import FrameType
 #: Ctrl-C that comes again within this time of the first one means the same.
 SAME_SECONDS = 1.0
 
+Handler = Callable[[int, FrameType | None], object]
+
 #: Raises if the work of this thread was told to stop; see `check_stop`.
 _check: ContextVar[Callable[[], None]] = ContextVar("check", default=lambda: None)
 
 
 class Stopped(KeyboardInterrupt):
     """Work was told to stop, as by Ctrl-C, see `stoppable`."""
+
+
+class Termination:
+    """A handler of SIGTERM that does as Ctrl-C does, and remembers that it did.
+
+    came : whether the signal has come
+    """
+
+    def __init__(self) -> None:
+        self.came = False
+
+    def __call__(self, number: int, frame: FrameType | None) -> None:
+        """Raises KeyboardInterrupt."""
+        self.came = True
+        signal.default_int_handler(number, frame)
 
 
 def check_stop() -> None:
@@ -57,22 +74,38 @@ def ctrl_c_at_checks() -> Iterator[None]:
     shares work with threads does it in such a block, and checks ten times a second. Work that fails
     to check ends at a second Ctrl-C, a second later.
 
-    Does nothing on other threads, inside of another such block, and for programs with their own way
-    to take Ctrl-C.
+    The same holds for SIGTERM where its handler is a `Termination`. Does nothing on other threads,
+    inside of another such block, and for programs with their own way to take these signals.
     """
-    main = threading.current_thread() is threading.main_thread()
-    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+    handlers = _raising_handlers()
+    if not handlers:
         yield
         return
-    ctrl_c = _CtrlC()
+    ctrl_c = _CtrlC(handlers)
     token = _check.set(ctrl_c.check)
-    signal.signal(signal.SIGINT, ctrl_c.note)
+    for number in handlers:
+        signal.signal(number, ctrl_c.note)
     try:
         yield
     finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
         _check.reset(token)
     ctrl_c.check()
+
+
+def _raising_handlers() -> dict[int, Handler]:
+    """The handlers that would raise KeyboardInterrupt on this thread, by signal."""
+    if threading.current_thread() is not threading.main_thread():
+        return {}
+    handlers: dict[int, Handler] = {}
+    for number in (signal.SIGINT, signal.SIGTERM):
+        handler = signal.getsignal(number)
+        if handler is signal.default_int_handler:
+            handlers[number] = signal.default_int_handler
+        elif isinstance(handler, Termination):
+            handlers[number] = handler
+    return handlers
 
 
 @contextmanager
@@ -98,17 +131,21 @@ def _follows_ctrl_c(error: BaseException | None) -> bool:
 class _CtrlC:
     """Whether Ctrl-C was pressed, and raised."""
 
-    def __init__(self) -> None:
+    def __init__(self, handlers: dict[int, Handler]) -> None:
+        self._handlers = handlers
         self._pressed: float | None = None
         self._raised = False
 
     def note(self, number: int, frame: FrameType | None) -> None:
         """A signal handler."""
+        handler = self._handlers[number]
+        if isinstance(handler, Termination):
+            handler.came = True
         now = monotonic()
         if self._pressed is None:
             self._pressed = now
         elif now - self._pressed > SAME_SECONDS:
-            signal.default_int_handler(number, frame)
+            handler(number, frame)
 
     def check(self) -> None:
         """Raises once."""

@@ -11,7 +11,7 @@ import pytest
 
 from snapspace import stopping
 from snapspace.blas import single_threaded_blas
-from snapspace.stopping import check_stop, ctrl_c_as_itself, ctrl_c_at_checks
+from snapspace.stopping import Termination, check_stop, ctrl_c_as_itself, ctrl_c_at_checks
 
 
 @pytest.fixture(autouse=True)
@@ -150,3 +150,42 @@ def test_other_errors_stay_what_they_are() -> None:
             np.zeros(3).reshape(2, 2)
         except ValueError:
             _ = 1 // 0
+
+
+@pytest.fixture
+def termination() -> Iterator[Termination]:
+    handler = Termination()
+    before = signal.signal(signal.SIGTERM, handler)
+    yield handler
+    assert signal.getsignal(signal.SIGTERM) is handler
+    signal.signal(signal.SIGTERM, before)
+
+
+def test_termination_is_raised_at_checks_as_well(termination: Termination) -> None:
+    reached = False
+    with pytest.raises(KeyboardInterrupt), ctrl_c_at_checks():
+        signal.raise_signal(signal.SIGTERM)
+        reached = True
+        check_stop()
+    assert reached and termination.came
+
+
+def test_termination_arrives_where_ctrl_c_is_ignored(termination: Termination) -> None:
+    """As for a program that a script has put into the background."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    reached = False
+    try:
+        with pytest.raises(KeyboardInterrupt), ctrl_c_at_checks():
+            signal.raise_signal(signal.SIGINT)
+            check_stop()
+            signal.raise_signal(signal.SIGTERM)
+            reached = True
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    assert reached and termination.came
+
+
+def test_ctrl_c_is_no_termination(termination: Termination) -> None:
+    with pytest.raises(KeyboardInterrupt), ctrl_c_at_checks():
+        press()
+    assert not termination.came

@@ -21,6 +21,7 @@ from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
+from .first_frame import check_first_frame
 from .given_options import chosen_parameters
 from .pipeline import Built, build_model, stage, telling_what_is_kept
 from .progress import spinner
@@ -180,6 +181,7 @@ def build_accurate_model(
         if validation is not None:
             record["unseen"] = unseen_record(built.model, validation, built.snapshots)
         model = replace(built.model, provenance={**built.model.provenance, **record})
+        check_first_frame(model)
         model.save(output)
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin

@@ -42,7 +42,7 @@ EVEN = ("shape", "weights")
 @click.option(
     "--path",
     "frames",
-    type=click.IntRange(min=2),
+    type=click.IntRange(2, 1_000_000),
     metavar="N",
     help="Instead of --weights: N shapes from the first pose through all poses to the last.",
 )

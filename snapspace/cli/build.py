@@ -23,7 +23,7 @@ from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
 from .given_options import given_options
-from .options import FILE, dask_option, json_option, threads_option
+from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
 from .summary import print_summary
 
 DIMENSION = 40
@@ -68,7 +68,7 @@ DIMENSION = 40
 )
 @click.option(
     "--tets",
-    type=click.IntRange(min=1),
+    type=TET_COUNT,
     metavar="N",
     help="Of a cubature [default: 8 for each mode, at most 1000].",
 )

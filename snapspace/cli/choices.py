@@ -14,6 +14,7 @@ from ..sampling import ANYWHERE, METHODS, BlendDomain, Domain, Method, sample
 from ..snapshots import PROJECTIONS, SOLVERS, SolverOptions
 from ..snapshots.solver_options import Solver
 from .console import notice
+from .options import ITERATION_COUNT, MODE_COUNT, SAMPLE_COUNT, SEED_NUMBER
 from .recipe import Recipe
 from .samples import ChosenSamples, GivenSamples, Samples, sampling_record
 
@@ -150,14 +151,14 @@ def _options(
     return [
         click.option(
             "--samples",
-            type=click.IntRange(min=1),
+            type=SAMPLE_COUNT,
             default=samples,
             show_default=f"--target-error decides; {samples} with other choices",
             help="Number of snapshots. A grid takes the most that fill its axes evenly.",
         ),
         click.option(
             "--dimension",
-            type=click.IntRange(min=1),
+            type=MODE_COUNT,
             help="Modes of the subspace [default: --target-error decides; "
             f"{dimension} with other choices].",
         ),
@@ -176,7 +177,7 @@ def _options(
         click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence."),
         click.option(
             "--seed",
-            type=click.IntRange(min=0),
+            type=SEED_NUMBER,
             default=0,
             show_default=True,
             help="Of the samples, except for a grid.",
@@ -205,7 +206,7 @@ def _options(
         ),
         click.option(
             "--max-iterations",
-            type=click.IntRange(min=1),
+            type=ITERATION_COUNT,
             default=SolverOptions.max_iterations,
             show_default=True,
             help="Per sample.",

@@ -9,9 +9,9 @@ from pathlib import Path
 import click
 
 from ..accurate import MOTIONS
+from ..disk.atomic_file import atomic_file
 from ..generators import creature
 from ..mesh import write_tets
-from ..mesh.atomic_file import atomic_file
 from ..page import export_html
 from ..pictures import save_png
 from ..problem import read_problem
@@ -24,7 +24,7 @@ from .build_advice import tell_what_to_do
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
-from .options import FILE, json_option, threads_option
+from .options import FILE, MODE_COUNT, SAMPLE_COUNT, SEED_NUMBER, json_option, threads_option
 from .pose import write_shape
 from .progress import sample_progress, spinner
 from .recipe import Recipe, check_dimension
@@ -54,17 +54,17 @@ VALIDATION_SAMPLES = 10
 )
 @click.option(
     "--samples",
-    type=click.IntRange(min=1),
+    type=SAMPLE_COUNT,
     default=300,
     show_default="as many as the accuracy takes; 300 with --dimension",
 )
 @click.option(
     "--dimension",
-    type=click.IntRange(min=1),
+    type=MODE_COUNT,
     default=40,
     show_default="as many as the accuracy takes; 40 with --samples",
 )
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
+@click.option("--seed", type=SEED_NUMBER, default=0, show_default=True)
 @threads_option
 @json_option
 def demo(

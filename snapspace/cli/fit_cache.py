@@ -5,29 +5,32 @@ from __future__ import annotations
 import contextlib
 import hashlib
 import json
+import warnings
+from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from safetensors import SafetensorError, safe_open
-from safetensors.numpy import save
 
 from .. import __version__
+from ..disk import flushed_folder, read_checked, write_checked
 from ..fitting import PoseFit
 from ..mesh import EmbeddedSurface, TetMesh
-from ..mesh.atomic_file import atomic_file
+from ..snapshots import CheckpointNotice
 
 FloatArray = NDArray[np.float64]
 Settings = dict[str, Any]
-_UNREADABLE = (SafetensorError, OSError, KeyError, TypeError, ValueError)
+# What is raised by content that was not written by this version.
+_UNREADABLE = (KeyError, TypeError, ValueError)
 
 
 class FitCache:
     """A folder with one file for the tets and one for each fitted pose, named by what made them.
 
-    A file is complete or not there; one that cannot be read is made again.
+    A file is complete or not there, and has a checksum. One that is damaged is made again, with a
+    `CheckpointNotice`.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -42,11 +45,11 @@ class FitCache:
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings
     ) -> TetMesh | None:
         """The tets that fill a surface, if they are there."""
-        try:
-            arrays, _ = self._load(_key("tets", settings, vertices, faces))
+        path = self._path(_key("tets", settings, vertices, faces))
+        with _told(path, "the surface is filled again"):
+            arrays, _ = self._load(path)
             return TetMesh(arrays["vertices"], arrays["tets"])
-        except _UNREADABLE:
-            return None
+        return None
 
     def save_tets(
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings, mesh: TetMesh
@@ -59,11 +62,14 @@ class FitCache:
         self, mesh: TetMesh, surface: EmbeddedSurface, target: FloatArray, settings: Settings
     ) -> tuple[FloatArray, PoseFit] | None:
         """The shape (n, 3) fitted to a target (s, 3), and its report, if they are there."""
-        try:
-            arrays, header = self._load(_fit_key(mesh, surface, target, settings))
-            return arrays["shape"], PoseFit(**json.loads(header["fit"]))
-        except _UNREADABLE:
-            return None
+        path = self._path(_fit_key(mesh, surface, target, settings))
+        with _told(path, "its pose is fitted again"):
+            arrays, header = self._load(path)
+            shape, fit = arrays["shape"], PoseFit(**json.loads(header["fit"]))
+            if shape.shape != mesh.vertices.shape:
+                raise ValueError("its shape is of another mesh")
+            return shape, fit
+        return None
 
     def save_fit(
         self,
@@ -85,19 +91,39 @@ class FitCache:
                 path.unlink()
             self.folder.rmdir()
 
-    def _load(self, key: str) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
-        with safe_open(self.folder / f"{key}.safetensors", framework="np") as file:
-            arrays = {name: file.get_tensor(name) for name in file.keys()}
-            return arrays, dict(file.metadata() or {})
+    def _path(self, key: str) -> Path:
+        return self.folder / f"{key}.safetensors"
+
+    def _load(self, path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
+        """Arrays and header; FileNotFoundError, or ValueError for a damaged file or another's."""
+        if not path.is_file():
+            raise FileNotFoundError(path)
+        arrays, header = read_checked(path)
+        if header["key"] != path.stem:
+            raise ValueError("it was made of something else")
+        return arrays, header
 
     def _save(self, key: str, arrays: dict[str, NDArray[Any]], header: dict[str, str]) -> None:
-        try:
-            self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise ValueError(f"{self.folder}: cannot make the folder ({error})") from None
-        content = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
-        with atomic_file(self.folder / f"{key}.safetensors") as path:
-            path.write_bytes(save(content, header))
+        if not self.folder.is_dir():
+            try:
+                self.folder.mkdir(parents=True, exist_ok=True)
+            except OSError as error:
+                raise ValueError(f"{self.folder}: cannot make the folder ({error})") from None
+            flushed_folder(self.folder.parent)
+        write_checked(self._path(key), arrays, {**header, "key": key})
+
+
+@contextlib.contextmanager
+def _told(path: Path, consequence: str) -> Iterator[None]:
+    """Leaves the block for a file that is missing, and with a notice for one that is damaged."""
+    try:
+        yield
+    except FileNotFoundError:
+        return
+    except _UNREADABLE as error:
+        reason = f"no entry {error}" if isinstance(error, KeyError) else error
+        notice = f"{path}: not used ({reason}); {consequence}"
+        warnings.warn(notice, CheckpointNotice, stacklevel=4)
 
 
 def _fit_key(

@@ -28,7 +28,7 @@ from .dask_cluster import dask_executor
 from .files import make_folder
 from .fit_cache import FitCache
 from .given_options import given_options
-from .options import FILE, dask_option, json_option, threads_option
+from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .summary import print_summary
 
@@ -103,7 +103,7 @@ SAMPLES, DIMENSION = 40, 30
 )
 @click.option(
     "--cubature-tets",
-    type=click.IntRange(min=1),
+    type=TET_COUNT,
     metavar="N",
     help="Of the reduced energy, a sum over few tets [default: 15 for each mode, at most 1000].",
 )

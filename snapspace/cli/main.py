@@ -13,6 +13,7 @@ import click
 
 from .. import __version__
 from ..mesh import MeshNotice
+from ..reduction import LongWorkNotice
 from ..snapshots import CheckpointNotice
 from ..stopping import ctrl_c_as_itself
 from .blend import blend
@@ -20,13 +21,18 @@ from .build import build
 from .console import notice, one_line
 from .demo import demo
 from .export import export
+from .fault_log import fault_line
 from .info import info
 from .interpolate import interpolate
 from .pose import pose
+from .termination import terminated_as_interrupted
 from .validate import validate
 from .view import view
 
-OK, USER_ERROR, INTERRUPTED, BROKEN_PIPE = 0, 2, 130, 141
+OK, FAULT, USER_ERROR, INTERRUPTED, BROKEN_PIPE, TERMINATED = 0, 1, 2, 130, 141, 143
+
+#: Warnings that are for the user of the program.
+NOTICES = (MeshNotice, CheckpointNotice, LongWorkNotice)
 
 
 @click.group(
@@ -52,7 +58,8 @@ def snapspace(ctx: click.Context) -> None:
       snapspace blend cat.snapspace --path 60 -o frames
 
     With --json a command prints one JSON object on standard output; everything else goes to
-    standard error. Exit codes: 0 done, 2 a mistake in the input, 130 interrupted.
+    standard error. Exit codes: 0 done, 1 a fault of snapspace, 2 a mistake in the input, 130
+    interrupted (Ctrl-C), 143 terminated (SIGTERM). Both keep what is finished.
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
@@ -66,9 +73,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the program and returns its exit code.
 
     Mistakes of the user (ValueError from the library, wrong usage) become one line on standard
-    error. Anything else is a fault of ours and keeps its traceback.
+    error. Anything else is a fault of ours: also one line, which names a file with the traceback.
+    SIGTERM ends commands as Ctrl-C does.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
+    with terminated_as_interrupted() as termination:
+        try:
+            return _run(words)
+        except (KeyboardInterrupt, click.Abort) as stop:
+            what = "terminated" if termination.came else "interrupted"
+            notice(f"{what}{': ' if str(stop) else ''}{stop}")
+            return TERMINATED if termination.came else INTERRUPTED
+
+
+def _run(words: list[str]) -> int:
     try:
         with ctrl_c_as_itself(), _notices(), snapspace.make_context("snapspace", words) as ctx:
             snapspace.invoke(ctx)
@@ -81,13 +99,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _refuse(str(error))
     except MemoryError as error:
         return _refuse(f"not enough memory ({error}); take fewer samples or a smaller dimension")
-    except (KeyboardInterrupt, click.Abort) as stop:
-        notice(f"interrupted{': ' if str(stop) else ''}{stop}")
-        return INTERRUPTED
+    except click.Abort:
+        raise
     except BrokenPipeError:
         # the reader has gone; Python would complain again when it closes the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
+    except Exception as error:
+        notice(fault_line(error, words))
+        return FAULT
     return OK
 
 
@@ -104,14 +124,14 @@ def _usage(error: click.ClickException) -> str:
 
 @contextmanager
 def _notices() -> Iterator[None]:
-    """Shows each `MeshNotice` and `CheckpointNotice` as one line."""
+    """Shows each warning of `NOTICES` as one line."""
     with warnings.catch_warnings():
-        warnings.simplefilter("always", MeshNotice)
-        warnings.simplefilter("always", CheckpointNotice)
+        for kind in NOTICES:
+            warnings.simplefilter("always", kind)
         ordinary = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
-            if issubclass(category, MeshNotice | CheckpointNotice):
+            if issubclass(category, NOTICES):
                 notice(f"notice: {message}")
             else:
                 ordinary(message, category, *where, **to)

@@ -13,6 +13,14 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 Vector = tuple[float, float, float]
 
 FILE = click.Path(path_type=Path)
+# Whole numbers, with limits far above what anybody takes: larger ones do not fit in the core's
+# integers, or in any memory.
+SAMPLE_COUNT = click.IntRange(1, 1_000_000)
+MODE_COUNT = click.IntRange(1, 10_000)
+TET_COUNT = click.IntRange(1, 2**31 - 1)
+ITERATION_COUNT = click.IntRange(1, 2**31 - 1)
+THREAD_COUNT = click.IntRange(1, 1024)
+SEED_NUMBER = click.IntRange(0, 2**63 - 1)
 
 
 def parse_numbers(text: str, *, example: str = "numbers such as 0.2,0.8") -> list[float]:
@@ -63,7 +71,7 @@ def threads_option(command: Command) -> Command:
     """--threads, None for all."""
     return click.option(
         "--threads",
-        type=click.IntRange(min=1),
+        type=THREAD_COUNT,
         metavar="N",
         help="Threads [default: all]. The result does not depend on them.",
     )(command)
@@ -83,7 +91,7 @@ def leading_option(command: Command) -> Command:
     """--dimension of a model that exists already."""
     return click.option(
         "--dimension",
-        type=click.IntRange(min=1),
+        type=MODE_COUNT,
         metavar="D",
         help="Use only the first D modes of the model [default: all].",
     )(command)

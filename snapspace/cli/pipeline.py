@@ -21,6 +21,7 @@ from ..subspace import AffineSubspace, snapshot_pca
 from ..validation import Validation
 from .console import notice
 from .energy import EnergyChoice
+from .first_frame import check_first_frame
 from .memory import peak_memory_bytes
 from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
@@ -94,7 +95,8 @@ def build_model(
     Raises
     ------
     ValueError
-        If the energy is not possible, or the basis cannot be made; then the samples are kept.
+        If the energy is not possible, the basis cannot be made, or the first frame of the model is
+        not finite; then the samples are kept.
     KeyboardInterrupt
         On Ctrl-C, with a line that says what is kept.
     """
@@ -131,6 +133,7 @@ def build_model(
         if validation is not None:
             record["unseen"] = unseen_record(model, validation, snapshots)
         model = replace(model, provenance={**model.provenance, **record})
+        check_first_frame(model)
         model.save(output)
     checkpoint.remove()
     seconds["total"] = time.perf_counter() - begin

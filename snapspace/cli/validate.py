@@ -16,7 +16,7 @@ from .advice import Advice, advice, split_of_some
 from .console import notice, print_json, print_next
 from .error_plot import save_error_plot
 from .loading import leading_of, load_leading
-from .options import FILE, json_option, leading_option, threads_option
+from .options import FILE, SAMPLE_COUNT, SEED_NUMBER, json_option, leading_option, threads_option
 from .progress import sample_progress, spinner
 from .validation_tables import print_curve, print_split, print_validation
 
@@ -29,12 +29,12 @@ Model = PosingModel | InterpolationModel
 @click.argument("model_file", type=FILE, metavar="M.snapspace")
 @click.option(
     "--samples",
-    type=click.IntRange(min=1),
+    type=SAMPLE_COUNT,
     help=f"Unseen parameters to compare at [default: {SAMPLES}].",
 )
 @click.option(
     "--seed",
-    type=click.IntRange(min=0),
+    type=SEED_NUMBER,
     help=f"Of the unseen parameters, which no seed of build ever draws [default: {SEED}].",
 )
 @click.option(

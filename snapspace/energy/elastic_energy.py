@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
-from ..material import Material
+from ..material import Material, checked_material
 from ..mesh import TetMesh
 
 FloatArray = NDArray[np.float64]
@@ -28,7 +28,7 @@ class ElasticEnergy:
     Raises
     ------
     ValueError
-        If the material has moduli for another number of tets.
+        If the material is none of `MATERIALS`, or has moduli for another number of tets.
 
     Notes
     -----
@@ -37,9 +37,8 @@ class ElasticEnergy:
     """
 
     def __init__(self, mesh: TetMesh, material: Material) -> None:
-        material.check_tets(len(mesh.tets), "ElasticEnergy")
         self.mesh = mesh
-        self.material = material
+        self.material = checked_material(material, len(mesh.tets), "ElasticEnergy")
 
     @cached_property
     def core(self) -> _core.ElasticEnergy:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -15,6 +16,9 @@ from ..interruptible import POLL_SECONDS
 from ..stopping import check_stop
 
 _PROGRAM = Path(__file__).with_name("ftetwild_process.py")
+_WATCH = Path(__file__).with_name("ftetwild_watch.py")
+# Until what was told to end has ended, in seconds.
+_PATIENCE = 10.0
 
 
 def ftetwild(
@@ -48,7 +52,8 @@ def ftetwild(
     -----
     The C++ code prints, writes a file into the current folder, ends the process when it meets what
     it cannot handle, and does not return for a signal. In a process and a folder of its own it
-    leaves nothing behind, takes nothing with it, and Ctrl-C stops it.
+    leaves nothing behind, takes nothing with it, and Ctrl-C stops it. It ends when this process is
+    killed as well, see `ftetwild_watch.py`.
     """
     with tempfile.TemporaryDirectory(prefix="snapspace-") as name:
         folder = Path(name)
@@ -73,24 +78,37 @@ def ftetwild(
 
 def _run(folder: Path) -> tuple[int, str]:
     """Exit status and output of the program; its process is ended if this one is told to stop."""
-    with subprocess.Popen(
-        [sys.executable, str(_PROGRAM), str(folder)],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        errors="replace",
-        cwd=folder,
-        # packages are found there as they are here
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
-    ) as process:
-        try:
-            while True:
-                try:
-                    output, _ = process.communicate(timeout=POLL_SECONDS)
-                    return process.returncode, output
-                except subprocess.TimeoutExpired:
-                    check_stop()
-        except BaseException:
-            process.kill()
-            raise
+    watched, alive = os.pipe()  # `alive` closes when this process ends, however
+    try:
+        with subprocess.Popen(
+            [sys.executable, str(_WATCH), str(folder), str(_PROGRAM)],
+            stdin=watched,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            errors="replace",
+            # Ctrl-C in a terminal goes to all its processes, but this one decides what ends
+            start_new_session=True,
+            # packages are found there as they are here
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
+        ) as process:
+            os.close(watched)
+            watched = -1
+            try:
+                while True:
+                    try:
+                        output, _ = process.communicate(timeout=POLL_SECONDS)
+                        return process.returncode, output
+                    except subprocess.TimeoutExpired:
+                        check_stop()
+            except BaseException:
+                os.close(alive)
+                alive = -1
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(_PATIENCE)
+                process.kill()
+                raise
+    finally:
+        for handle in (watched, alive):
+            if handle >= 0:
+                os.close(handle)

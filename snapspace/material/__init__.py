@@ -3,7 +3,7 @@
 from .arap import ARAP
 from .corotational import Corotational
 from .material import Material
-from .materials import DEFAULT_MATERIAL, MATERIALS, material_class
+from .materials import DEFAULT_MATERIAL, MATERIALS, checked_material, material_class
 from .mooney_rivlin import MooneyRivlin
 from .stable_neo_hookean import StableNeoHookean
 from .stvk import StVK
@@ -19,5 +19,6 @@ __all__ = [
     "StVK",
     "StableNeoHookean",
     "SymmetricDirichlet",
+    "checked_material",
     "material_class",
 ]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .arap import ARAP
 from .corotational import Corotational
 from .material import Material
@@ -25,3 +27,24 @@ def material_class(kind: str) -> type[Material]:
     if kind not in MATERIALS:
         raise ValueError(f"unknown material '{kind}'; known are {', '.join(sorted(MATERIALS))}")
     return MATERIALS[kind]
+
+
+def checked_material(material: Any, count: int, who: str) -> Material:
+    """The material; ValueError of `who` unless it is one of `MATERIALS` for `count` tets.
+
+    A subclass with another density is none: the core would compute that of its `kind`.
+    """
+    if isinstance(material, type) and issubclass(material, Material):
+        raise ValueError(
+            f"{who}: material is the class {material.__name__}; give one with moduli, such as "
+            f"{material.__name__}.from_lame(lam=1, mu=1)"
+        )
+    if type(material) not in MATERIALS.values():
+        known = ", ".join(one.__name__ for one in MATERIALS.values())
+        raise ValueError(
+            f"{who}: material is {repr(material)[:60]} of type {type(material).__name__}, but it "
+            f"must be one of {known}"
+        )
+    checked: Material = material
+    checked.check_tets(count, who)
+    return checked

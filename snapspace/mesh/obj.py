@@ -8,7 +8,7 @@ import numpy as np
 
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
-from .polygons import fan_triangles
+from .polygons import corner_array, fan_triangles
 
 
 def read_obj(path: Path) -> FileContent:
@@ -36,9 +36,7 @@ def read_obj(path: Path) -> FileContent:
         vertices = np.array(coordinates, dtype=np.float64).reshape(-1, 3)
     except ValueError:
         raise ValueError("a vertex has a coordinate that is not a number") from None
-    return FileContent(
-        vertices, {"triangle": fan_triangles(np.array(corners, dtype=np.int64), sizes)}
-    )
+    return FileContent(vertices, {"triangle": fan_triangles(corner_array(corners), sizes)})
 
 
 def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:

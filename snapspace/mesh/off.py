@@ -9,7 +9,7 @@ import numpy as np
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
 from .number_text import as_integers, parse_numbers, take_table
-from .polygons import fan_triangles
+from .polygons import corner_array, fan_triangles
 
 _HEADERS = ("OFF", "COFF", "NOFF", "CNOFF", "STOFF")
 
@@ -72,4 +72,4 @@ def _polygons(lines: list[str]) -> tuple[np.ndarray[tuple[int], np.dtype[np.int6
             raise ValueError(f"face {number} announces {size} corners, but has {len(polygon)}")
         corners += polygon
         sizes.append(size)
-    return np.array(corners, dtype=np.int64), sizes
+    return corner_array(corners), sizes

@@ -7,12 +7,14 @@ Own reader, because meshio's knows neither `vertex_index` (a common name of the 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
+from .number_text import as_integers
 from .ply_body import ENCODINGS, PlyBody, PlyElement, PlyProperty
 from .polygons import fan_triangles
 
@@ -41,7 +43,7 @@ def read_ply(path: Path) -> FileContent:
             corners = columns.get("vertex_indices", columns.get("vertex_index"))
             if corners is None:
                 raise ValueError("its faces have no vertex_indices")
-            triangles = fan_triangles(corners.values.astype(np.int64), corners.sizes)
+            triangles = fan_triangles(_indices(corners.values), corners.sizes)
     if vertices is None:
         raise ValueError("it has no vertices")
     return FileContent(vertices.astype(np.float64), {"triangle": triangles})
@@ -80,6 +82,13 @@ def _header(data: bytes) -> tuple[str, list[PlyElement], int]:
     if encoding not in ENCODINGS:
         raise ValueError(f"its format is {encoding[:40]!r}; known are {', '.join(ENCODINGS)}")
     return encoding, elements, start
+
+
+def _indices(values: NDArray[Any]) -> NDArray[np.int64]:
+    """Vertex indices; those of text come as doubles, and may be no whole numbers."""
+    if values.dtype.kind == "f":
+        return as_integers(values.astype(np.float64), what="vertex_indices")
+    return values.astype(np.int64)
 
 
 def _count(word: str) -> int:

@@ -99,7 +99,7 @@ class PlyBody:
     def _row(self, element: PlyElement) -> list[tuple[int, NDArray[Any]]]:
         row = []
         for item in element.properties:
-            size = int(self._take(item.count_type, 1)[0]) if item.count_type else 1
+            size = _whole(self._take(item.count_type, 1)[0]) if item.count_type else 1
             row.append((size, self._take(item.value_type, size)))
         return row
 
@@ -111,3 +111,10 @@ class PlyBody:
         values = np.frombuffer(self._data, dtype, count, self._position)
         self._position = end
         return values
+
+
+def _whole(count: Any) -> int:
+    """The length of a list; ValueError for one that is not finite or no whole number."""
+    if not np.isfinite(count) or count != np.floor(count):
+        raise ValueError(f"a list is announced with {count:g} values")
+    return int(count)

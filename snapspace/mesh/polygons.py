@@ -6,6 +6,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 
+def corner_array(corners: list[int]) -> NDArray[np.int64]:
+    """Vertex indices as an array, (k,); ValueError names one that does not fit in 64 bits."""
+    try:
+        return np.array(corners, dtype=np.int64)
+    except OverflowError:
+        index = max(corners, key=abs)
+        raise ValueError(f"a face has vertex index {str(index)[:40]}, too large a number") from None
+
+
 def fan_triangles(corners: NDArray[np.int64], sizes: ArrayLike) -> NDArray[np.int64]:
     """Triangulate polygons as fans around their first corner.
 

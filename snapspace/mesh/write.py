@@ -12,12 +12,13 @@ import meshio
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..disk.atomic_file import atomic_file
 from .arrays import FloatArray, IndexArray, as_indices, as_points
-from .atomic_file import atomic_file
 from .input_path import writable_path
 from .obj import write_obj
 from .off import write_off
 from .ply import write_ply
+from .stl import write_stl
 from .surface import compact_surface
 from .tet_mesh import TetMesh
 from .validation import check_indices, check_points
@@ -156,16 +157,11 @@ def _write_with_meshio(
             raise ValueError(f"the file cannot be written as {file_format}: {error}") from None
 
 
-def _write_stl(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
-    content = meshio.Mesh(vertices, [("triangle", faces)])
-    _write_with_meshio(path, content, "stl", {"binary": True})
-
-
 _SURFACE_WRITERS: dict[str, Callable[[Path, FloatArray, IndexArray], None]] = {
     ".obj": write_obj,
     ".ply": write_ply,
     ".off": write_off,
-    ".stl": _write_stl,
+    ".stl": write_stl,
 }
 
 #: Extensions of `write_tets` and `write_surface`.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -11,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
-from ..mesh.atomic_file import atomic_file
-from ..mesh.safetensors_bytes import safetensors_bytes
+from ..disk.atomic_file import atomic_file
+from ..disk.safetensors_bytes import safetensors_bytes
 
 Arrays = dict[str, NDArray[Any]]
 #: The type of an array, or those that it may have.
@@ -34,7 +35,7 @@ def read_container(path: Path) -> tuple[Arrays, dict[str, str]]:
         with safe_open(path, framework="np") as file:
             arrays = {name: file.get_tensor(name) for name in file.keys()}
             return arrays, dict(file.metadata() or {})
-    except (SafetensorError, OSError, ValueError) as error:
+    except (SafetensorError, OSError, ValueError, TypeError, LookupError, AttributeError) as error:
         raise ValueError(
             f"{path}: not a complete snapspace model ({error}); copy or build it again"
         ) from None
@@ -51,6 +52,42 @@ def check_dtypes(path: Path, arrays: Arrays, dtypes: Mapping[str, Types]) -> Non
                 f"{path}: the array '{name}' is {arrays[name].dtype}, not "
                 f"{' or '.join(map(str, known))}; build the model again"
             )
+
+
+def check_finite(path: Path, arrays: Arrays) -> None:
+    """ValueError for an array with a number that is NaN or infinite."""
+    for name, array in arrays.items():
+        if array.dtype.kind != "f" or np.isfinite(array).all():
+            continue
+        place = ", ".join(map(str, np.argwhere(~np.isfinite(array))[0]))
+        raise ValueError(
+            f"{path}: the array '{name}' has a number at [{place}] that is not finite; build the "
+            "model again"
+        )
+
+
+def parsed(header: dict[str, str], key: str) -> dict[str, Any]:
+    """The JSON object of a header's entry.
+
+    Raises
+    ------
+    KeyError, ValueError
+        If there is none, or it is no object, is nested too deeply, or has an integer beyond 64
+        bits.
+    """
+    try:
+        content = json.loads(header[key], parse_int=_integer)
+    except RecursionError:
+        raise ValueError(f"'{key}' is nested too deeply") from None
+    if not isinstance(content, dict):
+        raise ValueError(f"'{key}' is no JSON object")
+    return content
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > 20:
+        raise ValueError(f"an integer has {len(digits)} digits")
+    return int(digits)
 
 
 def check_shapes(arrays: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> None:

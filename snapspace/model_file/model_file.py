@@ -8,7 +8,14 @@ from pathlib import Path
 
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import error_estimator, interpolation, material, posing, shown_surface, snapshot_energies
-from .container import check_dtypes, checksum, read_container, write_container
+from .container import (
+    check_dtypes,
+    check_finite,
+    checksum,
+    parsed,
+    read_container,
+    write_container,
+)
 
 FORMAT = "snapspace-model"
 VERSION = 3
@@ -66,8 +73,8 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     ------
     ValueError
         If the file is missing, truncated, altered (checksum), of another kind, of a newer version
-        or of a material that is not known, or if an array is missing or has the wrong type or size.
-        The message names the file and the cure.
+        or of a material that is not known, or if an array is missing, has the wrong type or size or
+        a number that is not finite. The message names the file and the cure.
     """
     path = Path(path)
     if not path.is_file():
@@ -94,16 +101,18 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
         )
+    check_finite(path, arrays)
     blends = kind in (INTERPOLATION, BLENDED_CUBATURE)
     make = interpolation.interpolation_model if blends else posing.posing_model
     try:
-        model = make(arrays, json.loads(header["problem"]), json.loads(header["provenance"]))
+        model = make(arrays, parsed(header, "problem"), parsed(header, "provenance"))
         return replace(model, error_estimator=error_estimator.estimator(arrays))
     except material.UnknownMaterialError as error:
         raise ValueError(f"{path}: {error}; install the snapspace that wrote it") from None
-    except (KeyError, TypeError, ValueError) as error:
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
+        reason = f"no entry {error}" if isinstance(error, KeyError) else error
         raise ValueError(
-            f"{path}: the model does not fit together ({error}); build it again"
+            f"{path}: the model does not fit together ({reason}); build it again"
         ) from None
 
 

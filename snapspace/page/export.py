@@ -6,7 +6,7 @@ import base64
 import html
 from pathlib import Path
 
-from ..mesh.atomic_file import atomic_file
+from ..disk.atomic_file import atomic_file
 from ..reduction import ReducedModel
 from .pack import packed
 from .page_file import PLACE, page_html

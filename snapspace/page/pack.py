@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
-from ..mesh.safetensors_bytes import safetensors_bytes
 from ..model_file.container import Arrays
 from ..reduction import (
     BlendedCubature,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
+
+from ..disk import atomic_file
 
 
 def save_png(path: str | os.PathLike[str], image: Any) -> Path:
@@ -32,7 +33,8 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
     Raises
     ------
     ValueError
-        If the extension is not ``.png``, the folder does not exist, or `image` is not an image.
+        If the extension is not ``.png``, the folder does not exist, `image` is not an image, or the
+        file cannot be written.
     """
     target = Path(path)
     if target.suffix.lower() != ".png":
@@ -48,16 +50,6 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
             "give (h, w, 3) uint8"
         )
 
-    handle, temporary = tempfile.mkstemp(suffix=".png", prefix=".", dir=target.parent)
-    try:
-        with os.fdopen(handle, "wb") as file:
-            Image.fromarray(pixels).save(file, format="PNG", optimize=True)
-        # mkstemp keeps the file to its owner; a picture is as readable as any new file.
-        mask = os.umask(0)
-        os.umask(mask)
-        os.chmod(temporary, 0o666 & ~mask)
-        os.replace(temporary, target)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
+    with atomic_file(target) as temporary:
+        Image.fromarray(pixels).save(temporary, format="PNG", optimize=True)
     return target

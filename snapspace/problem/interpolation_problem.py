@@ -14,7 +14,7 @@ from scipy.sparse import csr_array
 
 from .. import _core as core
 from ..interruptible import run_abandonable
-from ..material import Material, StableNeoHookean
+from ..material import Material, StableNeoHookean, checked_material
 from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
@@ -217,8 +217,7 @@ class InterpolationProblem:
         return registered(mean, self.base, self._mass_of(mean))
 
     def _checked_material(self, material: Material) -> Material:
-        material.check_tets(len(self.poses.tets), "InterpolationProblem")
-        return material
+        return checked_material(material, len(self.poses.tets), "InterpolationProblem")
 
     def _checked_shape(self, shape: ArrayLike) -> FloatArray:
         x = np.array(shape, np.float64).reshape(-1)

@@ -16,7 +16,7 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..energy import ElasticEnergy
 from ..interruptible import run_abandonable
-from ..material import DEFAULT_MATERIAL, Material
+from ..material import DEFAULT_MATERIAL, Material, checked_material
 from ..mesh import TetMesh, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
@@ -51,9 +51,9 @@ class PosingProblem:
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, a material with moduli for another number of tets, a
-        handle with a vertex outside of the mesh (the message names it), or handles that all lie on
-        one line, about which the shape could turn freely.
+        For a stiffness that is not positive, what is no material of `MATERIALS` or has moduli for
+        another number of tets, a handle with a vertex outside of the mesh (the message names it),
+        or handles that all lie on one line, about which the shape could turn freely.
     """
 
     def __init__(
@@ -67,8 +67,8 @@ class PosingProblem:
     ) -> None:
         self.mesh = mesh
         self.handles = handles
-        self.material = DEFAULT_MATERIAL() if material is None else material
-        self.material.check_tets(len(mesh.tets), "PosingProblem")
+        given = DEFAULT_MATERIAL() if material is None else material
+        self.material = checked_material(given, len(mesh.tets), "PosingProblem")
         if stiffness is None:
             stiffness = usual_stiffness(mesh, self.material)
         self.stiffness = float(stiffness)

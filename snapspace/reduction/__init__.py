@@ -24,6 +24,7 @@ from .quartic import (
     pose_quartics,
     reduced_quartic,
 )
+from .quartic_cost import LongWorkNotice, exact_seconds
 from .reduce import reduce
 from .reduced_model import ReducedModel
 
@@ -35,6 +36,7 @@ __all__ = [
     "Energy",
     "HandleQuadric",
     "InterpolationModel",
+    "LongWorkNotice",
     "PoseQuartics",
     "PosingModel",
     "Quartic",
@@ -43,6 +45,7 @@ __all__ = [
     "coefficient_count",
     "default_blended_tets",
     "default_tets",
+    "exact_seconds",
     "fewest_snapshots",
     "handle_quadric",
     "pose_quartics",

@@ -9,11 +9,13 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
+from ..subspace.orthonormality import check_orthonormal
 from .energy_choice import Energy, chosen_energy, fewest_snapshots
 from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
 from .quartic import PoseQuartics, Quartic, pose_quartics, reduced_quartic
+from .quartic_cost import tell_of_long_quartics
 from .shown_surface import surface_in
 from .training import check_attached, training
 
@@ -110,15 +112,24 @@ def reduce(
     Raises
     ------
     ValueError
-        If the subspace is of another mesh or not attached to the problem's tau, the surface is of
-        another mesh, the energy is not possible, a cubature has too few snapshots, `tets` is not
-        between 1 and the number of the mesh, or it is given without a cubature.
+        If the subspace is of another mesh, not attached to the problem's tau or its basis not
+        M-orthonormal, the surface is of another mesh, the energy is not possible, a cubature has
+        too few snapshots, `tets` is not between 1 and the number of the mesh, or it is given
+        without a cubature.
+
+    Warns
+    -----
+    LongWorkNotice
+        If an exact energy takes more than a minute, see `exact_seconds`.
     """
     check_attached(problem, subspace, who="reduce")
+    check_orthonormal(subspace, who="reduce")
     shown = surface_in(problem.mesh, surface, who="reduce")
     kind = chosen_energy(problem, subspace.dimension, energy)
     if kind == "exact" and tets is not None:
         raise ValueError("reduce: tets is for energy='cubature'; the exact energy takes all tets")
+    if kind == "exact":
+        tell_of_long_quartics(problem, subspace.dimension)
     _check_snapshots(problem, subspace, energy, snapshots)
     subspace = subspace.in_single_precision()
     parameters, coordinates = training(problem, subspace, snapshots)

@@ -6,7 +6,7 @@ import json
 
 import numpy as np
 
-from ..mesh.safetensors_bytes import safetensors_bytes
+from ..disk.safetensors_bytes import safetensors_bytes
 from ..page.pack import FORMAT, VERSION
 from .body import Body
 

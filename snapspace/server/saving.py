@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from ..disk.atomic_file import atomic_file
 from ..mesh import EmbeddedSurface, TetMesh, write_surface, write_tets
-from ..mesh.atomic_file import atomic_file
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import warnings
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -20,3 +23,17 @@ def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
         entry = ", ".join(map(str, place))
         raise ValueError(f"{name} has [{entry}] = {array[place]}, but it must be finite")
     return array
+
+
+def radians(euler: ArrayLike, name: str) -> FloatArray:
+    """Three finite angles, (3,); a UserWarning for one beyond a full turn: degrees, probably."""
+    angles = finite(euler, (3,), name)
+    largest = float(np.abs(angles).max())
+    if largest > 2.0 * math.pi:
+        warnings.warn(
+            f"{name} has an angle of {largest:g} radians, more than a full turn; if these are "
+            "degrees give np.deg2rad(...) of them",
+            UserWarning,
+            stacklevel=4,
+        )
+    return angles

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial.transform import Rotation
 
 from ..problem import rotation_matrix
-from .finite_input import finite
+from .finite_input import finite, radians
 
 FloatArray = NDArray[np.float64]
 #: Three Euler angles (radians, extrinsic x, y, z), a matrix (3, 3), a quaternion (x, y, z, w), or a
@@ -40,7 +40,7 @@ def given_rotation(turn: Turn, name: str) -> FloatArray:
                 "right-handed (move_affine takes any matrix)"
             )
         return matrix
-    return rotation_matrix(finite(turn, (3,), name))
+    return rotation_matrix(radians(turn, name))
 
 
 def is_rotation(matrix: FloatArray, *, to: float = 1e-9) -> bool:

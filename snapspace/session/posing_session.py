@@ -75,7 +75,8 @@ class PosingSession(Session[PosingModel]):
         Parameters
         ----------
         handle : str
-        euler : three angles in radians, extrinsic x, y, z; default none
+        euler : three angles in radians, extrinsic x, y, z, default none; beyond a full turn with a
+            warning, since they look like degrees
         rotation : instead of `euler`
             A matrix (3, 3), a quaternion (x, y, z, w) of any length, or SciPy's `Rotation`.
         translation : three lengths

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk import flushed_folder
 from ..problem import Problem
 from .sample_file import Samples, read_indices, read_samples, write_samples
 from .snapshots import SampleReport
@@ -92,7 +93,9 @@ class Checkpoint:
         rows = list(displacements)
         path = self.folder / f"samples-{min(indices):05d}-{len(indices)}.safetensors"
         try:
-            self.folder.mkdir(parents=True, exist_ok=True)
+            if not self.folder.is_dir():
+                self.folder.mkdir(parents=True, exist_ok=True)
+                flushed_folder(self.folder.parent)
             write_samples(path, indices, rows, reports)
             samples = read_samples(path)
         except (OSError, ValueError) as error:

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh.atomic_file import atomic_file
+from ..disk.atomic_file import atomic_file
 from .snapshots import SampleReport
 
 FloatArray = NDArray[np.float64]

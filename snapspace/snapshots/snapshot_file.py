@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from safetensors import SafetensorError, safe_open
 
+from ..disk.atomic_file import atomic_file
+from ..disk.safetensors_bytes import safetensors_bytes
 from ..displacements import DisplacementRows
-from ..mesh.atomic_file import atomic_file
 from ..mesh.input_path import existing_file, writable_path
-from ..mesh.safetensors_bytes import safetensors_bytes
 from ..problem import Problem
 from .snapshots import SampleReport, Snapshots
 

@@ -8,12 +8,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from safetensors import safe_open
 from safetensors.numpy import save_file
 
 from snapspace import TetMesh
 from snapspace.cli.fit_cache import FitCache
 from snapspace.fitting import PoseFit
 from snapspace.mesh import boundary_surface
+from snapspace.snapshots import CheckpointNotice
 
 from .files import bar_mesh, bar_shapes, contents
 
@@ -103,6 +105,21 @@ def emptied(path: Path) -> None:
     path.write_bytes(b"")
 
 
+def one_bit_flipped(path: Path) -> None:
+    """In the last array: its layout stays as it was, and its numbers change by little."""
+    content = bytearray(path.read_bytes())
+    content[-4] ^= 1
+    path.write_bytes(content)
+
+
+def without_a_checksum(path: Path) -> None:
+    """As files were before they had one."""
+    with safe_open(path, framework="np") as file:
+        arrays = {name: file.get_tensor(name) for name in file.keys()}
+        words = {k: v for k, v in file.metadata().items() if k != "crc32"}
+    save_file(arrays, path, words)
+
+
 def something_else(path: Path) -> None:
     path.write_bytes(b"solid cube\n" * 50)
 
@@ -118,25 +135,47 @@ def with_another_report(path: Path) -> None:
 
 DAMAGES = (
     truncated,
+    one_bit_flipped,
+    without_a_checksum,
     cut_in_the_header,
     emptied,
     something_else,
     of_another_program,
     with_another_report,
-    Path.unlink,
 )
 
 
 @pytest.mark.parametrize("damage", DAMAGES, ids=lambda damage: damage.__name__)
-def test_what_cannot_be_read_counts_as_missing(cache: FitCache, damage: Any) -> None:
+def test_what_is_damaged_is_told_and_made_again(cache: FitCache, damage: Any) -> None:
     keep(cache)
     for path in list(cache.folder.iterdir()):
         damage(path)
-    assert cache.load_tets(TARGET, SURFACE.faces, {}) is None
-    assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is None
+    with pytest.warns(CheckpointNotice, match=r"tets-\w+.*not used \(.*\); the surface is filled "):
+        assert cache.load_tets(TARGET, SURFACE.faces, {}) is None
+    with pytest.warns(CheckpointNotice, match=r"pose-\w+.*not used \(.*\); its pose is fitted "):
+        assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is None
     keep(cache)  # made again, over the damaged one
     assert cache.load_tets(TARGET, SURFACE.faces, {}) is not None
     assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is not None
+
+
+def test_a_missing_file_is_nothing_to_tell(cache: FitCache) -> None:
+    keep(cache)
+    for path in list(cache.folder.iterdir()):
+        path.unlink()
+    assert cache.load_tets(TARGET, SURFACE.faces, {}) is None
+    assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is None
+
+
+def test_the_file_of_another_pose_is_not_taken_for_its_own(cache: FitCache) -> None:
+    keep(cache)
+    other = TARGET + 0.01
+    cache.save_fit(MESH, SURFACE, other, SETTINGS, 2.0 * SHAPE, FIT)
+    first, second = sorted(cache.folder.glob("pose-*"))
+    first.write_bytes(second.read_bytes())
+    with pytest.warns(CheckpointNotice, match="it was made of something else"):
+        found = [cache.load_fit(MESH, SURFACE, target, SETTINGS) for target in (TARGET, other)]
+    assert found.count(None) == 1
 
 
 def test_it_is_beside_the_output_and_goes_without_a_trace(cache: FitCache, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -38,10 +39,25 @@ def kept_files(folder: Path) -> list[str]:
     return sorted(names)
 
 
+@pytest.mark.parametrize(
+    ("sent", "code", "word"), [(None, 130, "interrupted"), (signal.SIGTERM, 143, "terminated")]
+)
 def test_ctrl_c_keeps_the_poses_that_are_fitted(
-    run: Run, tmp_path: Path, surface_words: list[object], monkeypatch: pytest.MonkeyPatch
+    run: Run,
+    tmp_path: Path,
+    surface_words: list[object],
+    monkeypatch: pytest.MonkeyPatch,
+    sent: signal.Signals | None,
+    code: int,
+    word: str,
 ) -> None:
+    """Of SIGTERM as well: it comes while compiled code fits on another thread."""
     path = tmp_path / "m.snapspace"
+
+    def stop() -> None:
+        if sent is None:
+            raise KeyboardInterrupt
+        signal.raise_signal(sent)
 
     @contextmanager
     def stop_after_the_first(*_: object, **__: object) -> Iterator[Callable[[int, int], None]]:
@@ -51,10 +67,10 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
         patch.setattr(interruptible, "POLL_SECONDS", 0.002)
         patch.setattr(pose_files, "step_progress", stop_after_the_first)
         result = run(*surface_words, "--threads", 1, "-o", path, "--json")
-    assert (result.code, result.out) == (130, "")
+    assert (result.code, result.out) == (code, "")
     line = result.err.splitlines()[-1]
     told = re.fullmatch(
-        r"snapspace: interrupted: ([12]) of 2 fitted poses are kept; the same command goes on "
+        rf"snapspace: {word}: ([12]) of 2 fitted poses are kept; the same command goes on "
         "from there",
         line,
     )
@@ -70,7 +86,14 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
     assert_same_model(path, tmp_path / "at_once.snapspace")
 
 
-@pytest.mark.parametrize("damage", [Path.unlink, lambda path: path.write_bytes(b"half")])
+def flip_a_bit(path: Path) -> None:
+    """Of a coordinate: without a checksum the model would be another, and nobody would know."""
+    content = bytearray(path.read_bytes())
+    content[-4] ^= 1
+    path.write_bytes(content)
+
+
+@pytest.mark.parametrize("damage", [Path.unlink, flip_a_bit])
 def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
     run: Run,
     tmp_path: Path,
@@ -89,6 +112,8 @@ def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
 
     resumed = run(*surface_words, "-o", path, "--json")
     assert "resuming: 1 of 2 poses were fitted before" in resumed.err
+    told = "not used (its content has changed); its pose is fitted again" in resumed.err
+    assert told == (damage is flip_a_bit)
     # the pose is bitwise the same, so the samples still belong to it
     assert "resuming: 6 of 6 samples were finished before" in resumed.err
     assert [fit["name"] for fit in resumed.json["fits"]] == ["bent", "twisted"]

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import pytest
 
 import snapspace
-from snapspace.cli import main
 
 from .conftest import Run, interrupted_as
 
@@ -70,13 +70,42 @@ def test_as_a_module(tmp_path: Path) -> None:
     assert done.stderr == (f"snapspace: error: {tmp_path / 'none.mesh'}: there is no such file\n")
 
 
-def test_a_fault_of_ours_keeps_its_traceback(model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> None:
-        raise ZeroDivisionError("a fault")
+@pytest.fixture
+def broken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fault of ours in every command that loads a model."""
 
-    monkeypatch.setattr("snapspace.cli.loading.load", broken)
-    with pytest.raises(ZeroDivisionError, match="a fault"):
-        main(["pose", str(model)])
+    def fault(*_: object) -> None:
+        raise ZeroDivisionError("a fault\nof two lines")
+
+    monkeypatch.setattr("snapspace.cli.loading.load", fault)
+
+
+@pytest.mark.usefixtures("broken")
+def test_a_fault_of_ours_is_one_line_and_its_traceback_is_in_a_file(
+    run: Run, model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    result = run("pose", model)
+    (log,) = tmp_path.glob("snapspace-fault-*.log")
+    assert (result.code, result.out) == (1, "")
+    assert result.err == (
+        "snapspace: error: this is a fault of snapspace, not of your input (ZeroDivisionError: "
+        f"a fault of two lines); its traceback is in {log}; please report it with that file\n"
+    )
+    report = log.read_text()
+    assert "Traceback (most recent call last)" in report and "in fault" in report
+    assert f"snapspace pose {model}" in report
+
+
+@pytest.mark.usefixtures("broken")
+def test_a_traceback_that_cannot_be_written_is_shown(
+    run: Run, model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / "none"))
+    result = run("pose", model)
+    assert result.code == 1
+    assert "ZeroDivisionError: a fault" in result.err
+    assert "its traceback is above" in result.err.splitlines()[-1]
 
 
 def test_too_little_memory_is_one_line(

@@ -95,6 +95,27 @@ def test_an_interrupt_after_the_samples_keeps_them_too(
     assert "resuming: 12 of 12" in run(*words).err
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGTERM to receive")
+def test_sigterm_keeps_them_too_with_an_exit_code_of_its_own(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As schedulers and `kill` send it."""
+
+    def terminated(*_: object, **__: object) -> None:
+        signal.raise_signal(signal.SIGTERM)
+        raise AssertionError("still running")
+
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    words = ("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
+    with monkeypatch.context() as patch:
+        patch.setattr(pipeline, "reduce", terminated)
+        result = run(*words)
+    assert (result.code, result.out) == (143, "")
+    assert result.err.splitlines()[-1].startswith("snapspace: terminated: 12 of 12 samples are ")
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
+    assert "resuming: 12 of 12" in run(*words).err
+
+
 def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

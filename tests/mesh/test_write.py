@@ -10,8 +10,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from snapspace.disk.atomic_file import atomic_file
 from snapspace.mesh import read_surface, read_tets, write_surface, write_tets
-from snapspace.mesh.atomic_file import atomic_file
 
 from .boxes import box_mesh, irregular_mesh
 

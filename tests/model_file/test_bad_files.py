@@ -165,18 +165,81 @@ def a_list(arrays: dict[str, Any], header: dict[str, str]) -> None:
     header["problem"] = "[1, 2]"
 
 
+def deep(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["problem"] = "[" * 100_000 + "]" * 100_000
+
+
+def a_huge_integer(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    """No float holds it."""
+    content = {**json.loads(header["problem"]), "stiffness": 10**400}
+    header["problem"] = json.dumps(content)
+
+
+def more_digits_than_python_reads(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["provenance"] = f'{{"seed": {"9" * 5000}}}'
+
+
+def a_list_of_records(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["provenance"] = "[]"
+
+
+def handles_as_a_number(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["problem"] = json.dumps({**json.loads(header["problem"]), "handles": 7})
+
+
+def bounds_as_text(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["problem"] = json.dumps({**json.loads(header["problem"]), "domain": "wide"})
+
+
+def a_stiffness_that_is_no_number(arrays: dict[str, Any], header: dict[str, str]) -> None:
+    header["problem"] = json.dumps({**json.loads(header["problem"]), "stiffness": float("nan")})
+
+
 def no_problem(arrays: dict[str, Any], header: dict[str, str]) -> None:
     del header["problem"]
 
 
 @pytest.mark.parametrize(
     "change",
-    [bad_tet, bad_handle, bad_stiffness, no_handles, no_material, not_json, a_list, no_problem],
+    [
+        bad_tet,
+        bad_handle,
+        bad_stiffness,
+        no_handles,
+        no_material,
+        not_json,
+        a_list,
+        no_problem,
+        deep,
+        a_huge_integer,
+        more_digits_than_python_reads,
+        a_list_of_records,
+        handles_as_a_number,
+        bounds_as_text,
+        a_stiffness_that_is_no_number,
+    ],
 )
 def test_content_that_makes_no_model_is_refused(saved: Path, change: Change) -> None:
     """Even with a valid checksum: what is loaded goes through the validators of its types."""
     rewrite(saved, change)
     assert "the model does not fit together" in refused(saved)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_a_number_that_is_not_finite_is_refused_in_any_array(saved: Path, value: float) -> None:
+    """Even with a valid checksum: it would become a shape that is nowhere."""
+    content = saved.read_bytes()
+    names = [name for name, array in load_file(saved).items() if array.dtype.kind == "f"]
+    assert {"vertices", "basis", "quartic", "handle_S", "training_coordinates"} <= set(names)
+    for name in names:
+
+        def change(arrays: dict[str, Any], header: dict[str, str], name: str = name) -> None:
+            arrays[name] = arrays[name].copy()
+            arrays[name].flat[-1] = value
+
+        saved.write_bytes(content)
+        rewrite(saved, change)
+        assert f"the array '{name}' has a number at [" in refused(saved)
 
 
 @pytest.mark.parametrize("version", ["4", "0", "", "one"])

@@ -63,6 +63,6 @@ def test_a_damaged_one_is_refused(models: dict[str, PosingModel], tmp_path: Path
     write_container(path, {**arrays, "estimator_weights": np.ones(1)}, header)
     with pytest.raises(ValueError, match="one positive weight per vertex"):
         load(path)
-    write_container(path, {**arrays, "estimator_residual_ratios": np.full(9, np.nan)}, header)
+    write_container(path, {**arrays, "estimator_residual_ratios": np.full(9, -1.0)}, header)
     with pytest.raises(ValueError, match="positive ratios; calibrate"):
         load(path)

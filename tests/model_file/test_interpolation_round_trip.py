@@ -256,7 +256,7 @@ CHANGES: list[tuple[Change, str]] = [
     (header_change(extrapolation=-1.0), "extrapolation is -1.0, but it must be zero or positive"),
     (header_change(accept_inverted=None), "the model does not fit together"),
     (header_change(lumped_mass=None), "the model does not fit together"),
-    (not_finite_mean, "the mean shape has a coordinate not finite"),
+    (not_finite_mean, "the array 'mean_shape' has a number at [0] that is not finite"),
     (posing_kind, "the array 'vertices' is missing"),
 ]
 

@@ -23,6 +23,7 @@ HANDLES = st.sampled_from(["foot", "head", "belly"])
 MOTIONS = st.lists(st.tuples(HANDLES, ANGLES, SHIFTS), min_size=1, max_size=5)
 
 
+@pytest.mark.filterwarnings("ignore:move. euler of")  # any angles
 @given(motions=MOTIONS, minimizer=MINIMIZERS, bound=st.sampled_from([1, 2, 20, 500]))
 @settings(max_examples=60)
 def test_any_motion_ends_soon_with_numbers(
@@ -109,6 +110,7 @@ def turned(session: PosingSession, euler: tuple[float, float, float]) -> tuple[s
     return session.outside
 
 
+@pytest.mark.filterwarnings("ignore:move. euler of")  # any angles
 def test_what_is_outside_of_the_sampled_box_is_told(posing_model: PosingModel) -> None:
     session = posing_model.session()
     domain = posing_model.problem.domain

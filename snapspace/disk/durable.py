@@ -1,0 +1,38 @@
+"""What was written reaches the disk itself, and not only the system's memory."""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+from pathlib import Path
+
+# File systems without fsync, as some that are mounted over a network.
+_CANNOT = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
+
+
+def flushed_file(path: Path) -> None:
+    """Waits until the content of a file is on the disk; OSError if it cannot get there."""
+    handle = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
+    try:
+        os.fsync(handle)
+    except OSError as error:
+        if error.errno not in _CANNOT:
+            raise
+    finally:
+        os.close(handle)
+
+
+def flushed_folder(path: Path) -> None:
+    """Waits until the names in a folder are on the disk: new files, renamed and removed ones.
+
+    Does nothing where the system has no way to ask for it (Windows), or the folder cannot be read.
+    """
+    if os.name == "nt":
+        return
+    with contextlib.suppress(OSError):
+        handle = os.open(path, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)

@@ -1,0 +1,81 @@
+"""Names of temporary files, and the removal of those that a dead process has left."""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import os
+import re
+import secrets
+from functools import cache, lru_cache
+from pathlib import Path
+
+_NAME = re.compile(r"\..{0,40}\.(?P<machine>[0-9a-f]{12})-(?P<process>\d{1,10})-[0-9a-f]{8}(\..*)?")
+
+
+def temporary_name(path: Path) -> str:
+    """A name for a temporary file beside `path`, with the same extension: writers look at it.
+
+    It holds the process, so that `sweep` knows whose it is.
+    """
+    mark = f"{machine_mark()}-{os.getpid()}-{secrets.token_hex(4)}"
+    return f".{path.stem[:40]}.{mark}{path.suffix}"
+
+
+def sweep(folder: Path) -> list[Path]:
+    """Removes temporary files in a folder whose process is certainly dead, and returns them.
+
+    A process is certainly dead if it ran since this system was started, among the processes that
+    are visible here, and none has its number now. Files of other machines and containers, and those
+    from before the last start of the system, stay. Outside of Linux nothing is removed.
+    """
+    removed: list[Path] = []
+    if _boot() is None:
+        return removed
+    with contextlib.suppress(OSError):
+        for path in sorted(folder.iterdir()):
+            found = _NAME.fullmatch(path.name)
+            if not found or found["machine"] != machine_mark() or _lives(int(found["process"])):
+                continue
+            with contextlib.suppress(OSError):
+                path.unlink()
+                removed.append(path)
+    return removed
+
+
+@lru_cache(maxsize=1024)
+def swept_once(folder: Path) -> None:
+    """`sweep`, the first time that this process writes to a folder."""
+    sweep(folder)
+
+
+@cache
+def machine_mark() -> str:
+    """12 hex digits that differ for other systems, containers, and after the system has restarted.
+
+    Random where that cannot be known: such files are never anybody's.
+    """
+    known = _boot()
+    content = secrets.token_bytes() if known is None else known.encode()
+    return hashlib.sha256(content).hexdigest()[:12]
+
+
+@cache
+def _boot() -> str | None:
+    """This start of the system and the space of its process numbers; None outside of Linux."""
+    try:
+        boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+        return f"{boot} {os.readlink('/proc/self/ns/pid')}"
+    except OSError:
+        return None
+
+
+def _lives(process: int) -> bool:
+    """Whether a process of this number is there; another one may have got it since."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # it is somebody else's
+        return True
+    return True

@@ -1,0 +1,84 @@
+"""A layer of faults under everything that writes: full disks, calls that fail, kills.
+
+Writers use the disk in two ways: bytes go through the system's `write`, from Python or from
+libraries, and a few calls make names and flush (`os.replace`, `os.fsync`). The first are stopped by
+the system's own limit on the size of files, the second one by one.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import resource
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NoReturn
+from unittest import mock
+
+#: Calls of `os` that `atomic_file` makes, in this order; the folder is flushed last.
+CALLS = ("flush", "rename", "flush folder")
+
+
+@contextmanager
+def full_disk(size: int) -> Iterator[None]:
+    """No file can grow beyond so many bytes: what writes more gets an OSError."""
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+        signal.signal(signal.SIGXFSZ, before)
+
+
+@contextmanager
+def at_call(number: int, fault: Callable[[], NoReturn]) -> Iterator[None]:
+    """The call of this number, counted over `os.fsync` and `os.replace`, is a fault."""
+    made = 0
+
+    def counted(real: Callable[..., Any]) -> Callable[..., Any]:
+        def call(*arguments: Any) -> Any:
+            nonlocal made
+            made += 1
+            if made == number + 1:
+                fault()
+            return real(*arguments)
+
+        return call
+
+    with (
+        mock.patch.object(os, "fsync", counted(os.fsync)),
+        mock.patch.object(os, "replace", counted(os.replace)),
+    ):
+        yield
+
+
+def io_error() -> NoReturn:
+    """What a broken disk says."""
+    raise OSError(errno.EIO, "Input/output error")
+
+
+def killed() -> NoReturn:
+    """No handler runs, as with a power failure."""
+    os.kill(os.getpid(), signal.SIGKILL)
+    raise AssertionError("still alive")
+
+
+def in_a_child(work: Callable[[], object], *, size: int | None = None) -> int:
+    """Runs work in a copy of this process, and returns the signal that killed it, 0 if none did.
+
+    With a size the system kills it when a file grows beyond so many bytes.
+    """
+    child = os.fork()
+    if child == 0:
+        try:
+            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+            if size is not None:
+                signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
+                resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+            work()
+        finally:
+            os._exit(0)
+    return os.WTERMSIG(os.waitpid(child, 0)[1])
