@@ -17,6 +17,7 @@ from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
 from .frame_report import FrameReport
 from .lowest_of import lowest_of
+from .not_pickled import NotPickled
 from .polish import Polished, Polisher
 
 FloatArray = NDArray[np.float64]
@@ -26,7 +27,7 @@ MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
 PRECISIONS = ("double", "single")
 
 
-class Session(ABC, Generic[Model]):
+class Session(NotPickled, ABC, Generic[Model]):
     """What the sessions of all problems have in common.
 
     `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes the one
