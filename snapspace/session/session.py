@@ -69,10 +69,11 @@ class Session(NotPickled, ABC, Generic[Model]):
         precision: str = "double",
     ) -> None:
         tolerance = self.default_tolerance if tolerance is None else tolerance
-        if not tolerance > 0 or max_iterations < 1 or max_evaluations < 1:
+        bounds = (max_iterations, max_evaluations)
+        if not tolerance > 0 or not all(1 <= bound < 2**31 for bound in bounds):
             raise ValueError(
                 f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
-                f"max_evaluations {max_evaluations} must be positive"
+                f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
             )
         if minimizer is None:  # a Hessian of a cubature costs d / 4 times its gradient
             minimizer = "newton" if model.cubature is None else "bfgs"
