@@ -9,11 +9,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+from snapspace import PosingModel
+
 MODELS = ["posing_model", "cubature_model", "blending_model", "blended_cubature_model"]
 
 
 def frame(model: Any) -> np.ndarray[Any, Any]:
-    """The coordinates of one frame."""
+    """The coordinates of one frame, of a model whose energy was evaluated on the way."""
+    if isinstance(model, PosingModel):
+        model.elastic.value(np.zeros(model.dimension))
     session = model.session()
     if hasattr(session, "blend"):
         session.blend([0.2, 0.5, 0.3])
