@@ -73,8 +73,8 @@ def parsed(header: dict[str, str], key: str) -> dict[str, Any]:
     Raises
     ------
     KeyError, ValueError
-        If there is none, or it is no object, is nested too deeply, or has an integer beyond 64
-        bits.
+        If there is none, or it is no object, is nested too deeply, or has an integer of more
+        than 20 digits.
     """
     try:
         content = json.loads(header[key], parse_int=_integer)
