@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -87,6 +88,10 @@ class BlendedCubature:
         shapes = np.concatenate([problem.poses.shapes, subspace.tau.reshape(1, -1, 3)])
         corners = shapes[:, problem.poses.tets[tets]]
         return cls(tets, weights, rows, problem.material.of_tets(tets), corners)
+
+    def __reduce__(self) -> tuple[type[BlendedCubature], tuple[Any, ...]]:
+        """Pickles what defines it: the compiled part is made again."""
+        return type(self), (self.tets, self.weights, self.rows, self.material, self.corners)
 
     @property
     def core_arguments(self) -> tuple[NDArray[np.float32], FloatArray, core.Material, FloatArray]:

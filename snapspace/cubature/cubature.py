@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -76,6 +78,10 @@ class Cubature:
         check_in_mesh(tets, len(problem.mesh.tets), who="Cubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
         return cls(tets, weights, rows, problem.material.of_tets(tets))
+
+    def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
+        """Pickles what defines it: the compiled part is made again."""
+        return type(self), (self.tets, self.weights, self.rows, self.material)
 
     @property
     def dimension(self) -> int:

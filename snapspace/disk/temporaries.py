@@ -10,7 +10,7 @@ import secrets
 from functools import cache, lru_cache
 from pathlib import Path
 
-_NAME = re.compile(r"\..{0,40}\.(?P<machine>[0-9a-f]{12})-(?P<process>\d{1,10})-[0-9a-f]{8}(\..*)?")
+_NAME = re.compile(r"\..{0,40}\.(?P<machine>[0-9a-f]{12})-(?P<process>\d{1,9})-[0-9a-f]{8}(\..*)?")
 
 
 def temporary_name(path: Path) -> str:

@@ -14,6 +14,7 @@ from safetensors import SafetensorError, safe_open
 
 from ..disk.atomic_file import atomic_file
 from ..disk.safetensors_bytes import safetensors_bytes
+from . import timings
 
 Arrays = dict[str, NDArray[Any]]
 #: The type of an array, or those that it may have.
@@ -72,8 +73,8 @@ def parsed(header: dict[str, str], key: str) -> dict[str, Any]:
     Raises
     ------
     KeyError, ValueError
-        If there is none, or it is no object, is nested too deeply, or has an integer beyond 64
-        bits.
+        If there is none, or it is no object, is nested too deeply, or has an integer of more
+        than 20 digits.
     """
     try:
         content = json.loads(header[key], parse_int=_integer)
@@ -98,10 +99,14 @@ def check_shapes(arrays: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> None:
 
 
 def checksum(arrays: Arrays, header: dict[str, str]) -> str:
-    """SHA-256 of header and arrays, 64 hex digits."""
+    """SHA-256 of arrays and header, 64 hex digits.
+
+    The same for models of identical runs: the seconds that they took are not in it, they have a
+    checksum of their own.
+    """
     digest = hashlib.sha256()
     for key in sorted(header):
-        if key != "checksum":
+        if key not in ("checksum", timings.TIMINGS, timings.CHECKSUM):
             digest.update(f"{key}={header[key]}\n".encode())
     for name in sorted(arrays):
         array = arrays[name]

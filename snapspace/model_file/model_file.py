@@ -7,7 +7,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
-from . import error_estimator, interpolation, material, posing, shown_surface, snapshot_energies
+from . import (
+    error_estimator,
+    interpolation,
+    material,
+    posing,
+    shown_surface,
+    snapshot_energies,
+    timings,
+)
 from .container import (
     check_dtypes,
     check_finite,
@@ -18,10 +26,11 @@ from .container import (
 )
 
 FORMAT = "snapspace-model"
-VERSION = 3
+VERSION = 4
 #: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff, and up to
-#: the second one bases were in double precision.
-READABLE = (1, 2, 3)
+#: the second one bases were in double precision; up to the third one the checksum was of the
+#: record with its seconds.
+READABLE = (1, 2, 3, 4)
 SUFFIX = ".snapspace"
 POSING, CUBATURE = "posing", "posing-cubature"
 INTERPOLATION, BLENDED_CUBATURE = "interpolation", "interpolation-cubature"
@@ -35,6 +44,9 @@ _DTYPES = {
 
 def save_model(model: ReducedModel, path: str | Path) -> Path:
     """Writes a model; a file that is there is replaced only when the new one is complete.
+
+    Identical runs write identical files, except for the seconds of their record and the checksum of
+    these. The checksum of everything else, the header's entry `checksum`, is the same.
 
     Raises
     ------
@@ -54,12 +66,14 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
         content = interpolation.interpolation_content(model)
     else:
         raise TypeError(f"save_model: {type(model).__name__} has no file format")
+    record, seconds = timings.split(model.provenance)
     header = {
         "format": FORMAT,
         "version": str(VERSION),
         "kind": kind,
         "problem": json.dumps(content, sort_keys=True),
-        "provenance": json.dumps(model.provenance, sort_keys=True),
+        "provenance": json.dumps(record, sort_keys=True),
+        **timings.timing_header(seconds),
     }
     arrays |= error_estimator.estimator_arrays(model.error_estimator)
     write_container(path, arrays, header)
@@ -97,7 +111,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     for part in (error_estimator, shown_surface, material, snapshot_energies):
         check_dtypes(path, arrays, part.dtypes(arrays))
     check_dtypes(path, arrays, _DTYPES[kind])
-    if header.get("checksum") != checksum(arrays, header):
+    if header.get("checksum") != checksum(arrays, header) or not timings.is_unaltered(header):
         raise ValueError(
             f"{path}: the checksum does not match, the file was altered; build it again"
         )
@@ -105,7 +119,10 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     blends = kind in (INTERPOLATION, BLENDED_CUBATURE)
     make = interpolation.interpolation_model if blends else posing.posing_model
     try:
-        model = make(arrays, parsed(header, "problem"), parsed(header, "provenance"))
+        record = parsed(header, "provenance")
+        if timings.TIMINGS in header:
+            record = timings.merged(record, parsed(header, timings.TIMINGS)["entries"])
+        model = make(arrays, parsed(header, "problem"), record)
         return replace(model, error_estimator=error_estimator.estimator(arrays))
     except material.UnknownMaterialError as error:
         raise ValueError(f"{path}: {error}; install the snapspace that wrote it") from None

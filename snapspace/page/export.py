@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import html
+import zlib
 from pathlib import Path
 
 from ..disk.atomic_file import atomic_file
@@ -31,8 +32,14 @@ def page_with_model(model: ReducedModel, *, title: str, up: str = "z") -> str:
     ValueError
         For another axis, or if the package was made without its page.
     """
-    content = base64.b64encode(packed(model, name=title, up=up)).decode("ascii")
-    element = f'<script id="model" type="application/octet-stream">{content}</script>'
+    packed_model = packed(model, name=title, up=up)
+    content = base64.b64encode(packed_model).decode("ascii")
+    # the page compares it before it shows the model
+    checksum = f"{zlib.crc32(packed_model):08x}"
+    element = (
+        f'<script id="model" data-crc32="{checksum}" type="application/octet-stream">'
+        f"{content}</script>"
+    )
     page = page_html()
     for place in (PLACE, _TITLE):
         if page.count(place) != 1:

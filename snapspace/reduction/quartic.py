@@ -42,6 +42,10 @@ class Quartic:
         self.dimension = dimension
         self.coefficients = np.ascontiguousarray(coefficients, np.float64)
 
+    def __reduce__(self) -> tuple[type[Quartic], tuple[int, FloatArray]]:
+        """Pickles what defines it: the compiled part is made again."""
+        return type(self), (self.dimension, self.coefficients)
+
     @cached_property
     def _core(self) -> core.Quartic:
         """Has a copy of the coefficients, in the order that evaluations like."""

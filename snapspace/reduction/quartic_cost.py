@@ -9,7 +9,7 @@ from .quartic import coefficient_count
 
 #: From so many seconds on the user is told.
 LONG = 60.0
-#: For each tet and coefficient, on one core; 0.75 to 1.1 ns are measured for d from 20 to 80.
+#: For each tet and coefficient, on one or two threads: 0.70 to 1.41 ns were measured, d = 20 to 80.
 _SECONDS = 0.8e-9
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, overload
 
 from ..cubature import BlendedCubature, Cubature, train_blended_cubature, train_cubature
+from ..interruptible import checked_threads
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
@@ -122,6 +123,7 @@ def reduce(
     LongWorkNotice
         If an exact energy takes more than a minute, see `exact_seconds`.
     """
+    checked_threads(threads, "reduce")
     check_attached(problem, subspace, who="reduce")
     check_orthonormal(subspace, who="reduce")
     shown = surface_in(problem.mesh, surface, who="reduce")

@@ -17,6 +17,7 @@ from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
 from .frame_report import FrameReport
 from .lowest_of import lowest_of
+from .not_pickled import NotPickled
 from .polish import Polished, Polisher
 
 FloatArray = NDArray[np.float64]
@@ -26,7 +27,7 @@ MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
 PRECISIONS = ("double", "single")
 
 
-class Session(ABC, Generic[Model]):
+class Session(NotPickled, ABC, Generic[Model]):
     """What the sessions of all problems have in common.
 
     `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes the one
@@ -68,10 +69,11 @@ class Session(ABC, Generic[Model]):
         precision: str = "double",
     ) -> None:
         tolerance = self.default_tolerance if tolerance is None else tolerance
-        if not tolerance > 0 or max_iterations < 1 or max_evaluations < 1:
+        bounds = (max_iterations, max_evaluations)
+        if not tolerance > 0 or not all(1 <= bound < 2**31 for bound in bounds):
             raise ValueError(
                 f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
-                f"max_evaluations {max_evaluations} must be positive"
+                f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
             )
         if minimizer is None:  # a Hessian of a cubature costs d / 4 times its gradient
             minimizer = "newton" if model.cubature is None else "bfgs"

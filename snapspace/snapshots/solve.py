@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..interruptible import checked_threads
 from ..problem import Problem
 from .checkpoint import Checkpoint
 from .run import Run
@@ -62,8 +63,9 @@ def solve_snapshots(
     Raises
     ------
     ValueError
-        For parameters of the wrong shape or not finite, known snapshots of another problem, or an
-        executor that has lost its workers; finished samples are in the checkpoint then.
+        For parameters of the wrong shape or not finite, threads out of range, known snapshots of
+        another problem, or an executor that has lost its workers; finished samples are in the
+        checkpoint then.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
@@ -77,7 +79,7 @@ def solve_snapshots(
         progress=progress,
         checkpoint=checkpoint,
         known=known,
-        threads=threads or 0,
+        threads=checked_threads(threads, "solve_snapshots"),
     )
     return run.solve(executor)
 

@@ -28,6 +28,9 @@ SETTLED_TOLERANCE = 1e-6
 #: Energies of single tets must be far from the ends of its range, 1e-38 and 1e38.
 SINGLE_ENERGIES = 1e-22, 1e22
 
+#: What the core's integers hold.
+MOST_ITERATIONS = 2**31 - 1
+
 
 @dataclass(frozen=True, kw_only=True)
 class SolverOptions:
@@ -97,6 +100,10 @@ class SolverOptions:
             raise ValueError(f"settling is {self.settling}, but it must be zero or positive")
         if self.max_iterations < 1:
             raise ValueError(f"max_iterations is {self.max_iterations}, but must be at least 1")
+        if self.max_iterations > MOST_ITERATIONS:
+            raise ValueError(
+                f"max_iterations is {self.max_iterations}, but must be at most {MOST_ITERATIONS}"
+            )
         if self.projection not in (None, *PROJECTIONS):
             raise ValueError(
                 f"unknown projection '{self.projection}'; known are {', '.join(PROJECTIONS)}"

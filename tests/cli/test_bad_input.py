@@ -104,7 +104,10 @@ BUILDS: dict[str, tuple[Case, str]] = {
     "tolerance": (lambda f: build(f, "--tolerance", 0), "tolerance is 0"),
     "tolerance nan": (lambda f: build(f, "--tolerance", "nan"), "tolerance is nan"),
     "clamp": (lambda f: build(f, "--clamp", 2), "clamp is 2"),
-    "samples": (lambda f: build(f, "--samples", 0), "'--samples': 0 is not in the range x>=1"),
+    "samples": (
+        lambda f: build(f, "--samples", 0),
+        "'--samples': 0 is not in the range 1<=x<=1000000",
+    ),
     "solver": (lambda f: build(f, "--solver", "magic"), "'--solver': 'magic' is not one of"),
     "output extension": (
         lambda f: [*build(f), "-o", f / "model.bin"],

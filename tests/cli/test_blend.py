@@ -199,7 +199,7 @@ REFUSED: dict[str, tuple[list[str], str]] = {
         ["--weights", TEXT, "--even", "shape"],
         "--even is for --path; ",
     ),
-    "one frame": (["--path", "1"], "'--path': 1 is not in the range x>=2"),
+    "one frame": (["--path", "1"], "'--path': 1 is not in the range 2<=x<=1000000"),
     "format": (["--path", "3", "--format", "jpg"], "'--format': 'jpg' is not one of"),
     "extension": (["--weights", TEXT, "-o", "out.xyz"], "unknown extension '.xyz'; known are .obj"),
     "folder": (["--weights", TEXT, "-o", "none/out.obj"], "there is no folder none; create it"),

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import re
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from safetensors.numpy import load_file
 
-from snapspace import write_tets
+from snapspace import Checkpoint, write_tets
 from snapspace.cli import pipeline
 
 from .conftest import Run, interrupted_as
@@ -114,6 +117,28 @@ def test_sigterm_keeps_them_too_with_an_exit_code_of_its_own(
     assert result.err.splitlines()[-1].startswith("snapspace: terminated: 12 of 12 samples are ")
     assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
     assert "resuming: 12 of 12" in run(*words).err
+
+
+def test_the_model_is_on_the_disk_before_its_samples_go(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Else a power failure right after a build could take both."""
+    made: list[str] = []
+    flush, rename, remove = os.fsync, os.replace, Checkpoint.remove
+
+    def noted(name: str, call: Callable[..., None]) -> Callable[..., None]:
+        def noting(*arguments: Any) -> None:
+            made.append(name)
+            call(*arguments)
+
+        return noting
+
+    monkeypatch.setattr(os, "fsync", noted("flush", flush))
+    monkeypatch.setattr(os, "replace", noted("rename", rename))
+    monkeypatch.setattr(Checkpoint, "remove", noted("remove", remove))
+    problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
+    run("build", "--problem", problem, "--samples", 12, "--dimension", 4, "-o", path)
+    assert made[-4:] == ["flush", "rename", "flush", "remove"]
 
 
 def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(

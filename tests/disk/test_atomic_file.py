@@ -102,11 +102,12 @@ def test_what_a_dead_process_left_goes_and_all_else_stays(tmp_path: Path) -> Non
         left_by(tmp_path, os.getpid()),
         left_by(tmp_path, 1),
         left_by(tmp_path, dead_process(), mark="0" * 12),  # another machine, or container
+        left_by(tmp_path, 10**9),  # no system has so many
         tmp_path / ".dragon.snapspace",
         tmp_path / ".dragon.1234abcd.snapspace",
         tmp_path / "dragon.snapspace",
     ]
-    for path in stays[3:]:
+    for path in stays[4:]:
         path.write_bytes(b"of the user")
     gone = left_by(tmp_path, dead_process())
     assert sweep(tmp_path) == [gone]

@@ -242,13 +242,13 @@ def test_a_number_that_is_not_finite_is_refused_in_any_array(saved: Path, value:
         assert f"the array '{name}' has a number at [" in refused(saved)
 
 
-@pytest.mark.parametrize("version", ["4", "0", "", "one"])
+@pytest.mark.parametrize("version", ["5", "0", "", "one"])
 def test_another_version_is_named(saved: Path, version: str) -> None:
     def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
         header["version"] = version
 
     rewrite(saved, change)
-    assert f"model version {version}, this snapspace reads versions 1, 2, 3; install" in refused(
+    assert f"model version {version}, this snapspace reads versions 1, 2, 3, 4; install" in refused(
         saved
     )
 

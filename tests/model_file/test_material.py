@@ -62,7 +62,7 @@ def test_a_model_is_loaded_as_what_it_was_saved(kind: str, tmp_path: Path) -> No
     assert again.problem.fingerprint == made.problem.fingerprint
     np.testing.assert_array_equal(solved(again), solved(made))
     header = header_of(path)
-    assert header["version"] == "3"
+    assert header["version"] == "4"
     assert header["problem"]["material"]["model"] == kind
     assert "material_moduli" not in header["arrays"]
 

@@ -166,11 +166,14 @@ def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> No
     np.testing.assert_array_equal(arrays["basis"].T, model.subspace.basis)
     with safe_open(saved, framework="np") as file:
         header = file.metadata()
-    assert set(header) == {"format", "version", "kind", "problem", "provenance", "checksum"}
-    assert (header["format"], header["version"]) == ("snapspace-model", "3")
+    own = {"format", "version", "kind", "problem", "provenance", "timings"}
+    assert set(header) == own | {"checksum", "timings_checksum"}
+    assert (header["format"], header["version"]) == ("snapspace-model", "4")
     assert header["kind"] == "posing"
     assert json.loads(header["problem"])["handles"] == ["foot", "tip"]
-    assert json.loads(header["provenance"]) == model.provenance
+    timed = {"seconds": model.provenance["seconds"]}
+    assert json.loads(header["provenance"]) | timed == model.provenance
+    assert json.loads(header["timings"]) == {"entries": [[["seconds"], timed["seconds"]]]}
 
 
 def test_arrays_are_aligned(saved: Path) -> None:

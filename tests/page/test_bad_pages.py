@@ -23,7 +23,7 @@ def damaged(page: Path, folder: Path, old: str, new: str) -> str:
     ("old", "new", "message"),
     [
         ('octet-stream">', 'octet-stream">%%%', "The model in this page is damaged"),
-        ('octet-stream">', 'octet-stream">AAAA', "not a complete Snapspace model"),
+        ('octet-stream">', 'octet-stream">AAAA', "The model in this page is damaged"),
         ('<script id="model"', '<script id="none"', "Drop a .snapspace file here"),
     ],
 )
@@ -33,6 +33,26 @@ def test_a_damaged_page_is_told(
     page = opened(damaged(posing_page, tmp_path, old, new))
     assert message in page.text("#message")
     assert page.page.get_by_role("button", name="Open a model").first.is_visible()
+
+
+def test_one_changed_letter_of_the_model_is_told(
+    posing_page: Path, tmp_path: Path, opened: OpenPage
+) -> None:
+    """Its arrays would still be of the right sizes, and the shape another one."""
+    text = posing_page.read_text(encoding="utf-8")
+    place = text.index("</script>", text.index('id="model"')) - 4001
+    letter = "B" if text[place] == "A" else "A"
+    path = tmp_path / "changed.html"
+    path.write_text(text[:place] + letter + text[place + 1 :], encoding="utf-8")
+    page = opened(path.as_uri())
+    assert "The model in this page is damaged. Export the page again." in page.text("#message")
+
+
+def test_pages_of_earlier_versions_have_no_checksum(
+    posing_page: Path, tmp_path: Path, opened: OpenPage
+) -> None:
+    page = opened(damaged(posing_page, tmp_path, 'data-crc32="', 'data-none="'))
+    assert page.run("snapspace.kind") == "posing"
 
 
 @pytest.fixture

@@ -83,6 +83,17 @@ def test_one_in_single_precision_is_orthonormal_enough(
     ss.reduce(posing_snapshots.problem, subspace.in_single_precision(), snapshots=posing_snapshots)
 
 
+@pytest.mark.parametrize("threads", [10**30, 2**31, -1])
+def test_numbers_of_threads_that_nobody_has_are_refused(
+    posing_snapshots: ss.Snapshots, subspace: ss.AffineSubspace, threads: int
+) -> None:
+    problem, parameters = posing_snapshots.problem, posing_snapshots.parameters[:2]
+    with pytest.raises(ValueError, match=f"reduce: threads is {threads}, but must be between 1 "):
+        ss.reduce(problem, subspace, threads=threads)
+    with pytest.raises(ValueError, match=f"solve_snapshots: threads is {threads}, but must be "):
+        ss.solve_snapshots(problem, parameters, threads=threads)
+
+
 def test_the_cost_of_a_quartic_is_that_of_its_coefficients_and_poses() -> None:
     problem = bar_problem()
     poses = ss.InterpolationProblem(bar_poses(), material=ss.StVK(lam=1.0, mu=1.0))

@@ -63,9 +63,11 @@ def test_a_wrong_move_is_refused_and_changes_nothing(
         {"tolerance": math.nan},
         {"max_iterations": 0},
         {"max_evaluations": 0},
+        {"max_iterations": 10**30},
+        {"max_evaluations": 2**31},
     ],
 )
-def test_options_that_are_not_positive_are_refused(
+def test_options_that_are_out_of_range_are_refused(
     posing_model: ReducedModel, options: dict[str, Any]
 ) -> None:
     with pytest.raises(ValueError, match=r"Session: tolerance .* max_evaluations .* positive"):

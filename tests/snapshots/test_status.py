@@ -109,6 +109,7 @@ def test_reports_say_whether_they_converged() -> None:
         ({"tolerance": float("nan")}, "tolerance is nan, but it must be positive"),
         ({"tolerance": float("inf")}, "tolerance is inf, but it must be positive"),
         ({"max_iterations": 0}, "max_iterations is 0, but must be at least 1"),
+        ({"max_iterations": 10**30}, "0, but must be at most 2147483647"),
         ({"clamp": 0.0}, "clamp is 0.0, but it must be in (0, 1]"),
         ({"clamp": 1.5}, "clamp is 1.5, but it must be in (0, 1]"),
         ({"precision": "half"}, "unknown precision 'half'; known are single, double"),

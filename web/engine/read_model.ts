@@ -4,7 +4,7 @@ import type { Model } from "./model.ts";
 import { readFile } from "./read_file.ts";
 import { readPacked } from "./read_packed.ts";
 
-const FILE_VERSIONS = ["1", "2", "3"];
+const FILE_VERSIONS = ["1", "2", "3", "4"];
 const PAGE_VERSIONS = ["2"];
 
 /** Reads a .snapspace file, or the model of an exported page.

@@ -1,4 +1,4 @@
-import { UnreadableModel } from "../engine/index.ts";
+import { crc32, UnreadableModel } from "../engine/index.ts";
 
 export interface Source {
   bytes: ArrayBuffer;
@@ -8,7 +8,13 @@ export interface Source {
 /** The model that comes with the page: embedded in it, or at the address that it names; null without one. */
 export async function ownModel(): Promise<Source | null> {
   const embedded = document.getElementById("model");
-  if (embedded?.textContent) return { bytes: decoded(embedded.textContent), name: document.title };
+  if (embedded?.textContent) {
+    const bytes = decoded(embedded.textContent);
+    // pages of earlier versions have none
+    const written = embedded.dataset["crc32"];
+    if (written !== undefined && written !== crc32(new Uint8Array(bytes))) throw damaged();
+    return { bytes, name: document.title };
+  }
   const named = document.querySelector<HTMLMetaElement>('meta[name="snapspace-model"]')?.content;
   const address = named ?? new URLSearchParams(location.search).get("model");
   return address ? fetched(address) : null;
@@ -36,12 +42,16 @@ function nameOf(path: string): string {
   return path.replace(/^.*\//, "").replace(/\.snapspace$/, "");
 }
 
+function damaged(): UnreadableModel {
+  return new UnreadableModel("The model in this page is damaged. Export the page again.");
+}
+
 function decoded(base64: string): ArrayBuffer {
   let text: string;
   try {
     text = atob(base64.trim());
   } catch {
-    throw new UnreadableModel("The model in this page is damaged. Export the page again.");
+    throw damaged();
   }
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);

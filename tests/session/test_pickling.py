@@ -1,0 +1,47 @@
+"""Models travel by pickle, whatever their energy; sessions say why they do not."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel
+
+MODELS = ["posing_model", "cubature_model", "blending_model", "blended_cubature_model"]
+
+
+def frame(model: Any) -> np.ndarray[Any, Any]:
+    """The coordinates of one frame, of a model whose energy was evaluated on the way."""
+    if isinstance(model, PosingModel):
+        model.elastic.value(np.zeros(model.dimension))
+    session = model.session()
+    if hasattr(session, "blend"):
+        session.blend([0.2, 0.5, 0.3])
+    else:
+        session.pose(0.4 * model.problem.domain.half_widths)
+    q: np.ndarray[Any, Any] = session.q
+    return q
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_model_that_was_used_gives_the_same_frames_after_a_journey(
+    request: pytest.FixtureRequest, name: str
+) -> None:
+    model = request.getfixturevalue(name)
+    expected = frame(model)
+    arrived = pickle.loads(pickle.dumps(model))
+    assert type(arrived) is type(model)
+    assert frame(arrived).tobytes() == expected.tobytes()
+    assert frame(copy.deepcopy(model)).tobytes() == expected.tobytes()
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_a_session_says_why_it_does_not_travel(request: pytest.FixtureRequest, name: str) -> None:
+    session = request.getfixturevalue(name).session()
+    for attempt in (pickle.dumps, copy.copy, copy.deepcopy):
+        with pytest.raises(TypeError, match=r"Session: a session is not .*; pickle session\.model"):
+            attempt(session)
