@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..extras import need_extra
 from ..interruptible import POLL_SECONDS
 from ..stopping import check_stop
 
@@ -41,6 +42,8 @@ def ftetwild(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[fill]`.
     ValueError
         If the process fails; the message ends with the last line that it wrote.
 
@@ -50,6 +53,7 @@ def ftetwild(
     it cannot handle, and does not return for a signal. In a process and a folder of its own it
     leaves nothing behind, takes nothing with it, and Ctrl-C stops it.
     """
+    need_extra("fill", who="fill_surface")
     with tempfile.TemporaryDirectory(prefix="snapspace-") as name:
         folder = Path(name)
         np.savez(

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
+
+from ..extras import need_extra
 
 
 def save_png(path: str | os.PathLike[str], image: Any) -> Path:
@@ -31,6 +32,8 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[pictures]`.
     ValueError
         If the extension is not ``.png``, the folder does not exist, or `image` is not an image.
     """
@@ -47,6 +50,9 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
             f"save_png: image has shape {pixels.shape} and type {pixels.dtype}; "
             "give (h, w, 3) uint8"
         )
+
+    need_extra("pictures", who="save_png")
+    from PIL import Image
 
     handle, temporary = tempfile.mkstemp(suffix=".png", prefix=".", dir=target.parent)
     try:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..notice import Notice
 from ..problem import Problem
 from .sample_file import Samples, read_indices, read_samples, write_samples
 from .snapshots import SampleReport
@@ -20,7 +21,7 @@ from .snapshots import SampleReport
 FloatArray = NDArray[np.float64]
 
 
-class CheckpointNotice(UserWarning):
+class CheckpointNotice(Notice):
     """A file of a checkpoint is damaged and its samples are solved again, or cannot be written."""
 
 
