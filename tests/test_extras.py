@@ -14,10 +14,11 @@ import pytest
 import snapspace as ss
 from snapspace.cli import main
 from snapspace.extras import EXTRAS, MissingExtraError, need_extra
-from snapspace.pictures import Curve, chart, save_png
+from snapspace.pictures import Curve, chart, save_film, save_png
 from snapspace.server import serve
 
 ROOT = Path(__file__).parent.parent
+TRIANGLE = np.eye(3)
 OPTIONAL = [name for names in EXTRAS.values() for name in names]
 
 WITHOUT_EXTRAS = f"""
@@ -54,19 +55,25 @@ def test_all_names_and_commands_load_without_any_extra() -> None:
             "pictures",
             lambda: save_png("a.png", np.zeros((2, 2, 3), np.uint8)),
             "save_png",
-            "package PIL",
+            "package pillow",
         ),
         (
             "pictures",
             lambda: chart([Curve("a", [1.0], [1.0])], title="t", x_name="x", y_name="y"),
             "chart",
-            "package PIL",
+            "package pillow",
         ),
         (
             "view",
             lambda: serve(title="t"),
             "the server of the page",
             "packages starlette, uvicorn, websockets",
+        ),
+        (
+            "video",
+            lambda: save_film("a.mp4", [TRIANGLE], [[0, 1, 2]]),
+            "save_film: .mp4",
+            "package imageio-ffmpeg",
         ),
         ("dask", lambda: need_extra("dask", who="--dask"), "--dask", "package distributed"),
     ],
@@ -95,14 +102,15 @@ def test_intel_macs_are_not_sent_to_wheels_that_do_not_exist(
 @pytest.mark.parametrize(
     ("extra", "words", "line"),
     [
+        ("video", ["pose", "m.snapspace", "--path", "9", "-o", "a.mp4"], "-o a.mp4 needs"),
         ("view", ["view"], "snapspace view needs the packages starlette, uvicorn, websockets"),
         ("fill", ["view", "--exact"], "--exact needs the package pytetwild"),
-        ("pictures", ["pose", "m.snapspace", "--png", "a.png"], "--png needs the package PIL"),
+        ("pictures", ["pose", "m.snapspace", "--png", "a.png"], "--png needs the package pillow"),
         ("pictures", ["blend", "m.snapspace", "--weights", "1,0", "--png", "a.png"], "--png needs"),
         (
             "pictures",
             ["validate", "m.snapspace", "--plot", "a.png"],
-            "--plot needs the package PIL",
+            "--plot needs the package pillow",
         ),
     ],
 )

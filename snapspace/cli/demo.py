@@ -82,8 +82,8 @@ def demo(
     The model is that of `snapspace build` without options, unless --samples or --dimension is
     given.
     Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.html
-    (a page to drag it in), creature.png (a contact sheet, with snapspace[pictures]) and creature.obj (one
-    pose).
+    (a page to drag it in), creature.png (a contact sheet; needs snapspace[pictures]) and
+    creature.obj (one pose).
 
     \b
     Example:
@@ -163,11 +163,9 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
     model, folder = files["snapspace"], files["obj"].parent
     head = ["--handle", "head", "--euler", "0,-30,20", "--translate", "0.1,0,0.1"]
     tail = ["--handle", "tail", "--euler", "-35,0,20", "--translate", "0,-0.3,0"]
-    outputs = [
-        "-o",
-        str(folder / "mine.obj"),
-        *(["--png", str(folder / "mine.png")] if "png" in files else []),
-    ]
+    outputs = ["-o", str(folder / "mine.obj")]
+    if "png" in files:
+        outputs += ["--png", str(folder / "mine.png")]
     finer = ["--target-error", "0.002", "-o", str(folder / "finer.snapspace")]
     return [
         ("drag it in the browser", ["view", model]),
