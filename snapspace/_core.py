@@ -1,5 +1,6 @@
 """The compiled core: the widest of its builds that this processor can run.
 
+A wheel has a build for every x86-64 level, `make setup` only the one of its machine.
 ``SNAPSPACE_LEVEL`` (``baseline``, ``v3`` or ``v4``) forces one, for tests and comparisons. Results
 agree across levels up to rounding; within a level they are bitwise reproducible.
 """
@@ -30,13 +31,19 @@ def available_levels() -> list[str]:
 def _chosen_level() -> str:
     available = available_levels()
     wanted = os.environ.get("SNAPSPACE_LEVEL")
+    if not available:
+        raise ImportError(
+            "snapspace: none of the installed builds of the core runs on this processor; it was "
+            "built on another machine for that one only: run `make setup` here, or install a wheel"
+        )
     if not wanted:
         return available[0]
     if wanted not in BUILDS:
         raise ImportError(f"SNAPSPACE_LEVEL={wanted}: known levels are {', '.join(BUILDS)}")
     if wanted not in available:
         raise ImportError(
-            f"SNAPSPACE_LEVEL={wanted}: this processor runs {', '.join(available)}; unset it"
+            f"SNAPSPACE_LEVEL={wanted}: {', '.join(available)} can be had here (installed, and "
+            "known to this processor); unset it"
         )
     return wanted
 

@@ -1,25 +1,9 @@
 // Compiled without any wide instruction: it runs before it is known what the processor has.
+#include "bindings/cpu_level.h"
+
 #include <nanobind/nanobind.h>
 
-namespace {
-
-/// Highest of the x86-64 levels 1 to 4 that this processor has; 0 on other processors.
-int cpu_level() {
-#if defined(__x86_64__) && defined(__GNUC__)
-  __builtin_cpu_init();
-  const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                  __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                  __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                  __builtin_cpu_supports("avx512vl");
-  return v4 ? 4 : v3 ? 3 : 1;
-#else
-  return 0;
-#endif
-}
-
-}  // namespace
-
 NB_MODULE(_cpu_level, m) {
-  m.def("cpu_level", &cpu_level, "Highest x86-64 level (1 to 4) of this processor, 0 on others.");
+  m.def("cpu_level", &snapspace::cpu_level,
+        "Highest x86-64 level (1 to 4) of this processor, 0 on others.");
 }

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..animation import write_animation
+from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from ..pictures import save_png
 from ..reduction import InterpolationModel
@@ -97,6 +98,8 @@ def blend(
     frame if there are as many frames as poses. Where the shape jumps however small the step, the
     frame is told.
     """
+    if png is not None:
+        need_extra("pictures", who="--png")
     if (weights is None) == (frames is None):
         raise ValueError("give either --weights or --path")
     if kind is not None and frames is None:

@@ -7,16 +7,18 @@ import math
 import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
-from rich.console import Console
-from rich.table import Table
-from rich.text import Text
+
+if TYPE_CHECKING:  # rich is loaded where something is shown
+    from rich.console import Console
 
 
 def console() -> Console:
     """A console on the standard error of this moment."""
+    from rich.console import Console
+
     return Console(stderr=True, highlight=False)
 
 
@@ -37,6 +39,9 @@ def print_json(content: dict[str, Any]) -> None:
 
 def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
     """A table of names and values on standard error."""
+    from rich.table import Table
+    from rich.text import Text
+
     table = Table(show_header=False, box=None, padding=(0, 2, 0, 0))
     table.add_column(style="dim", no_wrap=True)
     table.add_column(overflow="fold")

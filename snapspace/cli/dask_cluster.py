@@ -12,6 +12,7 @@ from typing import Any
 
 from .. import __version__
 from .._core import level
+from ..extras import need_extra
 from .console import notice, one_line
 
 CONNECT_SECONDS = 10.0
@@ -41,12 +42,8 @@ def dask_executor(address: str | None) -> Iterator[Executor | None]:
 
 
 def _client(address: str) -> Any:
-    try:
-        distributed: Any = import_module("distributed")
-    except ImportError:
-        raise ValueError(
-            '--dask needs the package distributed: pip install "snapspace[dask]"'
-        ) from None
+    need_extra("dask", who="--dask")
+    distributed: Any = import_module("distributed")
     with warnings.catch_warnings():
         # a table of all packages; what matters here is checked by itself
         warnings.simplefilter("ignore", distributed.versions.VersionMismatchWarning)

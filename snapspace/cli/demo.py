@@ -10,6 +10,7 @@ import click
 
 from ..accurate import MOTIONS
 from ..disk.atomic_file import atomic_file
+from ..extras import missing
 from ..generators import creature
 from ..mesh import write_tets
 from ..page import export_html
@@ -81,7 +82,8 @@ def demo(
     The model is that of `snapspace build` without options, unless --samples or --dimension is
     given.
     Writes creature.msh, creature.json (the problem), creature.snapspace (the model), creature.html
-    (a page to drag it in), creature.png (a contact sheet) and creature.obj (one pose).
+    (a page to drag it in), creature.png (a contact sheet; needs snapspace[pictures]) and
+    creature.obj (one pose).
 
     \b
     Example:
@@ -92,6 +94,9 @@ def demo(
         kind: output / f"creature.{kind}"
         for kind in ("msh", "json", "snapspace", "html", "png", "obj")
     }
+    if missing("pictures"):
+        del files["png"]
+        notice('notice: no picture: that needs pillow: pip install "snapspace[pictures]"')
     check_dimension(dimension, samples)
     make_folder(output, option="--output")
     with spinner("generating the creature"):
@@ -131,10 +136,11 @@ def demo(
         )
     print_validation(validation, built.model.dimension, asked=VALIDATION_SAMPLES)
 
+    assert isinstance(built.model, PosingModel)
     with spinner("painting"):
-        assert isinstance(built.model, PosingModel)
         shapes = posed_shapes(built.model)
-        save_png(files["png"], contact_sheet(built.model, shapes))
+        if "png" in files:
+            save_png(files["png"], contact_sheet(built.model, shapes))
     write_shape(files["obj"], built.model, shapes[POSE_OF_OBJ])
     export_html(built.model, files["html"])
     seconds = time.perf_counter() - begin
@@ -157,7 +163,9 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
     model, folder = files["snapspace"], files["obj"].parent
     head = ["--handle", "head", "--euler", "0,-30,20", "--translate", "0.1,0,0.1"]
     tail = ["--handle", "tail", "--euler", "-35,0,20", "--translate", "0,-0.3,0"]
-    outputs = ["-o", str(folder / "mine.obj"), "--png", str(folder / "mine.png")]
+    outputs = ["-o", str(folder / "mine.obj")]
+    if "png" in files:
+        outputs += ["--png", str(folder / "mine.png")]
     finer = ["--target-error", "0.002", "-o", str(folder / "finer.snapspace")]
     return [
         ("drag it in the browser", ["view", model]),

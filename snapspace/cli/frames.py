@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from .console import notice
 from .files import FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
@@ -44,6 +45,9 @@ def check_frames_output(
         return
     if film:
         writable_path(output, known=FILMS)
+        need_extra("pictures", who=f"-o {output}")
+        if output.suffix.lower() == ".mp4":
+            need_extra("video", who=f"-o {output}")
     else:
         make_folder(output, option="-o")
 

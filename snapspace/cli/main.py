@@ -11,35 +11,24 @@ from typing import Any
 
 import click
 
-from .. import __version__
-from ..mesh import MeshNotice
-from ..reduction import LongWorkNotice
-from ..snapshots import CheckpointNotice
+from ..notice import Notice
 from ..stopping import ctrl_c_as_itself
-from .blend import blend
-from .build import build
+from .commands import Commands
 from .console import notice, one_line
-from .demo import demo
-from .export import export
 from .fault_log import fault_line
-from .info import info
-from .interpolate import interpolate
-from .pose import pose
 from .termination import terminated_as_interrupted
-from .validate import validate
-from .view import view
 
 OK, FAULT, USER_ERROR, INTERRUPTED, BROKEN_PIPE, TERMINATED = 0, 1, 2, 130, 141, 143
 
-#: Warnings that are for the user of the program.
-NOTICES = (MeshNotice, CheckpointNotice, LongWorkNotice)
-
 
 @click.group(
+    cls=Commands,
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
-@click.version_option(__version__, prog_name="snapspace", message="%(prog)s %(version)s")
+@click.version_option(
+    package_name="snapspace", prog_name="snapspace", message="%(prog)s %(version)s"
+)
 @click.pass_context
 def snapspace(ctx: click.Context) -> None:
     """Pose elastic meshes live: sample a shape problem, keep the best small space, solve in it.
@@ -63,10 +52,6 @@ def snapspace(ctx: click.Context) -> None:
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())
-
-
-for command in (demo, build, interpolate, validate, pose, blend, view, export, info):
-    snapspace.add_command(command)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -124,14 +109,13 @@ def _usage(error: click.ClickException) -> str:
 
 @contextmanager
 def _notices() -> Iterator[None]:
-    """Shows each warning of `NOTICES` as one line."""
+    """Shows each `Notice` as one line."""
     with warnings.catch_warnings():
-        for kind in NOTICES:
-            warnings.simplefilter("always", kind)
+        warnings.simplefilter("always", Notice)
         ordinary = warnings.showwarning
 
         def show(message: Warning | str, category: type[Warning], *where: Any, **to: Any) -> None:
-            if issubclass(category, NOTICES):
+            if issubclass(category, Notice):
                 notice(f"notice: {message}")
             else:
                 ordinary(message, category, *where, **to)

@@ -10,6 +10,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from ..extras import need_extra
 from ..mesh import write_surface, write_tets
 from ..mesh.input_path import writable_path
 from ..pictures import render, save_png
@@ -149,6 +150,7 @@ def _check_outputs(output: Path | None, png: Path | None) -> None:
         writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
     if png is not None:
         writable_path(png, known=(".png",))
+        need_extra("pictures", who="--png")
 
 
 def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDArray[np.uint8]:

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 import numpy as np
 
+from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import SAMPLES_SUFFIX, Snapshots, load_snapshots, save_snapshots
@@ -93,6 +94,7 @@ def validate(
     """
     if plot is not None:
         writable_path(plot, known=[".png"])
+        need_extra("pictures", who="--plot")
     if save_reference is not None:
         writable_path(save_reference, known=[SAMPLES_SUFFIX])
     _check_source(reference, samples, seed)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import click
 
+from ..extras import need_extra
 from ..mesh import TET_SUFFIXES
 from ..mesh.input_path import existing_file
 from ..model_file import SUFFIX
@@ -87,6 +88,9 @@ def view(
       snapspace view dragon.json
       snapspace view bunny.obj
     """
+    need_extra("view", who="snapspace view")
+    if exact:
+        need_extra("fill", who="--exact")
     model = body = None
     filling = SurfaceFilling(edge_length=edge_length, exact=exact)
     if file is not None:

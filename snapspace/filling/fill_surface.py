@@ -45,6 +45,8 @@ def fill_surface(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[fill]`, which has fTetWild.
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
         a surface that is not closed, not oriented alike or encloses no volume, options out of

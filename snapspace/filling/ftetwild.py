@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..extras import need_extra
 from ..interruptible import POLL_SECONDS
 from ..stopping import check_stop
 
@@ -45,6 +46,8 @@ def ftetwild(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[fill]`.
     ValueError
         If the process fails; the message ends with the last line that it wrote.
 
@@ -55,6 +58,7 @@ def ftetwild(
     leaves nothing behind, takes nothing with it, and Ctrl-C stops it. It ends when this process is
     killed as well, see `ftetwild_watch.py`.
     """
+    need_extra("fill", who="fill_surface")
     with tempfile.TemporaryDirectory(prefix="snapspace-") as name:
         folder = Path(name)
         np.savez(

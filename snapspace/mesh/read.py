@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from ..input_error import located
+from ..notice import Notice
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import CellArray, FileContent
 from .input_path import existing_file
@@ -26,7 +27,7 @@ from .veg import read_veg
 _SOLID_CELLS = ("hexahedron", "wedge", "pyramid", "polyhedron", "voxel")
 
 
-class MeshNotice(UserWarning):
+class MeshNotice(Notice):
     """Something about a mesh file that the user should know, but that was dealt with."""
 
 

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+
+from ..extras import need_extra
 
 _DARK = (58, 56, 54)
 _LIGHT = (235, 233, 230)
@@ -23,6 +24,9 @@ def write_captions(
 
     The text is dark on a light image and light on a dark one.
     """
+    need_extra("pictures", who="render_row")
+    from PIL import Image, ImageDraw, ImageFont
+
     paper = Image.fromarray(image)
     pen = ImageDraw.Draw(paper)
     font = ImageFont.load_default(size=size)

@@ -8,7 +8,8 @@ from math import ceil, floor, log10
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+
+from ..extras import need_extra
 
 _INK, _GRID, _PAPER = (58, 56, 54), (226, 224, 220), (255, 255, 255)
 _COLORS = ((31, 95, 168), (200, 82, 36), (44, 132, 78), (120, 80, 150))
@@ -50,11 +51,16 @@ def chart(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[pictures]`.
     ValueError
         Without a curve or with more than four, for points that are not positive and finite, or
         another number of x than of y.
     """
     _check(curves)
+    need_extra("pictures", who="chart")
+    from PIL import Image
+
     paper = _Paper(size, curves)
     paper.frame(title, x_name, y_name)
     for curve, color in zip(curves, _COLORS, strict=False):
@@ -67,6 +73,8 @@ class _Paper:
     """An image with two axes."""
 
     def __init__(self, size: tuple[int, int], curves: Sequence[Curve]) -> None:
+        from PIL import Image, ImageDraw, ImageFont
+
         width, height = (_FINER * length for length in size)
         self.image = Image.new("RGB", (width, height), _PAPER)
         self._pen = ImageDraw.Draw(self.image)

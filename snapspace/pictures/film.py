@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from ..extras import need_extra
 from .backdrop import backdrop, to_bytes
 from .checks import checked_samples, checked_size
 from .scene import Scene
@@ -61,9 +61,11 @@ def save_film(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extras `snapspace[pictures]` or, for .mp4, `snapspace[video]`.
     ValueError
         As `render`; for no shapes, another extension, a folder that does not exist, a rate out of
-        range, a size that is not even, or .mp4 without its extra.
+        range, or a size that is not even.
     """
     target = _checked_path(path)
     width, height = checked_size(size, who="save_film")
@@ -76,6 +78,7 @@ def save_film(
     movie = target.suffix.lower() == ".mp4"
     if movie:
         _check_movie(width, height)
+    need_extra("pictures", who="save_film")
     paper = backdrop(width, height, background)
     scene = Scene.of(shapes, faces, [colors] * len(shapes), who="save_film")
     exposures = scene.exposures(
@@ -100,6 +103,8 @@ def save_film(
 
 
 def _write_gif(path: Path, frames: Iterator[NDArray[np.uint8]], rate: float) -> None:
+    from PIL import Image
+
     # without dithering what stands still stays still, and files are small
     none, cut = Image.Dither.NONE, Image.Quantize.MEDIANCUT
     images = (Image.fromarray(frame).quantize(256, method=cut, dither=none) for frame in frames)
@@ -140,9 +145,4 @@ def _checked_path(path: str | os.PathLike[str]) -> Path:
 def _check_movie(width: int, height: int) -> None:
     if width % 2 or height % 2:
         raise ValueError(f"save_film: size is {width} x {height}, but .mp4 takes even numbers")
-    try:
-        import imageio_ffmpeg  # noqa: F401
-    except ImportError:
-        raise ValueError(
-            'save_film: .mp4 needs imageio-ffmpeg: pip install "snapspace[video]", or give a .gif'
-        ) from None
+    need_extra("video", who="save_film: .mp4")

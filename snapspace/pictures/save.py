@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from PIL import Image
 
 from ..disk import atomic_file
+from ..extras import need_extra
 
 
 def save_png(path: str | os.PathLike[str], image: Any) -> Path:
@@ -32,6 +32,8 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[pictures]`.
     ValueError
         If the extension is not ``.png``, the folder does not exist, `image` is not an image, or the
         file cannot be written.
@@ -49,6 +51,9 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
             f"save_png: image has shape {pixels.shape} and type {pixels.dtype}; "
             "give (h, w, 3) uint8"
         )
+
+    need_extra("pictures", who="save_png")
+    from PIL import Image
 
     with atomic_file(target) as temporary:
         Image.fromarray(pixels).save(temporary, format="PNG", optimize=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 
+from ..notice import Notice
 from ..problem import InterpolationProblem, PosingProblem
 from .quartic import coefficient_count
 
@@ -13,7 +14,7 @@ LONG = 60.0
 _SECONDS = 0.8e-9
 
 
-class LongWorkNotice(UserWarning):
+class LongWorkNotice(Notice):
     """Something takes long, and there is a faster way."""
 
 

@@ -4,29 +4,21 @@ from __future__ import annotations
 
 import secrets
 import signal
-import socket
 import tempfile
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import uvicorn
-
+from ..extras import need_extra
 from ..reduction import ReducedModel
-from .app import page_app
 from .hosts import hosts_for, shown_host
 from .listener import listening
-from .live import LARGEST_MESSAGE
 from .shared_body import SharedBody
 from .site import UPLOAD_LIMIT, Site
 from .surface_filling import SurfaceFilling
 
 HOST = "127.0.0.1"
-#: How long the end of connections is waited for at Ctrl-C.
-GRACE_SECONDS = 1
-#: A page that is silent for longer is gone. Tunnels and sleepy machines take their time.
-SILENCE_SECONDS = 90
 
 
 def serve(
@@ -73,9 +65,15 @@ def serve(
 
     Raises
     ------
+    MissingExtraError
+        A ValueError, without the extra `snapspace[view]`.
     ValueError
         If the address cannot be listened at, or for a model that pages do not solve.
     """
+    need_extra("view", who="the server of the page")
+    from .app import page_app
+    from .asgi_server import run
+
     listener = listening(host, port)
     token = secrets.token_urlsafe(18)
     try:
@@ -92,19 +90,7 @@ def serve(
                 filling=filling or SurfaceFilling(),
             )
             address = f"http://{shown_host(host)}:{listener.getsockname()[1]}/?token={token}"
-            config = uvicorn.Config(
-                page_app(site, hosts=hosts_for(host)),
-                log_level="error",
-                access_log=False,
-                lifespan="off",
-                server_header=False,
-                ws="websockets-sansio",
-                ws_max_size=LARGEST_MESSAGE,
-                ws_ping_timeout=SILENCE_SECONDS,
-                ws_per_message_deflate=False,
-                timeout_graceful_shutdown=GRACE_SECONDS,
-            )
-            _Server(config, lambda: ready(address)).run(sockets=[listener])
+            run(page_app(site, hosts=hosts_for(host)), listener, started=lambda: ready(address))
     except KeyboardInterrupt:  # uvicorn has closed everything, and raises it again
         pass
     finally:
@@ -133,15 +119,3 @@ def _terminated_alike() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGTERM, before)
-
-
-class _Server(uvicorn.Server):
-    """A server that tells when it accepts connections."""
-
-    def __init__(self, config: uvicorn.Config, started: Callable[[], None]) -> None:
-        super().__init__(config)
-        self._tell = started
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets=sockets)
-        self._tell()

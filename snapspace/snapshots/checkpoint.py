@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..disk import flushed_folder
+from ..notice import Notice
 from ..problem import Problem
 from .sample_file import Samples, read_indices, read_samples, write_samples
 from .snapshots import SampleReport
@@ -21,7 +22,7 @@ from .snapshots import SampleReport
 FloatArray = NDArray[np.float64]
 
 
-class CheckpointNotice(UserWarning):
+class CheckpointNotice(Notice):
     """A file of a checkpoint is damaged and its samples are solved again, or cannot be written."""
 
 

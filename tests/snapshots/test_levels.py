@@ -68,7 +68,9 @@ def test_levels_agree() -> None:
     those differences grow to along a path of forty iterations.
     """
     levels = _core.available_levels()
-    assert "baseline" in levels and _core.level in levels
+    assert _core.level in levels
+    if len(levels) == 1:
+        pytest.skip("`make setup` builds one level only; .ci/run runs this on a wheel")
     results = {level: solve(level) for level in levels}
     reference = results["baseline"]
     for level, result in results.items():
@@ -89,18 +91,23 @@ def test_levels_agree() -> None:
 
 
 def test_a_level_that_does_not_exist_is_refused_with_those_that_do() -> None:
-    finished = run("import snapspace", "avx")
+    finished = run("from snapspace import ElasticEnergy", "avx")
     assert finished.returncode != 0
     assert finished.stderr.splitlines()[-1] == (
         "ImportError: SNAPSPACE_LEVEL=avx: known levels are v4, v3, baseline"
     )
 
 
+def install_all_builds(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)
+
+
 def test_a_level_beyond_the_processor_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    install_all_builds(monkeypatch)
     monkeypatch.setattr(_core, "cpu_level", lambda: 1)
     monkeypatch.setenv("SNAPSPACE_LEVEL", "v4")
     with pytest.raises(
-        ImportError, match="SNAPSPACE_LEVEL=v4: this processor runs baseline; unset"
+        ImportError, match=r"SNAPSPACE_LEVEL=v4: baseline can be had here \(.*\); unset it"
     ):
         _core._chosen_level()  # type: ignore[attr-defined]
 
@@ -118,7 +125,7 @@ def test_the_widest_level_is_chosen(
     monkeypatch: pytest.MonkeyPatch, processor: int, levels: list[str]
 ) -> None:
     monkeypatch.setattr(_core, "cpu_level", lambda: processor)
-    monkeypatch.setattr("importlib.util.find_spec", lambda name: name)  # all builds are installed
+    install_all_builds(monkeypatch)
     monkeypatch.delenv("SNAPSPACE_LEVEL", raising=False)
     assert _core.available_levels() == levels
     assert _core._chosen_level() == levels[0]  # type: ignore[attr-defined]
@@ -131,3 +138,14 @@ def test_a_build_that_is_not_installed_is_not_chosen(monkeypatch: pytest.MonkeyP
         "importlib.util.find_spec", lambda name: name if name.endswith("baseline") else None
     )
     assert _core.available_levels() == ["baseline"]
+
+
+def test_a_build_of_a_better_processor_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An environment that `make setup` made on one machine, and another machine uses."""
+    monkeypatch.setattr(_core, "cpu_level", lambda: 3)
+    monkeypatch.setattr(
+        "importlib.util.find_spec", lambda name: name if name.endswith("v4") else None
+    )
+    assert _core.available_levels() == []
+    with pytest.raises(ImportError, match=r"none of the installed builds .* run `make setup` here"):
+        _core._chosen_level()  # type: ignore[attr-defined]

@@ -1,0 +1,41 @@
+"""The commands of the program. Each is imported when it is called, so that help comes at once."""
+
+from __future__ import annotations
+
+from importlib import import_module
+
+import click
+
+#: The commands, one in the module of its name, with the line of each in the program's help.
+COMMANDS = {
+    "blend": "Blend poses and write the shapes.",
+    "build": "Make a model from a problem.",
+    "demo": "Build and paint a model of a generated creature.",
+    "export": "Write a model as one HTML page.",
+    "info": "Show what a file holds.",
+    "interpolate": "Make a model that blends poses.",
+    "pose": "Move handles and write the shape.",
+    "validate": "Measure the error of a model.",
+    "view": "Pose or blend in the browser, or choose handles there.",
+}
+
+
+class Commands(click.Group):
+    """A group that knows the names of its commands before it imports them."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """All names, in the order of the alphabet."""
+        return sorted(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of a name, or None if there is none."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = getattr(import_module(f".{cmd_name}", __package__), cmd_name)
+        assert isinstance(command, click.Command)
+        return command
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The section of the help that lists the commands."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, COMMANDS[name]) for name in self.list_commands(ctx)])

