@@ -20,6 +20,7 @@ from .listener import listening
 from .live import LARGEST_MESSAGE
 from .shared_body import SharedBody
 from .site import UPLOAD_LIMIT, Site
+from .slow_headers import PromptHeaders
 from .surface_filling import SurfaceFilling
 
 HOST = "127.0.0.1"
@@ -98,6 +99,7 @@ def serve(
                 access_log=False,
                 lifespan="off",
                 server_header=False,
+                http=PromptHeaders,
                 ws="websockets-sansio",
                 ws_max_size=LARGEST_MESSAGE,
                 ws_ping_timeout=SILENCE_SECONDS,
