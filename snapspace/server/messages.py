@@ -202,6 +202,7 @@ class Workspace:
     materials : that can be chosen
     folder : where `Save` writes, for the reader
     upload_limit : bytes
+    own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
     job : request of the last `Compute` for this mesh; 0 if there was none
     is_running : whether it still computes
     """
@@ -225,6 +226,7 @@ class Workspace:
     upload_limit: int
     parts: tuple[PartChoice, ...] = ()
     most_samples: int | None = None
+    own_poisson: float | None = None
     job: int = 0
     is_running: bool = False
 

@@ -25,6 +25,7 @@ from .mesh_pack import packed_mesh
 from .models import Models
 from .outlet import Outlet
 from .polish_jobs import PolishJobs
+from .reader_text import for_reader
 from .reporter import Reporter
 from .shared_body import Stage
 from .site import Site
@@ -86,7 +87,9 @@ class Workspace:
         kept = self._draft
         if kept is None:
             return now
-        chosen = {f.name: getattr(kept, f.name) for f in fields(kept) if f.name != "request"}
+        chosen = {field.name: getattr(kept, field.name) for field in fields(kept)}
+        del chosen["request"]
+        chosen |= {"poisson": begun.poisson, "own_poisson": kept.poisson}
         return replace(now, **chosen)
 
     def upload(self, path: Path) -> None:
@@ -258,7 +261,7 @@ class Workspace:
         if isinstance(error, MemoryError):
             text = "the memory of this machine is used up; take fewer samples or a coarser mesh"
         elif isinstance(error, ValueError):
-            text = str(error)
+            text = for_reader(str(error))
         else:
             logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
             text = (

@@ -32,7 +32,7 @@ KEPT = {
     "most_samples": 50,
     "stiffness": 70.0,
     "material": "arap",
-    "poisson": None,
+    "poisson": 0.4,
     "up": "x",
 }
 HANDLES = [{"name": "späť", "vertices": [1, 2, 5], "moving": True, "translation": None}]
@@ -89,7 +89,8 @@ def test_what_was_chosen_and_what_runs_is_there_again(address: str) -> None:
         assert again["id"] == before["id"] and again["mesh"] == before["mesh"]
         assert again["handles"] == [{**HANDLES[0], "angle": None}]
         assert again["parts"] == PARTS
-        assert {name: again[name] for name in KEPT} == KEPT
+        assert {name: again[name] for name in KEPT} == KEPT | {"poisson": before["poisson"]}
+        assert again["own_poisson"] == KEPT["poisson"]
         assert (again["job"], again["is_running"]) == (41, True)
         told = page.take("model")
         assert told["request"] == 41 and told["number"] >= model["number"]

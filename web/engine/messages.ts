@@ -175,6 +175,7 @@ export interface Edit {
  * materials : that can be chosen
  * folder : where `Save` writes, for the reader
  * upload_limit : bytes
+ * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
  * job : request of the last `Compute` for this mesh; 0 if there was none
  * is_running : whether it still computes
  */
@@ -199,6 +200,7 @@ export interface Workspace {
   readonly upload_limit: number;
   readonly parts?: readonly PartChoice[];
   readonly most_samples?: number | null;
+  readonly own_poisson?: number | null;
   readonly job?: number;
   readonly is_running?: boolean;
 }
