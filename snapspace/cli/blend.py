@@ -82,7 +82,7 @@ def blend(
     linear: bool,
     extrapolate: bool,
     png: Path | None,
-    up: str,
+    up: str | None,
     dimension: int | None,
     as_json: bool,
 ) -> None:
@@ -131,7 +131,7 @@ def blend(
     else:
         written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:
-        save_png(png, blend_picture(model, shapes, up=up))
+        save_png(png, blend_picture(model, shapes, up=up or model.up))
         written.append(png)
     figures = _figures(shapes, written, time.perf_counter() - begin)
     if frames is not None:

@@ -169,10 +169,12 @@ def _old_model(file: Path) -> PosingModel:
 def _read(
     problem_file: Path, mesh_file: Path | None, *, repair: bool
 ) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, Any]]:
-    """The problem, the surface that it names, and the names of its files without folders."""
+    """The problem, the surface that it names, and for the model's provenance where it is from."""
     mesh: TetMesh | None = None if mesh_file is None else read_tets(mesh_file, repair=repair)
     problem = read_problem(problem_file, mesh=mesh, repair=repair)
+    content = json.loads(problem_file.read_text(encoding="utf-8"))
     if mesh_file is None:
-        mesh_file = Path(json.loads(problem_file.read_text(encoding="utf-8"))["mesh"])
+        mesh_file = Path(content["mesh"])
     surface = read_problem_surface(problem_file, problem.mesh)
-    return problem, surface, {"problem": problem_file.name, "mesh": mesh_file.name}
+    source = {"problem": problem_file.name, "mesh": mesh_file.name}
+    return problem, surface, source | {key: content[key] for key in ("up",) if key in content}

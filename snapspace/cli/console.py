@@ -14,6 +14,8 @@ import click
 if TYPE_CHECKING:  # rich is loaded where something is shown
     from rich.console import Console
 
+from .printable import printable
+
 
 def console() -> Console:
     """A console on the standard error of this moment."""
@@ -28,8 +30,8 @@ def notice(message: str) -> None:
 
 
 def one_line(message: str) -> str:
-    """The message without line breaks."""
-    return " ".join(line.strip() for line in message.splitlines() if line.strip())
+    """The message without line breaks, and with what a terminal would act on as escapes."""
+    return printable(" ".join(line.strip() for line in message.splitlines() if line.strip()))
 
 
 def print_json(content: dict[str, Any]) -> None:
@@ -46,9 +48,9 @@ def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
     table.add_column(style="dim", no_wrap=True)
     table.add_column(overflow="fold")
     for name, value in facts:
-        table.add_row(Text(name), Text(value))
+        table.add_row(Text(printable(name)), Text(printable(value, keep="\n")))
     screen = console()
-    screen.print(Text(title, style="bold"))
+    screen.print(Text(printable(title), style="bold"))
     screen.print(table)
 
 
@@ -56,8 +58,9 @@ def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:
     """What to try next and the command for it, as a line that can be copied."""
     click.echo("next:", err=True)
     for purpose, words in commands:
-        click.echo(f"  # {purpose}", err=True)
-        click.echo(f"  {shlex.join(['snapspace', *map(str, words)])}", err=True)
+        click.echo(f"  # {printable(purpose)}", err=True)
+        command = shlex.join(["snapspace", *map(str, words)])
+        click.echo(f"  {printable(command)}", err=True)
 
 
 def _finite(value: Any) -> Any:

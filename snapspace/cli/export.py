@@ -27,7 +27,7 @@ from .units import in_bytes
 @up_option
 @json_option
 def export(
-    model: Path, html: Path, title: str | None, dimension: int | None, up: str, as_json: bool
+    model: Path, html: Path, title: str | None, dimension: int | None, up: str | None, as_json: bool
 ) -> None:
     """Write a model as one HTML page, to be posed or blended in any browser.
 

@@ -11,6 +11,7 @@ from typing import Any
 import click
 from rich import box
 from rich.table import Table
+from rich.text import Text
 
 from ..accurate import BLENDS, check_budget, check_target
 from ..cubature import FEWEST_BLENDS
@@ -30,6 +31,7 @@ from .fit_cache import FitCache
 from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
+from .printable import printable
 from .summary import print_summary
 
 SAMPLES, DIMENSION = 40, 30
@@ -253,7 +255,7 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
         table.add_column(name, justify="right")
     for fit in fits:
         table.add_row(
-            fit.name,
+            Text(printable(fit.name)),  # and no markup
             f"{fit.rms:.2g}",
             f"{fit.max:.2g}",
             str(fit.inverted_tets),

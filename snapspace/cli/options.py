@@ -102,7 +102,5 @@ def up_option(command: Command) -> Command:
     return click.option(
         "--up",
         type=click.Choice(["x", "y", "z"]),
-        default="z",
-        show_default=True,
-        help="Axis that points up.",
+        help="Axis that points up [default: that of the file, or z].",
     )(command)

@@ -63,7 +63,7 @@ def pose(
     kind: str | None,
     frames_per_second: float | None,
     png: Path | None,
-    up: str,
+    up: str | None,
     dimension: int | None,
     as_json: bool,
     **_: Any,
@@ -130,7 +130,7 @@ def pose(
     if output is not None:
         write_shape(output, model, vertices)
     if png is not None:
-        save_png(png, _picture(model, vertices, up))
+        save_png(png, _picture(model, vertices, up or model.up))
     _print_report(figures)
     if as_json:
         print_json(figures)

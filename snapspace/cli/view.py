@@ -69,7 +69,7 @@ def view(
     edge_length: float | None,
     exact: bool,
     dimension: int | None,
-    up: str,
+    up: str | None,
 ) -> None:
     """Pose or blend a model in the browser, or make one there.
 
@@ -112,6 +112,7 @@ def view(
         body=body,
         title="Snapspace" if file is None else file.stem,
         up=up,
+        folder=Path() if file is None else file.parent,
         upload_limit=int(upload_limit * 2**20),
         filling=filling,
         host=host,

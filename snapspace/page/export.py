@@ -16,7 +16,7 @@ SUFFIXES = (".html", ".htm")
 _TITLE = "<title>Snapspace</title>"
 
 
-def page_with_model(model: ReducedModel, *, title: str, up: str = "z") -> str:
+def page_with_model(model: ReducedModel, *, title: str, up: str | None = None) -> str:
     """The page as text, with a model inside.
 
     Parameters
@@ -24,7 +24,7 @@ def page_with_model(model: ReducedModel, *, title: str, up: str = "z") -> str:
     model : PosingModel or InterpolationModel
     title : str
         Shown as the heading and as the window's title.
-    up : "x", "y" or "z", default "z"
+    up : "x", "y" or "z", default the model's own
         Axis that points up at first.
 
     Raises
@@ -50,7 +50,7 @@ def page_with_model(model: ReducedModel, *, title: str, up: str = "z") -> str:
 
 
 def export_html(
-    model: ReducedModel, path: str | Path, *, title: str | None = None, up: str = "z"
+    model: ReducedModel, path: str | Path, *, title: str | None = None, up: str | None = None
 ) -> Path:
     """Writes one self-contained file that poses or blends a model in any browser.
 
@@ -61,7 +61,7 @@ def export_html(
         Ends in .html or .htm.
     title : str, optional
         Default: the file's name without its extension.
-    up : "x", "y" or "z", default "z"
+    up : "x", "y" or "z", default the model's own
         Axis that points up at first.
 
     Returns

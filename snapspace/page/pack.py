@@ -31,7 +31,12 @@ FloatArray = NDArray[np.float64]
 
 
 def packed(
-    model: ReducedModel, *, name: str, up: str = "z", before: PosingModel | None = None
+    model: ReducedModel,
+    *,
+    name: str,
+    up: str | None = None,
+    before: PosingModel | None = None,
+    owners: NDArray[np.int32] | None = None,
 ) -> bytes:
     """The model as the page reads it: surface only, modes in 16 bits, coefficients in single.
 
@@ -40,10 +45,13 @@ def packed(
     model : PosingModel or InterpolationModel
     name : str
         Shown as the title.
-    up : "x", "y" or "z", default "z"
+    up : "x", "y" or "z", default the model's own
         Axis that points up at first.
     before : PosingModel, optional
         Of the same body and handles: its shapes go over into those of a posing model.
+    owners : ndarray of int, (s,), optional
+        The handle of each vertex of the surface, -1 for none, of a posing model. By default that of
+        the nearest tet vertex.
 
     Returns
     -------
@@ -58,10 +66,14 @@ def packed(
     ValueError
         For another axis.
     """
+    if up is None:
+        up = getattr(model, "up", "z")
     if up not in AXES:
         raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
         kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
+        if owners is not None:
+            arrays["handle_of_vertex"] = owners.astype(np.int32)
         if before is not None:
             arrays["from_before"] = _carrying_over(before, model)
     elif isinstance(model, InterpolationModel):

@@ -38,8 +38,8 @@ class NotebookPage:
     model : PosingModel or InterpolationModel
     title : str
         Heading of the page.
-    up : "x", "y" or "z"
-        Axis that points up at first.
+    up : "x", "y", "z" or None
+        Axis that points up at first; None: the model's own.
     height : int
         In pixels, 100 or more.
 
@@ -54,7 +54,7 @@ class NotebookPage:
         If the output has more than 10 MB: not every way to a remote kernel carries it.
     """
 
-    def __init__(self, model: ReducedModel, *, title: str, up: str, height: int) -> None:
+    def __init__(self, model: ReducedModel, *, title: str, up: str | None, height: int) -> None:
         if height < 100:
             raise ValueError(f"show: height is {height} pixels, but the page needs 100 or more")
         self._title, self._height = title, height

@@ -10,12 +10,14 @@ from ..mesh import EmbeddedSurface, TetMesh, compact_surface, embed_surface, rea
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
-from .json_entries import as_list, as_number, as_object, as_text, within
+from .json_entries import as_index, as_list, as_number, as_object, as_text, within
 from .material_entries import material_content, material_from
 from .place_entries import Mask, in_places, listed
 from .posing_problem import PosingProblem
 
-_KEYS = {"mesh", "surface", "material", "stiffness", "domain", "handles"}
+_KEYS = {"mesh", "surface", "up", "material", "stiffness", "domain", "handles"}
+AXES = ("x", "y", "z")
+MOST_VERTICES = 2**31 - 1
 
 
 def read_problem(
@@ -27,10 +29,12 @@ def read_problem(
     ----------
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
-        `read_problem_surface`, "material", "stiffness", "domain": {"translation",
-        "angle_degrees"}, "handles": [{"name", "boxes", "spheres", "vertices", "domain"}, ...]}.
+        `read_problem_surface`, "up": axis that points up in pages and pictures, "material",
+        "stiffness", "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes",
+        "spheres", "vertices", "painted", "domain"}, ...]}.
         A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
-        [[x, y, z], radius] and vertices. The first handle is the fixed one; any other may have a
+        [[x, y, z], radius] and vertices. Its "painted" are the vertices of the surface that it was
+        chosen by; only the page reads them. The first handle is the fixed one; any other may have a
         domain of its own, whose entries replace those of the common one. Where all of them are zero
         it is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name or
         "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
@@ -53,6 +57,8 @@ def read_problem(
     with within(path):
         if mesh is None:
             mesh = _mesh(path, content, repair=repair)
+        if "up" in content and content["up"] not in AXES:
+            raise ValueError(f"up must be one of {', '.join(AXES)}, got {content['up']!r:.60}")
         return _problem(content, mesh)
 
 
@@ -87,9 +93,16 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
 
 
 def problem_content(
-    problem: PosingProblem, mesh_path: str | None = None, surface_path: str | None = None
+    problem: PosingProblem,
+    mesh_path: str | None = None,
+    surface_path: str | None = None,
+    *,
+    up: str | None = None,
 ) -> dict[str, Any]:
-    """The problem as the JSON content that `read_problem` takes, handles by vertices."""
+    """The problem as the JSON content that `read_problem` takes, handles by vertices.
+
+    What is None is left out.
+    """
     common = problem.domain.common.bounds[0]
     content: dict[str, Any] = {
         "material": material_content(problem.material),
@@ -103,7 +116,7 @@ def problem_content(
     for handle, bounds in zip(content["handles"][1:], problem.domain.bounds, strict=True):
         if (bounds != common).any():
             handle["domain"] = domain_content(bounds)
-    files = {"mesh": mesh_path, "surface": surface_path}
+    files = {"mesh": mesh_path, "surface": surface_path, "up": up}
     return {key: file for key, file in files.items() if file is not None} | content
 
 
@@ -140,7 +153,7 @@ def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
 
 
 def _handles(value: Any, mesh: TetMesh) -> Handles:
-    known = {"name", "boxes", "spheres", "vertices", "domain"}
+    known = {"name", "boxes", "spheres", "vertices", "painted", "domain"}
     items = [
         as_object(item, f"handles[{i}]", known=known)
         for i, item in enumerate(as_list(value, "handles"))
@@ -149,6 +162,10 @@ def _handles(value: Any, mesh: TetMesh) -> Handles:
         as_text(item.get("name", f"handle_{i}"), f"handles[{i}].name")
         for i, item in enumerate(items)
     ]
+    for item, name in zip(items, names, strict=True):
+        with within(f"handle '{name}'"):
+            for index in as_list(item.get("painted", []), "painted"):
+                as_index(index, "a painted vertex", below=MOST_VERTICES)
     masks = [_mask(item, name, mesh) for item, name in zip(items, names, strict=True)]
     return Handles(masks, names=names)
 

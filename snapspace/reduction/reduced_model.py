@@ -50,6 +50,12 @@ class ReducedModel(ABC):
         return self.subspace.dimension
 
     @property
+    def up(self) -> str:
+        """Axis that points up in pages and pictures: `provenance["up"]`, or z if that is none."""
+        axis = self.provenance.get("up")
+        return axis if axis in ("x", "y", "z") else "z"
+
+    @property
     def value_scale(self) -> float:
         """Unit of energy for the termination tests, that of a shear of 10 %: 0.01 mu * volume.
 
@@ -89,14 +95,14 @@ class ReducedModel(ABC):
 
         return save_model(self, path)
 
-    def show(self, *, title: str = "", up: str = "z", height: int = 600) -> NotebookPage:
+    def show(self, *, title: str = "", up: str | None = None, height: int = 600) -> NotebookPage:
         """The page in which the model is posed or blended, for the end of a notebook's cell.
 
         Parameters
         ----------
         title : str, optional
             Heading of the page.
-        up : "x", "y" or "z", default "z"
+        up : "x", "y" or "z", default the model's own
             Axis that points up at first.
         height : int, default 600
             In pixels; 100 or more, else ValueError.

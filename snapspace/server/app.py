@@ -20,6 +20,7 @@ from .live import live_endpoint
 from .site import Site
 from .uploads import upload_endpoint
 from .workspace import Workspace
+from .workspaces import Workspaces
 
 Handler = Callable[[Request], Awaitable[Response]]
 
@@ -41,13 +42,13 @@ def page_app(site: Site, *, hosts: Container[str] = LOCAL) -> Starlette:
     ValueError
         If the package was made without its page, or for a model that pages do not solve.
     """
-    workspaces: dict[str, Workspace] = {}
+    workspaces = Workspaces(site)
     routes = [
         Route("/", _page(site)),
         Route("/mesh", upload_endpoint(site, workspaces), methods=["POST"]),
         Route("/mesh/{id}/{number:int}", _content(workspaces, Workspace.mesh_content)),
         Route("/model/{id}/{number:int}", _content(workspaces, Workspace.model_content)),
-        WebSocketRoute("/live", live_endpoint(site, workspaces)),
+        WebSocketRoute("/live", live_endpoint(workspaces)),
     ]
     if site.model is not None:
         routes.append(Route("/model", _bytes(packed(site.model, name=site.title, up=site.up))))
@@ -79,9 +80,7 @@ def _bytes(content: bytes) -> Handler:
     return send
 
 
-def _content(
-    workspaces: dict[str, Workspace], get: Callable[[Workspace, int], bytes | None]
-) -> Handler:
+def _content(workspaces: Workspaces, get: Callable[[Workspace, int], bytes | None]) -> Handler:
     async def send(request: Request) -> Response:
         workspace = workspaces.get(request.path_params["id"])
         content = None

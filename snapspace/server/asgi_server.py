@@ -9,6 +9,7 @@ import uvicorn
 from starlette.types import ASGIApp
 
 from .live import LARGEST_MESSAGE
+from .slow_headers import PromptHeaders
 
 #: How long the end of connections is waited for at Ctrl-C.
 GRACE_SECONDS = 1
@@ -32,6 +33,7 @@ def run(app: ASGIApp, listener: socket.socket, *, started: Callable[[], None]) -
         access_log=False,
         lifespan="off",
         server_header=False,
+        http=PromptHeaders,
         ws="websockets-sansio",
         ws_max_size=LARGEST_MESSAGE,
         ws_ping_timeout=SILENCE_SECONDS,

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..material import DEFAULT_MATERIAL, Material
 from ..problem import PosingProblem, usual_stiffness
+from ..reduction import PosingModel
 from . import messages
 from .body import Body
 from .computation import Computation, Publish
@@ -47,6 +51,7 @@ class Bench:
         self._material = self._given  # of the last computation, without parts
         self._factors: FloatArray | None = None  # of the parts, by tet
         self._selection: Selection | None = None
+        self._painted: tuple[messages.HandleChoice, ...] = ()  # of a body with its own surface
         surface = body.surface
         self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
         if body.problem is not None:
@@ -68,6 +73,7 @@ class Bench:
             material=self._given.kind,
             poisson=shown_poisson(self._given),
             folder=str(self.body.folder),
+            up=self.body.up or empty.up,
         )
         if problem is None:
             return known
@@ -75,7 +81,9 @@ class Bench:
         choices = choices_of(problem)
         return replace(
             known,
-            handles=choices if self._regions is None else self._regions.shown(choices),
+            handles=choices
+            if self._regions is None
+            else self._regions.shown(choices, self.body.painted),
             translation=as_vector(bounds[:3]),
             angle=as_vector(bounds[3:]),
         )
@@ -83,11 +91,13 @@ class Bench:
     def choose(self, choice: messages.Choose) -> messages.Chosen:
         """Takes handles and parts of a message; ValueError if no problem can have them."""
         selection = selection_of(choice)
+        painted: tuple[messages.HandleChoice, ...] = ()
         if self._regions is not None:
+            painted = choice.handles
             selection = replace(selection, handles=self._regions.in_tets(selection.handles))
         factors = part_factors(choice.parts, self.body.mesh, self._regions)
         problem = self._of(selection, self._stiffness, with_factors(self._material, factors))
-        self._selection, self._factors = selection, factors
+        self._selection, self._factors, self._painted = selection, factors, painted
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
 
     def computation(
@@ -114,6 +124,19 @@ class Bench:
         self._problem, self._material = problem, material
         return computation
 
+    def painted_owners(self, model: PosingModel) -> NDArray[np.int32] | None:
+        """The handle of each surface vertex as it was painted, (s,), -1 for none.
+
+        None where nothing was painted on a surface of its own, or other handles are chosen by now.
+        """
+        names = list(model.problem.handles.names)
+        if self._regions is None or sorted(h.name for h in self._painted) != sorted(names):
+            return None
+        owners = np.full(self._regions.surface_vertices, -1, np.int32)
+        for handle in self._painted:
+            owners[list(handle.vertices)] = names.index(handle.name)
+        return owners
+
     def save(self, order: messages.Save) -> messages.Saved:
         """Writes the problem of handles and parts chosen last, and the newest model.
 
@@ -124,12 +147,17 @@ class Bench:
         material = with_factors(self._material, self._factors)
         problem = self._of(self._selection, self._stiffness, material)
         newest = self._models.newest
+        model = None if newest is None else newest.model
+        if model is not None and order.up is not None:
+            model = replace(model, provenance={**model.provenance, "up": order.up})
         return self._savings.save(
             self.body,
             problem,
-            None if newest is None else newest.model,
+            model,
             name=order.name,
             request=order.request,
+            up=order.up,
+            painted=self._painted,
         )
 
     @property

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..mesh import (
@@ -20,6 +20,7 @@ from ..mesh import (
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..problem import PosingProblem, read_problem, read_problem_surface
+from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
 from .surface_filling import SurfaceFilling
 
@@ -38,6 +39,8 @@ class Body:
     problem : PosingProblem with the handles to begin with, or None
     surface : EmbeddedSurface that was filled, which is shown in place of the tets'; or None
     surface_file : Path of the surface, or None if it is in no file of the user
+    up : axis that points up, or None if no file tells it
+    painted : vertices of the surface that handles of the problem were chosen by, by name
     """
 
     name: str
@@ -47,6 +50,8 @@ class Body:
     problem: PosingProblem | None = None
     surface: EmbeddedSurface | None = None
     surface_file: Path | None = None
+    up: str | None = None
+    painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
 
 def problem_body(path: Path) -> Body:
@@ -62,6 +67,12 @@ def problem_body(path: Path) -> Body:
         problem=problem,
         surface=surface,
         surface_file=None if surface is None else (path.parent / files["surface"]).resolve(),
+        up=files.get("up"),
+        painted={
+            name: handle["painted"]
+            for name, handle in zip(problem.handles.names, files["handles"], strict=True)
+            if "painted" in handle
+        },
     )
 
 
@@ -102,4 +113,34 @@ def mesh_body(
         folder=folder,
         surface=surface,
         surface_file=path.resolve(),
+    )
+
+
+def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
+    """What a model was made of, to choose other handles on.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+        With its handles to begin with, or the first one of its poses without handles.
+    name : str
+    folder : Path
+        Where files are saved.
+    """
+    if isinstance(model, InterpolationModel):
+        mesh, problem = model.problem.poses.reference, None
+    else:
+        assert isinstance(model, PosingModel)
+        mesh, problem = model.problem.mesh, model.problem
+    own = len(model.surface.corners) != len(mesh.surface_vertices) or bool(
+        (model.surface.nearest != mesh.surface_vertices).any()
+    )
+    return Body(
+        name=name,
+        mesh=mesh,
+        file=None,
+        folder=folder,
+        problem=problem,
+        surface=model.surface if own else None,
+        up=model.up,
     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hmac
+import re
 from collections.abc import Container
-from urllib.parse import urlsplit
 
 from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse
@@ -20,6 +20,13 @@ HEADERS = {
     "Referrer-Policy": "no-referrer",
     "X-Content-Type-Options": "nosniff",
 }
+
+LAST_PORT = 65535
+#: A name or an address in digits, or one of IPv6 in brackets; and a port.
+_HOST = re.compile(
+    r"(?:\[(?P<address>[0-9A-Fa-f:.]+)\]|(?P<name>[0-9A-Za-z_.-]+))(?::(?P<port>[0-9]{1,5}))?",
+    re.ASCII,
+)
 
 
 class Guard:
@@ -66,11 +73,11 @@ class Guard:
         await page(scope, receive, send_guarded)
 
     def _refusal(self, headers: Headers, query: bytes) -> str | None:
-        host = headers.get("host", "")
-        if (_name(f"//{host}") or "") not in self._hosts:
+        hosts, origins = headers.getlist("host"), headers.getlist("origin")
+        if len(hosts) != 1 or _name(hosts[0]) not in self._hosts:
             return "snapspace: this server does not go by that name; use the address it printed"
-        origin = headers.get("origin")
-        if origin is not None and origin != f"http://{host}":
+        # two of them: browsers send one, and whoever reads the other one would be deceived
+        if len(origins) > 1 or any(origin != f"http://{hosts[0]}" for origin in origins):
             return "snapspace: requests from other pages are refused"
         given = [part[6:] for part in query.split(b"&") if part.startswith(b"token=")]
         if len(given) != 1 or not hmac.compare_digest(given[0], self._token):
@@ -78,8 +85,12 @@ class Guard:
         return None
 
 
-def _name(address: str) -> str | None:
-    try:
-        return urlsplit(address).hostname
-    except ValueError:  # a bracket without its other half
+def _name(host: str) -> str | None:
+    """The name in a Host header, in lower case and without its port; None if it is malformed.
+
+    Strictly: what readers of addresses make of user@name, name/path or spaces differs.
+    """
+    found = _HOST.fullmatch(host)
+    if found is None or int(found["port"] or 0) > LAST_PORT:
         return None
+    return (found["address"] or found["name"]).lower()

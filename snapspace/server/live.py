@@ -4,46 +4,48 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from contextlib import suppress
 
 from starlette.concurrency import run_in_threadpool
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from .messages import Failed
 from .outbox import Outbox
-from .site import Site
 from .wire import decoded, encoded, request_of
 from .workspace import Workspace
+from .workspaces import Workspaces
 
 #: Bytes of a message: all vertices of a mesh with a million of them are 8 MB.
 LARGEST_MESSAGE = 16 * 2**20
+#: Why a connection was closed: another page has its workspace now. The page reads this number.
+TAKEN_OVER = 4001
 
 
-def live_endpoint(
-    site: Site, workspaces: dict[str, Workspace]
-) -> Callable[[WebSocket], Awaitable[None]]:
-    """Answers connections of pages; each has its workspace, which ends with the connection.
+def live_endpoint(workspaces: Workspaces) -> Callable[[WebSocket], Awaitable[None]]:
+    """Answers connections of pages.
 
-    Parameters
-    ----------
-    site : Site
-    workspaces : dict
-        By id, those of the pages that are connected.
+    Each has its workspace: a new one, or with workspace=ID in the query that of a page which was
+    connected before.
     """
 
     async def live(socket: WebSocket) -> None:
         await socket.accept()
         outbox = Outbox(asyncio.get_running_loop())
-        workspace = Workspace(site, outbox.put)
-        workspaces[workspace.id] = workspace
+
+        async def dismiss() -> None:
+            with suppress(RuntimeError, OSError):  # it is closed already
+                await socket.close(TAKEN_OVER)
+
         sender = asyncio.create_task(_send(socket, outbox))
+        workspace = await workspaces.enter(
+            socket.query_params.get("workspace"), outbox.put, dismiss
+        )
         try:
-            await run_in_threadpool(workspace.open)
             await _receive(socket, workspace, outbox)
         finally:
-            del workspaces[workspace.id]
             sender.cancel()
             await asyncio.gather(sender, return_exceptions=True)
-            await run_in_threadpool(workspace.close)
+            await workspaces.leave(workspace, dismiss)
 
     return live
 

@@ -120,10 +120,43 @@ class Save:
     """Page: save the problem, the newest model, and what is in no file yet. Answered by `Saved`.
 
     name : of the files, without folder or ending; null: the mesh's
+    up : axis that points up, saved with problem and model; null: the server's
     """
 
     request: int
     name: str | None = None
+    up: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Keep:
+    """Page: what is chosen so far, also what cannot be computed yet. There is no answer.
+
+    The next `Workspace` of the same id returns it, as after the page was loaded again.
+
+    handles, parts, translation, angle : as in `Choose`, in any order
+    target_error, most_samples, stiffness, material, poisson : as in `Compute`
+    up : axis that points up
+    """
+
+    request: int
+    handles: tuple[HandleChoice, ...]
+    parts: tuple[PartChoice, ...]
+    translation: Vector
+    angle: Vector
+    target_error: float
+    most_samples: int | None
+    stiffness: float
+    material: str
+    poisson: float | None
+    up: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Edit:
+    """Page: choose handles on the body of the server's own model. Answered by `Workspace`."""
+
+    request: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -152,18 +185,26 @@ class Polish:
 class Workspace:
     """Server: what the page works with. The first message, and again after an upload.
 
-    id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=...
+    For a page that comes back, as when it is loaded again, it has what the page had chosen. The
+    newest `Model` and the last `Progress` follow.
+
+    id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and in that of the
+        websocket, live?workspace=ID&token=..., of a page that comes back
     kind : "empty": the page asks for a mesh; "reading": progress follows, and another workspace;
         "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
     name : of the mesh or model
     mesh : address of the packed mesh; null unless the kind is mesh
     up : axis that points up at first, x, y or z
-    handles, translation, angle : chosen at first
+    handles, parts, translation, angle : chosen at first
     diagonal : of the mesh; 0 if there is none
-    target_error, seed, stiffness, material, poisson : computed with unless the page asks for others
+    target_error, most_samples, seed, stiffness, material, poisson : computed with unless the page
+        asks for others
     materials : that can be chosen
     folder : where `Save` writes, for the reader
     upload_limit : bytes
+    own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
+    job : request of the last `Compute` for this mesh; 0 if there was none
+    is_running : whether it still computes
     """
 
     id: str
@@ -183,6 +224,11 @@ class Workspace:
     poisson: float | None
     folder: str
     upload_limit: int
+    parts: tuple[PartChoice, ...] = ()
+    most_samples: int | None = None
+    own_poisson: float | None = None
+    job: int = 0
+    is_running: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -286,11 +332,11 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Compute, Cancel, Save, Polish)
+FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit)
 FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished)
 PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion)
 
-PageMessage = Choose | Compute | Cancel | Save | Polish
+PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit
 ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished
 
 

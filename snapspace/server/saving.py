@@ -7,7 +7,7 @@ import itertools
 import json
 import os
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -18,7 +18,7 @@ from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel
 from .body import PROBLEM_SUFFIX, Body
-from .messages import Saved
+from .messages import HandleChoice, Saved
 
 MESH_SUFFIX, SURFACE_SUFFIX = ".msh", ".obj"
 LONGEST = 100
@@ -41,6 +41,8 @@ class Savings:
         *,
         name: str | None,
         request: int,
+        up: str | None = None,
+        painted: Sequence[HandleChoice] = (),
     ) -> Saved:
         """Writes problem file, model, and mesh and surface if they are in no file yet.
 
@@ -54,6 +56,10 @@ class Savings:
             become NAME-2, NAME-3 and so on, all alike.
         request : int
             Repeated in the answer.
+        up : "x", "y" or "z", optional
+            Axis that points up, for the problem file.
+        painted : sequence of HandleChoice, optional
+            Handles by vertices of the body's own surface, so that they look as they were painted.
 
         Returns
         -------
@@ -84,7 +90,12 @@ class Savings:
                 problem,
                 os.path.relpath(mesh, folder),
                 None if shown is None else os.path.relpath(shown, folder),
+                up=up,
             )
+            own = {handle.name: list(handle.vertices) for handle in painted}
+            for entry in content["handles"]:
+                if entry["name"] in own:
+                    entry["painted"] = own[entry["name"]]
             file = folder / f"{stem}{PROBLEM_SUFFIX}"
             self._write(file, lambda path: _write_text(path, json.dumps(content) + "\n"))
             model_file = folder / f"{stem}{SUFFIX}"

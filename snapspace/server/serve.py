@@ -26,7 +26,7 @@ def serve(
     *,
     body: SharedBody | None = None,
     title: str,
-    up: str = "z",
+    up: str | None = None,
     folder: Path = Path(),
     upload_limit: int = UPLOAD_LIMIT,
     filling: SurfaceFilling | None = None,
@@ -46,10 +46,10 @@ def serve(
         The mesh that pages begin with. With neither they ask for one.
     title : str
         Heading of the page, until a mesh has a name.
-    up : "x", "y" or "z", default "z"
+    up : "x", "y" or "z", default that of the model or problem, or z
         Axis that points up at first.
     folder : Path, default the current one
-        Where what is made of uploaded meshes is saved.
+        Where what is made of uploaded meshes, and of a model, is saved.
     upload_limit : int, default 256 MB
         Bytes of a mesh that is dropped on the page.
     filling : SurfaceFilling, default quick tets

@@ -15,11 +15,23 @@ UPLOAD_LIMIT = 256 * 2**20
 
 
 @dataclass(frozen=True, kw_only=True)
+class Patience:
+    """How long the workspace of a page that is gone is kept, in seconds.
+
+    alone : a page that is loaded again is back in a second, a machine that wakes up in some more
+    waited_for : while other pages wait for its computation
+    """
+
+    alone: float = 60.0
+    waited_for: float = 5.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class Site:
     """What a server was started with.
 
     title : shown until a mesh has a name
-    up : axis that points up at first
+    up : axis that points up at first; None: that of the model or problem, or z
     token : letters, digits, - and _ only: it becomes part of addresses
     folder : Path where files of uploaded meshes are saved
     scratch : Path for temporary files, which the server removes in the end
@@ -27,15 +39,17 @@ class Site:
     model : to pose or blend, instead of a body; or None
     upload_limit : bytes
     filling : of surfaces that are dropped on a page
+    patience : with pages that are gone
     """
 
     title: str
-    up: str
+    up: str | None
     token: str
     folder: Path
     scratch: Path
     body: SharedBody | None = None
     model: ReducedModel | None = None
     upload_limit: int = UPLOAD_LIMIT
+    patience: Patience = field(default_factory=Patience)
     filling: SurfaceFilling = field(default_factory=SurfaceFilling)
     turns: Turns = field(default_factory=Turns)

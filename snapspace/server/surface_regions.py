@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -72,10 +72,21 @@ class SurfaceRegions:
             )
         return closest
 
-    def shown(self, choices: Sequence[HandleChoice]) -> tuple[HandleChoice, ...]:
-        """Handles of the tets with the vertices of the surface that follow them most."""
+    def shown(
+        self, choices: Sequence[HandleChoice], painted: Mapping[str, Sequence[int]] | None = None
+    ) -> tuple[HandleChoice, ...]:
+        """Handles of the tets with the vertices of the surface that follow them most.
+
+        `painted` has the vertices of the surface for handles, by name, that were chosen there.
+        Indices that the surface does not have are left out.
+        """
         regions = [np.array(choice.vertices, np.int32) for choice in choices]
-        chosen = [self._surface.following(region) for region in regions]
+        count = self.surface_vertices
+        chosen = []
+        for choice, region in zip(choices, regions, strict=True):
+            own = np.unique(np.array((painted or {}).get(choice.name, ()), np.int64))
+            own = own[(own >= 0) & (own < count)]
+            chosen.append(own if own.size else self._surface.following(region))
         for one, region in enumerate(regions):
             if not chosen[one].size:  # no surface vertex is near: those around it
                 around = self._closest[np.isin(self._mesh.surface_vertices, region)]

@@ -21,6 +21,12 @@ class Turns:
         self._queue: deque[object] = deque()
         self._changed = threading.Condition()
 
+    @property
+    def waiting(self) -> int:
+        """How many computations wait for another one."""
+        with self._changed:
+            return max(len(self._queue) - 1, 0)
+
     @contextmanager
     def turn(self, waiting: Callable[[int], None]) -> Iterator[None]:
         """Waits until those before are done, and runs the block.

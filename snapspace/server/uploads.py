@@ -12,26 +12,24 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
 
+from ..model_file import SUFFIX
 from .body import MESH_SUFFIXES
 from .saving import plain_name
 from .site import Site
-from .workspace import Workspace
+from .workspaces import Workspaces
 
 
-def upload_endpoint(
-    site: Site, workspaces: dict[str, Workspace]
-) -> Callable[[Request], Awaitable[Response]]:
+def upload_endpoint(site: Site, workspaces: Workspaces) -> Callable[[Request], Awaitable[Response]]:
     """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
 
     The answer is 202 once the file is here, the rest comes by the websocket. Else it is one line of
-    text: 404 for a page that is not connected, 409 where a model is shown, 413 beyond the limit,
-    415 for a file that is no mesh.
+    text: 404 for a page that is not connected, 413 beyond the limit, 415 for a file that is
+    neither a mesh nor a model.
 
     Parameters
     ----------
     site : Site
-    workspaces : dict
-        By id.
+    workspaces : Workspaces
     """
 
     async def upload(request: Request) -> Response:
@@ -48,9 +46,7 @@ def upload_endpoint(
         name = plain_name(request.query_params.get("name", ""))
         if workspace is None:
             return _refusal(404, "the page of this upload is not connected; reload it")
-        if site.model is not None:
-            return _refusal(409, "this server shows a model; start `snapspace view` with a mesh")
-        if Path(name).suffix.lower() not in MESH_SUFFIXES:
+        if Path(name).suffix.lower() not in (*MESH_SUFFIXES, SUFFIX):
             return _refusal(415, f"{name}: a page takes meshes, {' '.join(MESH_SUFFIXES)}")
         too_large = f"{name}: more than {site.upload_limit / 2**20:g} MB; raise --upload-limit"
         if int(request.headers.get("content-length", "0")) > site.upload_limit:

@@ -7,22 +7,25 @@ import secrets
 import shutil
 import threading
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 from ..accurate import MOTIONS, Growth
 from ..material import DEFAULT_MATERIAL
+from ..model_file import SUFFIX, load
 from ..page import packed
 from ..reduction import PosingModel, ReducedModel
 from ..stopping import check_stop
 from . import messages
 from .bench import Bench
-from .body import Body, mesh_body
+from .body import Body, mesh_body, model_body
 from .job import Job
 from .materials import material_choices, shown_poisson
 from .mesh_pack import packed_mesh
 from .models import Models
+from .outlet import Outlet
 from .polish_jobs import PolishJobs
+from .reader_text import for_reader
 from .reporter import Reporter
 from .shared_body import Stage
 from .site import Site
@@ -44,13 +47,15 @@ class Workspace:
 
     def __init__(self, site: Site, emit: Callable[..., None]) -> None:
         self.id = secrets.token_urlsafe(9)
-        self._site, self._emit = site, emit
+        self._site, self._emit = site, Outlet(emit)
         self._lock = threading.Lock()  # of the calls; jobs do not take it
         self._work: Job | None = None
-        self._polishes = PolishJobs(emit, self._fail)
+        self._polishes = PolishJobs(self._emit, self._fail)
         self._bench: Bench | None = None
         self._meshes = 0  # that were opened; the last one counts
         self._models = Models()
+        self._draft: messages.Keep | None = None
+        self._job = 0  # request of the last `Compute`
         self._closed = False
 
     def open(self) -> None:
@@ -64,11 +69,40 @@ class Workspace:
             with self._lock:
                 self._open(shared.get, self._site.title)
 
+    def pause(self) -> None:
+        """The page is gone, perhaps for a moment: what is made stays, and work goes on."""
+        self._emit.disconnect()
+
+    def resume(self, emit: Callable[..., None]) -> None:
+        """A page is back: it hears what there is, and from now on what comes."""
+        with self._lock:
+            self._emit.connect(emit, self._present)
+
+    def _present(self, begun: messages.Workspace) -> messages.Workspace:
+        """The workspace with what its page has chosen since."""
+        if begun.kind != "mesh":
+            return begun
+        job = self._work is not None and self._work.running
+        now = replace(begun, job=self._job, is_running=job and self._job > 0)
+        kept = self._draft
+        if kept is None:
+            return now
+        chosen = {field.name: getattr(kept, field.name) for field in fields(kept)}
+        del chosen["request"]
+        chosen |= {"poisson": begun.poisson, "own_poisson": kept.poisson}
+        return replace(now, **chosen)
+
     def upload(self, path: Path) -> None:
-        """Opens a mesh file in place of what there was; its folder is removed once it is read."""
+        """Opens a mesh or model file in place of what there was.
+
+        Its folder is removed once it is read.
+        """
 
         def make(stage: Stage) -> Body:
             try:
+                if path.suffix.lower() == SUFFIX:
+                    stage("reading")
+                    return model_body(load(path), name=path.stem, folder=self._site.folder)
                 body = mesh_body(path, stage=stage, filling=self._site.filling)
             except ValueError as error:
                 raise ValueError(str(error).replace(str(path), path.name)) from None
@@ -95,7 +129,7 @@ class Workspace:
         bench = self._bench
         if bench is None or number != self._meshes:
             return None
-        return packed_mesh(bench.body, up=self._site.up)
+        return packed_mesh(bench.body, up=self._up)
 
     def model_content(self, number: int) -> bytes | None:
         """The packed model of an address; None if it is not kept any more."""
@@ -126,6 +160,10 @@ class Workspace:
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
             self._emit(self._bench_now().save(message))
+        elif isinstance(message, messages.Keep):
+            self._draft = message
+        elif isinstance(message, messages.Edit):
+            self._edit()
         else:
             self._polishes.begin(message, self._model(message.model))
 
@@ -142,6 +180,12 @@ class Workspace:
             raise ValueError(f"model {number} is not kept any more; take the newest one")
         return kept.model
 
+    def _edit(self) -> None:
+        model, title, folder = self._site.model, self._site.title, self._site.folder
+        if model is None:
+            raise ValueError("this server has no model of its own; choose handles on its mesh")
+        self._open(lambda stage: model_body(model, name=title, folder=folder), title)
+
     def _compute(self, order: messages.Compute) -> None:
         bench, request = self._bench_now(), order.request
 
@@ -151,8 +195,10 @@ class Workspace:
             newest = self._models.newest
             before = newest.model if newest and self._models.is_of(growth.model.problem) else None
             assert before is None or isinstance(before, PosingModel)
-            name, up = bench.body.name, self._site.up
-            content = packed(growth.model, name=name, up=up, before=before)
+            name, up = bench.body.name, self._up
+            assert isinstance(growth.model, PosingModel)
+            owners = bench.painted_owners(growth.model)
+            content = packed(growth.model, name=name, up=up, before=before, owners=owners)
             check_stop()
             number = self._models.add(growth.model, content)
             self._tell(
@@ -173,6 +219,7 @@ class Workspace:
             order, turns=self._site.turns, report=report, publish=publish
         )
         self._end_work()
+        self._job = request
         self._work = Job(computation.run, failed=lambda error: self._fail(request, error))
 
     def _open(self, make: Callable[[Stage], Body], name: str) -> None:
@@ -180,6 +227,7 @@ class Workspace:
         self._end_work()
         self._bench = None
         self._models.clear()
+        self._draft, self._job = None, 0
         self._meshes += 1
         number, empty = self._meshes, self._empty()
         self._emit(replace(empty, kind="reading", name=name))
@@ -213,13 +261,25 @@ class Workspace:
         if isinstance(error, MemoryError):
             text = "the memory of this machine is used up; take fewer samples or a coarser mesh"
         elif isinstance(error, ValueError):
-            text = str(error)
+            text = for_reader(str(error))
         else:
             logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
             text = (
                 f"the server has a fault ({type(error).__name__}: {error}); its output tells more"
             )
         self._emit(messages.Failed(request=request, message=text.replace("\n", " ")))
+
+    @property
+    def _up(self) -> str:
+        """As the page has it, else as the server was told, else as its file says."""
+        if self._draft is not None:
+            return self._draft.up
+        if self._site.up is not None:
+            return self._site.up
+        bench, model = self._bench, self._site.model
+        if bench is not None:
+            return bench.body.up or "z"
+        return "z" if model is None else model.up
 
     def _address(self, what: str, number: int) -> str:
         return f"{what}/{self.id}/{number}?token={self._site.token}"
@@ -230,7 +290,7 @@ class Workspace:
             kind="empty",
             name=self._site.title,
             mesh=None,
-            up=self._site.up,
+            up=self._up,
             handles=(),
             translation=(0.0, 0.0, 0.0),
             angle=(0.0, 0.0, 0.0),

@@ -27,7 +27,7 @@ class Page:
 
     def _console(self, message: Any) -> None:
         told = message.text
-        is_lost = self.loses_server and told.startswith("WebSocket connection")
+        is_lost = self.loses_server and told.startswith(("WebSocket connection", "Failed to load"))
         if message.type in ("error", "warning") and "GPU stall" not in told and not is_lost:
             self.faults.append(f"console: {told}")
 

@@ -213,6 +213,7 @@ def test_the_end_of_the_server_is_told_and_posing_goes_on(folder: Path, opened: 
         page.wait("snapspace.kind === 'posing'")
         wait_for_text(page, "#panel", "Done in")
         page.loses_server = True
-    wait_for_text(page, "#panel", "No connection to the server")
+    wait_for_text(page, "#connection", "No connection to the server")
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    wait_for_text(page, ".hud", "Not polished: there is no connection to the server.")

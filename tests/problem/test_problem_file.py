@@ -180,7 +180,7 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (HEAD, 5, "handles[1] must be an object {...}, got 5"),
     ((*HEAD, "name"), 5, "handles[1].name must be a string, got 5"),
     ((*HEAD, "name"), "foot", "the name 'foot' is used twice"),
-    ((*HEAD, "box"), [], "handles[1]: unknown entry 'box'; known are boxes, domain, name, sph"),
+    ((*HEAD, "box"), [], "handles[1]: unknown entry 'box'; known are boxes, domain, name, pai"),
     ((*HEAD, "boxes"), 5, "handle 'head': boxes must be a list, got 5"),
     ((*HEAD, "boxes"), [CORNER], "handle 'head': a box must be [min corner, max corner], got [0"),
     ((*HEAD, "boxes"), [[CORNER, 1]], "handle 'head': a corner must be a list, got 1"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import socket
-from collections.abc import Container
+from collections.abc import Container, Sequence
 from typing import Any
 
 import pytest
@@ -15,14 +15,16 @@ from snapspace.server.hosts import LOCAL, OwnNames, hosts_for, shown_host
 def answer(
     kind: str,
     *,
-    host: str = "localhost:80",
-    origin: str | None = None,
+    host: str | Sequence[str] = "localhost:80",
+    origin: str | Sequence[str] | None = None,
     token: str = "secret",
     hosts: Container[str] = LOCAL,
 ) -> str:
     """What a request meets: the application, or a refusal."""
-    headers = [(b"host", host.encode())]
-    headers += [] if origin is None else [(b"origin", origin.encode())]
+    origins = [origin] if isinstance(origin, str) else origin or []
+    given = [host] if isinstance(host, str) else host
+    headers = [(b"host", one.encode("latin-1")) for one in given]
+    headers += [(b"origin", one.encode()) for one in origins]
     scope = {"type": kind, "headers": headers, "query_string": f"token={token}".encode()}
     sent: list[dict[str, Any]] = []
 
@@ -57,6 +59,49 @@ def test_websockets_are_guarded_as_requests_are(kind: str, refused: str) -> None
         "https://localhost:8000",
     ):
         assert answer(kind, host="localhost:8000", origin=origin) == refused
+
+
+@pytest.mark.parametrize(
+    "host",
+    [
+        "evil.example@localhost",
+        "localhost@evil.example",
+        "localhost/evil.example",
+        "localhost?x",
+        "localhost#x",
+        "localhost:80:80",
+        "localhost:",
+        "localhost:99999",
+        "localhost:x",
+        " localhost",
+        "local\thost",
+        "//localhost",
+        "[::1",
+        "::1",
+        "[localhost]",
+        "localhost\xa0",
+        "",
+        (),
+        ("localhost", "localhost"),
+        ("localhost", "evil.example"),
+    ],
+)
+def test_a_host_is_matched_strictly(host: str | Sequence[str]) -> None:
+    assert answer("http", host=host) == "http.response.start"
+    assert answer("websocket", host=host) == "websocket.close"
+
+
+def test_hosts_that_are_well_formed_are_answered() -> None:
+    for host in ("localhost", "LOCALHOST:8000", "127.0.0.1:1", "[::1]", "[::1]:65535"):
+        assert answer("http", host=host) == "the application"
+
+
+def test_more_than_one_origin_is_refused() -> None:
+    own = "http://localhost:80"
+    assert answer("http", origin=[own]) == "the application"
+    for origins in ([own, own], [own, "http://evil.example"], ["http://evil.example", own]):
+        assert answer("http", origin=origins) == "http.response.start"
+        assert answer("websocket", origin=origins) == "websocket.close"
 
 
 def test_a_server_for_all_answers_to_addresses_and_its_own_name() -> None:

@@ -1,4 +1,4 @@
-import type { HandleChoice, Vector } from "./messages.ts";
+import type { HandleChoice, PartChoice, Vector } from "./messages.ts";
 import type { ChosenPart } from "./parts.ts";
 import { NOTHING, union, without } from "./selecting.ts";
 
@@ -26,7 +26,7 @@ export interface Choice {
 }
 
 /** What a server or a problem file has chosen. */
-export function choiceOf(handles: readonly HandleChoice[]): Choice {
+export function choiceOf(handles: readonly HandleChoice[], parts: readonly PartChoice[] = []): Choice {
   const chosen = handles.map(({ name, vertices, moving = true, translation = null, angle = null }, key) => ({
     key,
     name,
@@ -35,7 +35,13 @@ export function choiceOf(handles: readonly HandleChoice[]): Choice {
     translation,
     angle,
   }));
-  return { selected: NOTHING, handles: chosen, parts: [] };
+  const shown = parts.map(({ name, vertices, factor }, key) => ({
+    key,
+    name,
+    vertices: Int32Array.from(vertices).sort(),
+    factor,
+  }));
+  return { selected: NOTHING, handles: chosen, parts: shown };
 }
 
 /** The handles as the server takes them, those that hold the shape first: so they are in models, too. */
@@ -45,7 +51,12 @@ export function inOrder(handles: readonly ChosenHandle[]): ChosenHandle[] {
 
 /** As the server takes them. */
 export function messageOf(handles: readonly ChosenHandle[]): HandleChoice[] {
-  return inOrder(handles).map(({ key: _, vertices, ...rest }) => ({ ...rest, vertices: [...vertices] }));
+  return listed(inOrder(handles));
+}
+
+/** As the server keeps them for the page: in the page's own order. */
+export function listed(handles: readonly ChosenHandle[]): HandleChoice[] {
+  return handles.map(({ key: _, vertices, ...rest }) => ({ ...rest, vertices: [...vertices] }));
 }
 
 /** The selected vertices become a handle; the first one holds the shape, the others move. */

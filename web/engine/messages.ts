@@ -97,11 +97,13 @@ export interface Cancel {
 /** Page: save the problem, the newest model, and what is in no file yet. Answered by `Saved`.
  *
  * name : of the files, without folder or ending; null: the mesh's
+ * up : axis that points up, saved with problem and model; null: the server's
  */
 export interface Save {
   readonly type: "save";
   readonly request: number;
   readonly name?: string | null;
+  readonly up?: string | null;
 }
 
 /** Page: improve a shape in the full space. A polish that runs is replaced, without an answer.
@@ -125,20 +127,57 @@ export interface Polish {
   readonly iterations?: number;
 }
 
+/** Page: what is chosen so far, also what cannot be computed yet. There is no answer.
+ *
+ * The next `Workspace` of the same id returns it, as after the page was loaded again.
+ *
+ * handles, parts, translation, angle : as in `Choose`, in any order
+ * target_error, most_samples, stiffness, material, poisson : as in `Compute`
+ * up : axis that points up
+ */
+export interface Keep {
+  readonly type: "keep";
+  readonly request: number;
+  readonly handles: readonly HandleChoice[];
+  readonly parts: readonly PartChoice[];
+  readonly translation: Vector;
+  readonly angle: Vector;
+  readonly target_error: number;
+  readonly most_samples: number | null;
+  readonly stiffness: number;
+  readonly material: string;
+  readonly poisson: number | null;
+  readonly up: string;
+}
+
+/** Page: choose handles on the body of the server's own model. Answered by `Workspace`. */
+export interface Edit {
+  readonly type: "edit";
+  readonly request: number;
+}
+
 /** Server: what the page works with. The first message, and again after an upload.
  *
- * id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=...
+ * For a page that comes back, as when it is loaded again, it has what the page had chosen. The
+ * newest `Model` and the last `Progress` follow.
+ *
+ * id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and in that of the
+ *     websocket, live?workspace=ID&token=..., of a page that comes back
  * kind : "empty": the page asks for a mesh; "reading": progress follows, and another workspace;
  *     "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
  * name : of the mesh or model
  * mesh : address of the packed mesh; null unless the kind is mesh
  * up : axis that points up at first, x, y or z
- * handles, translation, angle : chosen at first
+ * handles, parts, translation, angle : chosen at first
  * diagonal : of the mesh; 0 if there is none
- * target_error, seed, stiffness, material, poisson : computed with unless the page asks for others
+ * target_error, most_samples, seed, stiffness, material, poisson : computed with unless the page
+ *     asks for others
  * materials : that can be chosen
  * folder : where `Save` writes, for the reader
  * upload_limit : bytes
+ * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
+ * job : request of the last `Compute` for this mesh; 0 if there was none
+ * is_running : whether it still computes
  */
 export interface Workspace {
   readonly type: "workspace";
@@ -159,6 +198,11 @@ export interface Workspace {
   readonly poisson: number | null;
   readonly folder: string;
   readonly upload_limit: number;
+  readonly parts?: readonly PartChoice[];
+  readonly most_samples?: number | null;
+  readonly own_poisson?: number | null;
+  readonly job?: number;
+  readonly is_running?: boolean;
 }
 
 /** Server: the handles are taken, in this order, the one that holds the shape first. */
@@ -255,6 +299,6 @@ export interface Polished {
   readonly seconds: number;
 }
 
-export type PageMessage = Choose | Compute | Cancel | Save | Polish;
+export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit;
 
 export type ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished;

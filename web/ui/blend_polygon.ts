@@ -12,6 +12,9 @@ export class BlendPolygon {
   readonly #dot: SVGElement;
   readonly #pictures: SVGElement[] = [];
   readonly #act: (weights: number[]) => void;
+  #weights: readonly number[] = [];
+  /** Of the drag that goes on, at its begin. */
+  #before: readonly number[] | null = null;
 
   /** `act` gets the weights of the dragged point, and of a corner that is clicked. */
   constructor(names: readonly string[], act: (weights: number[]) => void) {
@@ -55,6 +58,7 @@ export class BlendPolygon {
   }
 
   show(weights: readonly number[]): void {
+    this.#weights = weights;
     const sum = (axis: 0 | 1) => weights.reduce((total, w, i) => total + w * this.#corners[i][axis], 0);
     const isBeyond = Math.min(...weights) < 0; // on the edge then, as a ring
     const [x, y] = isBeyond ? clampedInto(this.#corners, sum(0), sum(1)) : [sum(0), sum(1)];
@@ -74,12 +78,18 @@ export class BlendPolygon {
     this.element.addEventListener("pointerdown", (event) => {
       if ((event.target as Element).closest(".corner")) return;
       this.element.setPointerCapture(event.pointerId);
+      this.#before = this.#weights;
       follow(event);
     });
+    this.element.addEventListener("lostpointercapture", () => (this.#before = null));
     this.element.addEventListener("pointermove", (event) => {
-      if (this.element.hasPointerCapture(event.pointerId)) follow(event);
+      if (this.#before && this.element.hasPointerCapture(event.pointerId)) follow(event);
     });
     this.element.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && this.#before) {
+        this.#act([...this.#before]);
+        this.#before = null; // what the pointer does until it is let go counts no more
+      }
       const steps: Record<string, [number, number]> = {
         ArrowLeft: [-1, 0],
         ArrowRight: [1, 0],

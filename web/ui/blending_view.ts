@@ -4,11 +4,19 @@ import { BlendingSession, reconstruct, type BlendingModel, type FrameReport } fr
 import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
-import { enable, h, toggle } from "./dom.ts";
+import { blendHash, keepHashSoon } from "./address.ts";
+import { chooser, enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
-import { allWeights, firstChoice, inEqualParts, withoutNegatives, type PoseChoice } from "./pose_choice.ts";
+import {
+  allWeights,
+  firstChoice,
+  givenChoice,
+  inEqualParts,
+  withoutNegatives,
+  type PoseChoice,
+} from "./pose_choice.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
@@ -43,7 +51,10 @@ export async function blendingView(
   const readout = new Readout(() => hud.tell());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
   const path = new BlendPath(session);
-  let [choice, compared] = [firstChoice(model.poses.length), false];
+  let [choice, compared] = [
+    givenChoice(model.poses, options.blend) ?? firstChoice(model.poses.length),
+    false,
+  ];
   let solved: number[] | null = null;
 
   const ask = (asked: PoseChoice) => {
@@ -52,10 +63,19 @@ export async function blendingView(
     hud.remark("");
     choice = asked;
     tellChoice(); // the next click comes perhaps before the next picture
+    keep();
     stage.draw();
   };
+  const keep = () =>
+    keepHashSoon(() =>
+      blendHash(
+        choice.poses.map((pose) => model.poses[pose]),
+        choice.weights,
+      ),
+    );
   const play = toggle("Play", "Space", false, (on) => {
     path.play(on);
+    if (!on) keep();
     hud.remark("");
     stage.draw();
   });
@@ -121,6 +141,9 @@ export async function blendingView(
     readout.advance();
     label(stage, names, [elastic, straight], compared);
   };
+  stage.restored = () => {
+    for (const surface of [elastic, straight]) surface.refresh();
+  };
   stage.afterFrame = () => {
     if (path.playing) stage.draw();
   };
@@ -128,6 +151,7 @@ export async function blendingView(
   listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
   tellChoice();
+  if (canGoBeyond && choice.weights.some((w) => w < 0)) beyond.click();
   solve();
   const illustrate = (pose: number) => {
     if (pose === model.poses.length || stop.signal.aborted) return;
@@ -151,6 +175,7 @@ export async function blendingView(
         stage.draw();
       }),
       look.element,
+      ...chooser(options.choose),
     ],
     script: {
       kind: "interpolation",
@@ -164,6 +189,7 @@ export async function blendingView(
       stop.abort();
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
+      stage.restored = () => {};
       look.legend.dispose();
       hud.dispose();
       readout.dispose();

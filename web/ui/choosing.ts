@@ -31,6 +31,8 @@ export class Choosing {
   tool: Tool = "brush";
   /** Whether tools take vertices away. */
   removing = false;
+  /** Whether a tool is at work: until its end there is no undo, and nothing is made of what it takes. */
+  isBusy = false;
   /** Whether box and lasso take what is seen only, and not what lies behind or inside. */
   seenOnly = false;
   /** Of the brush, as a share of the mesh's diagonal. */
@@ -102,11 +104,11 @@ export class Choosing {
   }
 
   undo(): void {
-    this.#restore(this.#history.undo());
+    if (!this.isBusy) this.#restore(this.#history.undo());
   }
 
   redo(): void {
-    this.#restore(this.#history.redo());
+    if (!this.isBusy) this.#restore(this.#history.redo());
   }
 
   /** Tells controls and stage. */

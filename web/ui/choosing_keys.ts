@@ -11,7 +11,7 @@ export interface ChoosingKeys {
 }
 
 /** Keys, while no field has the focus: B, X, L, V tools; A, D add or remove; [ ] brush; Enter a handle; Escape;
- * Ctrl+Z, Ctrl+Shift+Z; F, W. With the focus on the stage arrows move the brush, and Space paints. */
+ * Ctrl+Z, Ctrl+Shift+Z, Ctrl+Y; F, W. With the focus on the stage arrows move the brush, and Space paints. */
 export function listenToChoosingKeys(keys: ChoosingKeys, signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => handle(keys, event), { signal });
 }
@@ -19,10 +19,15 @@ export function listenToChoosingKeys(keys: ChoosingKeys, signal: AbortSignal): v
 function handle(keys: ChoosingKeys, event: KeyboardEvent): void {
   if (event.target instanceof HTMLInputElement && event.target.type !== "range") return;
   const { choosing } = keys;
+  if (choosing.isBusy && event.key !== "Escape") {
+    if (!["Alt", "Shift", "Control", "Meta"].includes(event.key)) event.preventDefault();
+    return;
+  }
   const key = event.key.toLowerCase();
   if (event.ctrlKey || event.metaKey) {
-    if (key !== "z") return;
-    event.shiftKey ? choosing.redo() : choosing.undo();
+    if (key !== "z" && !(key === "y" && event.ctrlKey)) return;
+    if (key === "y" || event.shiftKey) choosing.redo();
+    else choosing.undo();
   } else if (event.target === choosing.stage.renderer.domElement && brushKey(keys, event)) {
     // taken
   } else if (key === "escape") {

@@ -20,8 +20,18 @@ export interface Sampling {
 export type CommonRanges = () => Pick<Sampling, "translation" | "angle">;
 
 export function samplingOf(given: Workspace): Sampling {
-  const { translation, angle, target_error, seed, stiffness, material } = given;
-  return { translation, angle, target_error, most_samples: null, seed, stiffness, material, poisson: null };
+  const { translation, angle, target_error, most_samples, seed, stiffness, material } = given;
+  const poisson = given.own_poisson ?? null;
+  return {
+    translation,
+    angle,
+    target_error,
+    most_samples: most_samples ?? null,
+    seed,
+    stiffness,
+    material,
+    poisson,
+  };
 }
 
 /** How far handles move, how accurate the model is; folded under one line that tells it. Changes `sampling`. */

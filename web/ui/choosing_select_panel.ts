@@ -58,7 +58,11 @@ export function selectPanel(choosing: Choosing, onBrush: () => void) {
   const hint = h("p", { className: "hint" });
   const clear = h("button", { type: "button", title: "Escape", onclick: () => choosing.clear() }, "Clear");
   const undo = h("button", { type: "button", title: "Ctrl+Z", onclick: () => choosing.undo() }, "Undo");
-  const redo = h("button", { type: "button", title: "Ctrl+Shift+Z", onclick: () => choosing.redo() }, "Redo");
+  const redo = h(
+    "button",
+    { type: "button", title: "Ctrl+Shift+Z, Ctrl+Y", onclick: () => choosing.redo() },
+    "Redo",
+  );
 
   const update = () => {
     const { tool } = choosing;

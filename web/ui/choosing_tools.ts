@@ -22,7 +22,7 @@ export class ChoosingTools {
   readonly #overlay: ToolOverlay;
   readonly #canvas: HTMLCanvasElement;
   readonly #fingers = new Set<number>();
-  #stroke: Stroke | null = null;
+  #ownStroke: Stroke | null = null;
   #cursor: Place | null = null;
 
   constructor(choosing: Choosing, overlay: ToolOverlay, signal: AbortSignal) {
@@ -47,6 +47,15 @@ export class ChoosingTools {
     listenToPointers(this.#canvas, acts, signal);
     const leave = () => this.#stroke ?? this.#overlay.clear();
     this.#canvas.parentElement!.addEventListener("pointerleave", leave, { capture: true, signal });
+  }
+
+  get #stroke(): Stroke | null {
+    return this.#ownStroke;
+  }
+
+  set #stroke(stroke: Stroke | null) {
+    this.#ownStroke = stroke;
+    this.#choosing.isBusy = stroke !== null;
   }
 
   /** Forgets the stroke; tells whether there was one. */

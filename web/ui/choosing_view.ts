@@ -18,7 +18,8 @@ export interface ChoosingView extends View {
   readonly choosing: Choosing;
 }
 
-/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. */
+/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. `onOther` hears of
+ * changes that are no part of the choice, such as the axis that points up. */
 export function choosingView(
   stage: Stage,
   mesh: RestMesh,
@@ -27,6 +28,7 @@ export function choosingView(
   materials: Materials,
   compute: HTMLElement,
   onChoice: (choice: Choice) => void,
+  onOther: () => void,
   options: ViewOptions,
 ): ChoosingView {
   // without modes: a shape at rest
@@ -51,6 +53,7 @@ export function choosingView(
   listenToChoosingKeys({ choosing, tools, make: () => handles.make() }, stop.signal);
   stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
+  stage.restored = () => surface.refresh();
   choosing.onChange = () => {
     select.update();
     handles.update();
@@ -74,7 +77,7 @@ export function choosingView(
       handles.element,
       materialPanel(sampling, materials, parts.element),
       samplingPanel(sampling, mesh.diagonal),
-      lookPanel(stage, surface, mesh, options.up),
+      lookPanel(stage, surface, mesh, options.up, onOther),
       compute,
     ],
     script: {
@@ -94,6 +97,7 @@ export function choosingView(
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
+      stage.restored = () => {};
       overlay.element.remove();
       handles.floating.remove();
       surface.object.removeFromParent();
@@ -102,7 +106,7 @@ export function choosingView(
   };
 }
 
-function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis): HTMLElement {
+function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis, onUp: () => void): HTMLElement {
   const ups = choice<Axis>(
     "Up",
     [
@@ -111,7 +115,10 @@ function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis): HT
       ["z", "z up"],
     ],
     up,
-    (axis) => stage.place(mesh.shape, axis),
+    (axis) => {
+      stage.place(mesh.shape, axis);
+      onUp();
+    },
   );
   const wires = toggle("Wireframe", "W", false, (on) => {
     surface.wireframe = on;

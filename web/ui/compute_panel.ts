@@ -1,5 +1,5 @@
 import type { Model, Progress, Saved } from "../engine/messages.ts";
-import { h, section } from "./dom.ts";
+import { h, section, tell } from "./dom.ts";
 
 const STAGES: Record<string, string> = {
   waiting: "Waiting for another computation",
@@ -28,6 +28,7 @@ export class ComputePanel {
   readonly #choose: HTMLButtonElement;
   readonly #pose: HTMLButtonElement;
   readonly #bar = new ProgressBar();
+  #newest: Model | null = null;
   readonly #model = h("p", { className: "model", role: "status", hidden: true });
   readonly #told = h("p", { className: "saved", role: "status", hidden: true });
   readonly #fault = h("p", { className: "fault", role: "alert", hidden: true });
@@ -61,6 +62,7 @@ export class ComputePanel {
     this.element.classList.toggle("stays", now.isChoosing);
     this.#compute.title = now.lacking;
     this.#save.textContent = now.hasModel ? "Save" : "Save handles";
+    this.#tellModel(now.isRunning);
     this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !now.hasModel);
     if (!now.isRunning) this.#bar.element.hidden = true;
   }
@@ -75,6 +77,7 @@ export class ComputePanel {
 
   /** Nothing is told any more. */
   clear(): void {
+    this.#newest = null;
     for (const text of [this.#model, this.#told, this.#fault]) text.hidden = true;
   }
 
@@ -82,12 +85,19 @@ export class ComputePanel {
     this.#bar.show(progress);
   }
 
-  model({ samples, dimension, error, final, seconds }: Model): void {
+  model(model: Model): void {
+    this.#newest = model;
+  }
+
+  #tellModel(isRunning: boolean): void {
+    this.#model.hidden = this.#newest === null;
+    if (!this.#newest) return;
+    const { samples, dimension, error, final, seconds } = this.#newest;
     const parts = [`${samples} samples`, `${dimension} dimensions`];
     if (error !== null) parts.push(`unseen motions ${percent(error)} off`);
-    const head = final ? `Done in ${duration(seconds)}` : "Ready to pose, and improving";
-    this.#model.textContent = `${head}: ${parts.join(", ")}.`;
-    this.#model.hidden = false;
+    const ready = isRunning ? "Ready to pose, and improving" : "Ready to pose";
+    const head = final ? `Done in ${duration(seconds)}` : ready;
+    tell(this.#model, `${head}: ${parts.join(", ")}.`);
   }
 
   saved({ problem, model, mesh, surface }: Saved, folder: string): void {
@@ -124,14 +134,16 @@ export class ProgressBar {
     error,
   }: Pick<Progress, "stage" | "done" | "total" | "eta" | "error">): void {
     this.element.hidden = false;
-    if (total > 0) {
+    const isWaiting = stage === "waiting"; // total counts those before this one
+    if (total > 0 && !isWaiting) {
       this.#bar.max = total;
       this.#bar.value = done;
     } else this.#bar.removeAttribute("value");
     const text = STAGES[stage] ?? stage;
     if (this.#stage.textContent !== text) this.#stage.textContent = text;
     const parts = [];
-    if (total > 0) parts.push(`${done.toLocaleString("en")} of ${total.toLocaleString("en")}`);
+    if (isWaiting && total > 1) parts.push(`${total.toLocaleString("en")} are before this one`);
+    if (total > 0 && !isWaiting) parts.push(`${done.toLocaleString("en")} of ${total.toLocaleString("en")}`);
     if (eta !== null) parts.push(`${duration(eta)} left`);
     if (error !== null) parts.push(`error ${percent(error)}`);
     this.#figures.textContent = parts.join(" · ");

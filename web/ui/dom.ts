@@ -45,6 +45,12 @@ export function section(title: string, ...children: (Node | string)[]): HTMLElem
   return h("section", {}, h("h2", {}, title), ...children);
 }
 
+/** The button that leads from a model to its handles, in a row; nothing where that is not possible. */
+export function chooser(choose: (() => void) | undefined): HTMLElement[] {
+  if (!choose) return [];
+  return [h("div", { className: "row" }, h("button", { type: "button", onclick: choose }, "Choose handles"))];
+}
+
 /** A button that is pressed or not. */
 export function toggle(label: string, title: string, pressed: boolean, act: (pressed: boolean) => void) {
   const button = h("button", { type: "button", title, "aria-pressed": pressed }, label);

@@ -134,6 +134,7 @@ export class Pass {
 /** Passes one after the other; the renderer then draws to the canvas again. */
 export function runPasses(renderer: WebGLRenderer, passes: readonly Pass[]): void {
   const { state } = renderer;
+  if (renderer.getContext().isContextLost()) return; // all is drawn again once it is back
   state.setBlending(NoBlending);
   state.buffers.color.setMask(true);
   state.buffers.depth.setTest(false);

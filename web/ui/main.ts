@@ -1,4 +1,5 @@
 import { readModel } from "../engine/index.ts";
+import { blendOf, motionsOf } from "./address.ts";
 import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
 import { polishAt } from "./polishing.ts";
@@ -12,6 +13,7 @@ import "./style.css";
 import "./blending.css";
 import "./workspace.css";
 import "./choosing.css";
+import "./access.css";
 
 /** For scripts and tests: what the view shows, and a promise that is kept when a model is. */
 declare global {
@@ -28,8 +30,9 @@ const server = Server.ofPage();
 const workspace = server && new Workspace(room, server);
 
 /** Shows a model in place of the one before; a message if it cannot be read, and the one before stays. */
-async function open(source: () => Promise<Source | null>): Promise<void> {
+async function open(source: () => Promise<Source | null>, file?: File): Promise<void> {
   try {
+    if (source === ownModel && workspace && ((await workspace.begun)?.kind ?? "model") !== "model") return;
     const given = await source();
     if (!given) {
       if (!workspace) room.tell("Drop a .snapspace file here, or open one.", false, opener());
@@ -42,7 +45,11 @@ async function open(source: () => Promise<Source | null>): Promise<void> {
     room.clear();
     // the server knows its own model, as number 0, and no file that was dropped here
     const polish = server && source === ownModel ? polishAt(server, () => 0) : undefined;
-    const options = { ...room.options(model.up), polish };
+    const choose = workspace && (() => (file ? void workspace.upload(file) : workspace.edit()));
+    // the address is of the page's own model
+    const hash = source === ownModel ? location.hash : "";
+    const options = { ...room.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
+    if (choose) Object.assign(options, { choose });
     const view =
       model.kind === "posing"
         ? await posingView(stage, module, model, options)
@@ -57,7 +64,7 @@ async function open(source: () => Promise<Source | null>): Promise<void> {
 /** A model is opened here; a mesh is the server's. */
 function take(file: File): void {
   if (workspace && !file.name.endsWith(".snapspace")) void workspace.upload(file);
-  else void open(() => fromFile(file));
+  else void open(() => fromFile(file), file);
 }
 
 /** A button that asks for a file. */

@@ -40,11 +40,19 @@ export class Polishing {
   readonly #posing: Posing;
   readonly #polish: Polish;
   readonly #tell: (moved: number | null) => void;
+  readonly #refused: (why: string) => void;
   #isOn = true;
   #ticket = 0;
   #begin: number | null = null;
 
-  constructor(posing: Posing, polish: Polish, tell: (moved: number | null) => void) {
+  /** `tell` gets how far a shape was moved, `refused` why one cannot be improved. */
+  constructor(
+    posing: Posing,
+    polish: Polish,
+    tell: (moved: number | null) => void,
+    refused: (why: string) => void,
+  ) {
+    this.#refused = refused;
     this.#posing = posing;
     this.#polish = polish;
     this.#tell = tell;
@@ -74,6 +82,7 @@ export class Polishing {
       stage.draw();
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
+      if (ticket === this.#ticket) this.#refused(error.message);
     }
   }
 

@@ -18,6 +18,22 @@ export function firstChoice(count: number): PoseChoice {
   return inEqualParts(Array.from({ length: taken }, (_, pose) => pose));
 }
 
+/** Poses by name, with weights that are given; null unless they are poses, few enough, and the weights sum to one. */
+export function givenChoice(
+  poses: readonly string[],
+  given: { readonly names: readonly string[]; readonly weights: readonly number[] } | undefined,
+): PoseChoice | null {
+  if (!given || given.names.length === 0) return null;
+  const taken = given.names.map((name) => poses.indexOf(name));
+  const isMany = poses.length > MOST_CHOSEN;
+  const isWhole = isMany || (taken.every((pose, place) => pose === place) && taken.length === poses.length);
+  const isPossible =
+    taken.length <= MOST_CHOSEN && new Set(taken).size === taken.length && !taken.includes(-1);
+  const sum = given.weights.reduce((total, weight) => total + weight, 0);
+  if (!isWhole || !isPossible || Math.abs(sum - 1) > 1e-3) return null;
+  return { poses: taken, weights: given.weights.map((weight) => weight / sum) };
+}
+
 export function inEqualParts(poses: readonly number[]): PoseChoice {
   return { poses, weights: poses.map(() => 1 / poses.length) };
 }

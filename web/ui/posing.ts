@@ -27,6 +27,8 @@ export class Posing {
   onSolved: (report: FrameReport) => void = () => {};
   /** After the end of a drag. */
   onReleased: () => void = () => {};
+  /** After a drag was cancelled, while the pointer is still down. */
+  onCancelled: () => void = () => {};
   /** After selection, mode or history have changed. */
   onChange: () => void = () => {};
   #session: PosingSession;
@@ -36,6 +38,9 @@ export class Posing {
   #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
   #history: History<Motion[]>;
+  /** Where the handles were when the drag that goes on began. */
+  #beforeDrag: readonly Motion[] | null = null;
+  #isCancelled = false;
   /** From the shape of the model before. */
   #fade: Fade | null = null;
 
@@ -106,6 +111,7 @@ export class Posing {
 
   /** Asks for a motion of a handle; it is solved for before the next picture. */
   wish(handle: number, motion: Motion): void {
+    if (this.#isCancelled) return; // the pointer goes on, the drag does not
     this.#wishes.set(handle, motion);
     this.stage.draw();
   }
@@ -146,8 +152,39 @@ export class Posing {
     return this.#fade !== null;
   }
 
+  /** The begin of a drag: until its end there is no undo, and it can be cancelled. */
+  grab(): void {
+    this.#beforeDrag = this.motions;
+    this.#isCancelled = false;
+  }
+
+  get isDragging(): boolean {
+    return this.#beforeDrag !== null;
+  }
+
+  /** Takes a drag back; what the pointer does until it is let go counts no more. */
+  cancelDrag(): void {
+    const before = this.#beforeDrag;
+    if (!before || this.#isCancelled) return;
+    this.#goTo([...before]);
+    this.#isCancelled = true;
+    this.onCancelled();
+  }
+
+  /** The end of a drag in which nothing moved. */
+  release(): void {
+    this.#beforeDrag = null;
+    this.#isCancelled = false;
+  }
+
   /** The end of a drag: a step of undo. */
   commit(): void {
+    const isCancelled = this.#isCancelled;
+    this.release();
+    if (isCancelled) {
+      this.onReleased();
+      return;
+    }
     this.solveWishes();
     this.#history.push(this.motions);
     this.onChange();
@@ -163,14 +200,15 @@ export class Posing {
   }
 
   undo(): void {
-    this.#goTo(this.#history.undo());
+    if (!this.isDragging) this.#goTo(this.#history.undo());
   }
 
   redo(): void {
-    this.#goTo(this.#history.redo());
+    if (!this.isDragging) this.#goTo(this.#history.redo());
   }
 
   reset(): void {
+    if (this.isDragging) return;
     this.#wishes.clear();
     this.session.reset();
     this.#history.push(this.motions);

@@ -102,6 +102,7 @@ export class HandleDrag {
       moved: false,
     };
     this.#posing.select(handle);
+    this.#posing.grab();
   }
 
   #move(event: PointerEvent): void {
@@ -124,6 +125,7 @@ export class HandleDrag {
     this.#drag = null;
     this.#posing.stage.controls.enabled = this.#gizmo.isListening = true;
     if (moved) this.#posing.commit();
+    else this.#posing.release();
   }
 
   #hover(event: PointerEvent): void {

@@ -1,7 +1,18 @@
-import { Matrix4, Object3D, Vector3 } from "three";
+import { Matrix4, Mesh, Object3D, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import type { Posing } from "./posing.ts";
+import type { Axis } from "./stage.ts";
+
+/** Of the model's axes, as everywhere: red, green, blue; and what the pointer is on. */
+const [X, Y, Z, ACTIVE] = ["#e8402f", "#3fae3a", "#2f74e8", "#ffd23f"];
+
+/** Which colour the arrows along the stage's x, y (up) and z have, by the model's axis that points up. */
+const COLORS: Record<Axis, readonly [string, string, string]> = {
+  x: [Y, X, Z],
+  y: [X, Y, Z],
+  z: [X, Z, Y],
+};
 
 const WARMING = 12; // looks
 
@@ -11,6 +22,7 @@ export class Gizmo {
   readonly #proxy = new Object3D();
   readonly #posing: Posing;
   readonly #canvas: HTMLCanvasElement;
+  #up: Axis | null = null;
 
   constructor(posing: Posing) {
     const { stage } = posing;
@@ -24,7 +36,8 @@ export class Gizmo {
     this.#controls.addEventListener("objectChange", () => this.#wish());
     this.#controls.addEventListener("dragging-changed", (event) => {
       stage.controls.enabled = !event.value;
-      if (!event.value) posing.commit();
+      if (event.value) posing.grab();
+      else posing.commit();
     });
   }
 
@@ -55,6 +68,21 @@ export class Gizmo {
     return this.#controls.axis !== null;
   }
 
+  /** Takes back a drag that goes on, as the posing does. */
+  cancel(): void {
+    if (!this.#controls.dragging) return;
+    this.#controls.reset();
+    this.#controls.pointerUp(null);
+  }
+
+  /** Colours arrows and rings as the model's axes that they are along; before each picture. */
+  color(): void {
+    const { up } = this.#posing.stage;
+    if (up === this.#up) return;
+    this.#up = up;
+    this.#controls.setColors(...COLORS[up], ACTIVE);
+  }
+
   /** Follows the selected handle. */
   update(): void {
     const { selected, session, mode } = this.#posing;
@@ -72,6 +100,17 @@ export class Gizmo {
     );
     this.#proxy.updateMatrixWorld(true);
   }
+
+  /** For scripts and tests: directions on the stage and colours of the arrows. */
+  readonly arrows = () => {
+    const found: { direction: number[]; color: string }[] = [];
+    this.#controls.getHelper().traverse((part) => {
+      if (!(part instanceof Mesh) || !/^[XYZ]$/.test(part.name) || part.material.opacity < 0.9) return;
+      const direction = ["X", "Y", "Z"].map((axis) => (axis === part.name ? 1 : 0));
+      found.push({ direction, color: `#${part.material.color.getHexString()}` });
+    });
+    return found;
+  };
 
   dispose(): void {
     this.#controls.detach();

@@ -6,15 +6,23 @@ import type { Posing } from "./posing.ts";
 const STEP = 0.015; // of the diagonal
 const TURN = Math.PI / 36;
 
-/** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z and Ctrl+Shift+Z, T, R, F, W, Escape. */
+/** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, T, R, F, W,
+ * Escape. In a drag Escape takes it back, and no other key does anything. */
 export function listenToKeys(posing: Posing, signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => handle(posing, event), { signal });
 }
 
 function handle(posing: Posing, event: KeyboardEvent): void {
+  if (posing.isDragging) {
+    if (event.key === "Escape") posing.cancelDrag();
+    event.preventDefault();
+    return;
+  }
   if (event.target instanceof HTMLInputElement) return;
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
     event.shiftKey ? posing.redo() : posing.undo();
+  } else if (event.ctrlKey && event.key.toLowerCase() === "y") {
+    posing.redo();
   } else if (event.ctrlKey || event.metaKey || event.altKey) {
     return;
   } else if (/^[1-9]$/.test(event.key) && Number(event.key) <= posing.session.model.handles.length) {

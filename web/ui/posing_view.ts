@@ -1,5 +1,6 @@
 import { PosingSession, type PosingModel } from "../engine/index.ts";
-import { choice, enable, h, mark, section, tell, toggle } from "./dom.ts";
+import { keepHash, poseHash } from "./address.ts";
+import { chooser, choice, enable, h, mark, section, tell, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -72,18 +73,33 @@ export async function posingView(
     (mode) => posing.setMode(mode),
   );
   const undo = h("button", { type: "button", title: "Ctrl+Z", onclick: () => posing.undo() }, "Undo");
-  const redo = h("button", { type: "button", title: "Ctrl+Shift+Z", onclick: () => posing.redo() }, "Redo");
+  const redo = h(
+    "button",
+    { type: "button", title: "Ctrl+Shift+Z, Ctrl+Y", onclick: () => posing.redo() },
+    "Redo",
+  );
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const figures = h("p", { className: "figures" });
 
-  const polishing = options.polish && new Polishing(posing, options.polish, (moved) => hud.polished(moved));
+  const polishing =
+    options.polish &&
+    new Polishing(
+      posing,
+      options.polish,
+      (moved) => hud.polished(moved),
+      (why) => hud.remark(`Not polished: ${why.charAt(0).toLowerCase()}${why.slice(1)}`),
+    );
+  posing.onCancelled = () => gizmo.cancel();
   posing.onSolved = (report) => {
+    hud.remark("");
     hud.solved(report);
     polishing?.cancel();
     follow();
     readout.ask();
   };
   posing.onReleased = () => void polishing?.ask();
+  const motions = () =>
+    new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion] as const));
   const readout = new Readout(
     () =>
       [
@@ -99,11 +115,13 @@ export async function posingView(
   posing.onChange = () => {
     follow();
     readout.now();
+    if (!posing.isDragging) keepHash(() => poseHash(motions()));
   };
-  posing.onChange();
   const start = model.handles.map(({ name }) => options.motions?.get(name));
   if (start.every((motion) => motion !== undefined)) posing.begin(start);
+  else posing.onChange();
   stage.beforeFrame = (seconds) => {
+    gizmo.color();
     posing.solveWishes();
     posing.advance(seconds);
     polishing?.advance();
@@ -111,6 +129,7 @@ export async function posingView(
     hud.frame(seconds);
     readout.advance();
   };
+  stage.restored = () => surfaces[0].refresh();
   stage.afterFrame = () => {
     if (posing.isOnTheWay || polishing?.isOnTheWay) stage.draw();
   };
@@ -163,6 +182,7 @@ export async function posingView(
       modes.element,
       figures,
       h("div", { className: "row" }, undo, redo, reset),
+      ...chooser(options.choose),
     ),
     quality,
     look.element,
@@ -172,7 +192,7 @@ export async function posingView(
     panel,
     replace,
     get motions() {
-      return new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion]));
+      return motions();
     },
     script: {
       kind: "posing",
@@ -183,6 +203,7 @@ export async function posingView(
       strains: () => posing.surface.strains(),
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
+      arrows: gizmo.arrows,
     },
     dispose: () => {
       stop.abort();
@@ -190,6 +211,7 @@ export async function posingView(
       readout.dispose();
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
+      stage.restored = () => {};
       look.legend.dispose();
       hud.dispose();
       gizmo.dispose();

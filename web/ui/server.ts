@@ -1,4 +1,5 @@
 import { UnreadableModel } from "../engine/index.ts";
+import { keepQuery } from "./address.ts";
 import type { Failed, PageMessage, ServerMessage } from "../engine/messages.ts";
 
 /** A message to the server as it is written: the connection numbers it. */
@@ -21,14 +22,17 @@ interface Waiting {
   reject(error: Error): void;
 }
 
+/** Open; lost, and tried again; refused, as the token is no longer that of the server; or taken over by another page. */
+export type Connection = "open" | "lost" | "refused" | "elsewhere";
+
+const TAKEN_OVER = 4001; // as snapspace/server/live.py closes connections
 const PAUSES = [0.5, 1, 2, 4, 8]; // seconds before the connection is tried again
 
-/** The connection to the server of `snapspace view`. It comes back by itself if it is lost.
- *
- * A new connection has a new workspace: the server has forgotten what the one before held. */
+/** The connection to the server of `snapspace view`. It comes back by itself if it is lost, to the same workspace if the
+ * server still has that. */
 export class Server {
-  /** Whether there is a connection; told after every change. */
-  onConnection: (isOpen: boolean) => void = () => {};
+  /** What the connection is; told after every change, once. */
+  onConnection: (connection: Connection) => void = () => {};
   readonly #address: URL;
   readonly #listeners = new Map<string, Set<(message: never) => void>>();
   readonly #waiting = new Map<number, Waiting>();
@@ -36,6 +40,8 @@ export class Server {
   #bytes: { request: number; content: ArrayBuffer } | null = null;
   #requests = 0;
   #tries = 0;
+  #connection: Connection | null = null;
+  #retry = 0;
 
   /** The server that the page came from; null where it came from a file, or serves pages only. */
   static ofPage(): Server | null {
@@ -46,6 +52,13 @@ export class Server {
   constructor(address: string) {
     this.#address = new URL(address, location.href);
     this.#address.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+    const workspace = new URLSearchParams(location.search).get("workspace");
+    if (workspace) this.#address.searchParams.set("workspace", workspace);
+    this.on("workspace", ({ id, job }) => {
+      this.#address.searchParams.set("workspace", id);
+      keepQuery("workspace", id);
+      this.#requests = Math.max(this.#requests, job ?? 0); // those before the page was loaded again
+    });
   }
 
   get isOpen(): boolean {
@@ -54,14 +67,17 @@ export class Server {
 
   /** Connects; listeners should be there by now. */
   connect(): void {
+    clearTimeout(this.#retry);
     const socket = new WebSocket(this.#address);
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.#tries = 0;
-      this.onConnection(true);
+      this.#tell("open");
     };
     socket.onmessage = ({ data }) => this.#take(data);
-    socket.onclose = () => this.#lost();
+    socket.onclose = ({ code }) => {
+      if (socket === this.#socket) void this.#lost(code);
+    };
     this.#socket = socket;
   }
 
@@ -136,12 +152,39 @@ export class Server {
     this.#listeners.get(message.type)?.forEach((act) => act(message as never));
   }
 
-  #lost(): void {
+  /** Another token, or an address with it, as the server printed it. */
+  renew(given: string): void {
+    const address = URL.canParse(given) ? new URL(given) : null;
+    const token = address?.searchParams.get("token") ?? given;
+    if (address && address.host !== location.host) {
+      location.href = address.href; // at another port: the page of that server
+      return;
+    }
+    this.#address.searchParams.set("token", token);
+    keepQuery("token", token);
+    this.connect();
+  }
+
+  #tell(connection: Connection): void {
+    if (connection === this.#connection) return;
+    this.#connection = connection;
+    this.onConnection(connection);
+  }
+
+  async #lost(code: number): Promise<void> {
     this.#waiting.forEach(({ reject }) => reject(new Refused("The connection to the server was lost.")));
     this.#waiting.clear();
-    if (this.#tries === 0) this.onConnection(false);
+    if (code === TAKEN_OVER) return this.#tell("elsewhere");
+    if (await this.#isRefused()) return this.#tell("refused");
+    this.#tell("lost");
     const pause = PAUSES[Math.min(this.#tries++, PAUSES.length - 1)];
-    setTimeout(() => this.connect(), 1000 * pause);
+    this.#retry = window.setTimeout(() => this.connect(), 1000 * pause);
+  }
+
+  /** Whether the server is there and refuses the token: a websocket does not tell why it is closed. */
+  async #isRefused(): Promise<boolean> {
+    const answer = await fetch(this.address("mesh/-/0", {}), { cache: "no-store" }).catch(() => null);
+    return answer?.status === 403;
   }
 }
 

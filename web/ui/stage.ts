@@ -38,6 +38,8 @@ export class Stage {
   beforeFrame: (seconds: number) => void = () => {};
   /** Called after it: what moves by itself asks for the next one here. */
   afterFrame: () => void = () => {};
+  /** Called after the graphics were lost and are there again: what was computed there is gone. */
+  restored: () => void = () => {};
   readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
   #height = 0.5;
   readonly #before = new PerspectiveCamera(); // while another picture is taken
@@ -63,6 +65,11 @@ export class Stage {
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
     this.scene.add(this.root, this.#ground, ...studio());
+    // after the renderer, which listens as well
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.restored();
+      this.draw();
+    });
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
     this.#resize();
   }

@@ -138,6 +138,11 @@ export class Surface {
     this.#deformer.update(this.#coefficients, share);
   }
 
+  /** Computes again what the graphics processor had. */
+  refresh(): void {
+    this.#deformer.update(this.#coefficients, this.#share);
+  }
+
   /** The shape before its rigid motion, computed here. */
   positions(): Float32Array {
     const shape = new Float32Array(this.space.base.length);

@@ -1,8 +1,10 @@
-import { choiceOf, lacking, messageOf, type Choice } from "../engine/choice.ts";
+import { choiceOf, lacking, listed, messageOf, type Choice } from "../engine/choice.ts";
 import { partMessages } from "../engine/parts.ts";
 import { readModel, type PosingModel } from "../engine/index.ts";
 import type { Failed, Model, Progress, Workspace as Given } from "../engine/messages.ts";
 import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
+import { CHOOSING, keepHash, motionsOf } from "./address.ts";
+import { ConnectionNotice } from "./connection_notice.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
@@ -33,7 +35,13 @@ export class Workspace {
   #isRunning = false;
   /** Whether a lost connection came back, until its mesh is there. */
   #isBack = false;
-  /** Models are taken one after the other. */
+  /** Whether handles are chosen although there is a model, as before the page was loaded again. */
+  #staysChoosing = location.hash === CHOOSING;
+  #keeping = 0;
+  #begun!: (given: Given | null) => void;
+  /** The first workspace; null if there is no connection. */
+  readonly begun = new Promise<Given | null>((resolve) => (this.#begun = resolve));
+  /** Workspaces and models are taken one after the other. */
   #queue: Promise<void> = Promise.resolve();
 
   constructor(room: Room, server: Server) {
@@ -44,14 +52,31 @@ export class Workspace {
       compute: () => void this.#try(() => this.#compute()),
       cancel: () => void this.#try(() => this.#cancel()),
       save: () => void this.#try(() => this.#save()),
-      choose: () => void this.#try(() => this.#choosing()),
+      choose: () => void this.#try(() => this.#backToChoosing()),
       pose: () => void this.#try(() => this.#pose()),
     });
-    server.on("workspace", (given) => void this.#try(() => this.#enter(given)));
+    server.on("workspace", (given) => {
+      this.#begun(given);
+      this.#later(() => this.#enter(given));
+    });
     server.on("progress", (progress) => this.#progress(progress));
     server.on("model", (model) => this.#take(model));
     server.on("failed", (failed) => this.#failed(failed));
-    server.onConnection = (isOpen) => this.#connection(isOpen);
+    const notice = new ConnectionNotice(server);
+    document.body.append(notice.element);
+    server.onConnection = (connection) => {
+      notice.show(connection);
+      if (connection !== "open") this.#begun(null);
+      if (connection !== "open" && !this.#mesh) this.#reading.lose();
+    };
+    for (const type of ["input", "change"])
+      document.getElementById("panel")!.addEventListener(type, () => this.#keepSoon());
+    window.addEventListener("pagehide", () => this.#keep());
+  }
+
+  /** Handles on the body of the server's own model. */
+  edit(): void {
+    void this.#try(() => void this.#server.send({ type: "edit" }));
   }
 
   /** Another mesh, from a file. */
@@ -72,16 +97,29 @@ export class Workspace {
       return;
     }
     const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
+    const isThere = this.#mesh !== null && before?.id === given.id && before.mesh === given.mesh;
+    if (isThere) {
+      this.#isRunning = given.is_running ?? false; // the newest model and the progress follow
+      this.#update();
+      return;
+    }
     if (this.#isBack && isSame) {
       this.#isBack = false;
+      if (this.#isRunning)
+        this.#panel.fault("The server has forgotten what was being computed; compute again.");
+      this.#isRunning = false;
+      this.#update();
+      this.#keep();
       return;
     }
     this.#isBack = false;
     this.#mesh = readMesh(await this.#server.fetched(given.mesh));
-    this.#choice = choiceOf(given.handles);
+    this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
-    [this.#model, this.#job, this.#isRunning] = [null, 0, false];
-    this.#motions = new Map();
+    this.#model = null;
+    this.#job = given.job ?? 0;
+    this.#isRunning = given.is_running ?? false;
+    this.#motions = motionsOf(location.hash); // of a page that was loaded again
     this.#panel.clear();
     this.#choosing(true);
   }
@@ -104,14 +142,46 @@ export class Workspace {
       if (choice.handles !== this.#choice.handles || choice.parts !== this.#choice.parts) this.#panel.clear();
       this.#choice = choice;
       this.#update();
+      this.#keepSoon();
     };
     const up = isNew ? this.#room.options(mesh.up).up : stage.up;
     const options = { up, forceCpu: true, keepView: !isNew };
     this.#room.show(
-      choosingView(stage, mesh, this.#choice, this.#sampling!, this.#given!, element, onChoice, options),
+      choosingView(
+        stage,
+        mesh,
+        this.#choice,
+        this.#sampling!,
+        this.#given!,
+        element,
+        onChoice,
+        () => this.#keepSoon(),
+        options,
+      ),
       mesh.name,
     );
     this.#update();
+  }
+
+  #backToChoosing(): void {
+    this.#choosing();
+    keepHash(() => CHOOSING);
+  }
+
+  /** Tells the server what is chosen, soon. */
+  #keepSoon(): void {
+    if (!this.#keeping) this.#keeping = window.setTimeout(() => this.#keep(), KEEP_PAUSE);
+  }
+
+  /** Tells the server what is chosen: it is there again when the page is loaded again. */
+  #keep(): void {
+    clearTimeout(this.#keeping);
+    this.#keeping = 0;
+    if (!this.#mesh || !this.#sampling || !this.#server.isOpen) return;
+    const { seed: _, ...sampling } = this.#sampling;
+    const handles = listed(this.#choice.handles);
+    const parts = partMessages(this.#choice.parts);
+    this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#room.stage.up });
   }
 
   /** The view in which the newest model is posed. */
@@ -141,6 +211,9 @@ export class Workspace {
     this.#panel.clear();
     this.#model = null;
     this.#motions = new Map(); // of handles that were other ones
+    this.#staysChoosing = false;
+    keepHash(() => "");
+    this.#keep();
     this.#job = this.#server.send({ type: "compute", ...wanted });
     this.#isRunning = true;
     this.#panel.progress({ type: "progress", request: this.#job, stage: "snapshots", ...NOT_YET });
@@ -162,7 +235,10 @@ export class Workspace {
 
   async #save(): Promise<void> {
     if (this.#posing === null) await this.#tellChoice();
-    const { message } = await this.#server.ask({ type: "save", name: null }, "saved");
+    const { message } = await this.#server.ask(
+      { type: "save", name: null, up: this.#room.stage.up },
+      "saved",
+    );
     this.#panel.saved(message, this.#given!.folder);
   }
 
@@ -172,12 +248,16 @@ export class Workspace {
   }
 
   #take(told: Model): void {
-    this.#queue = this.#queue.then(() => this.#try(() => this.#show(told)));
+    this.#later(() => this.#show(told));
+  }
+
+  #later(act: () => Promise<void>): void {
+    this.#queue = this.#queue.then(() => this.#try(act));
   }
 
   /** A better model, or the first: it is posed at once. */
   async #show(told: Model): Promise<void> {
-    if (told.request !== this.#job) return;
+    if (told.request !== this.#job || told.number === this.#model?.told.number) return;
     const content = readModel(await this.#server.fetched(told.address), this.#mesh!.name) as PosingModel;
     if (told.request !== this.#job) return;
     const isFirst = this.#model === null;
@@ -186,7 +266,7 @@ export class Workspace {
     this.#model = { told, content };
     this.#isRunning &&= !told.final;
     this.#panel.model(told);
-    if (isFirst) await this.#pose();
+    if (isFirst && !this.#staysChoosing) await this.#pose();
     this.#update();
   }
 
@@ -198,17 +278,6 @@ export class Workspace {
     if (request !== this.#job) return;
     this.#isRunning = false;
     this.#panel.fault(message);
-    this.#update();
-  }
-
-  #connection(isOpen: boolean): void {
-    if (isOpen) {
-      this.#panel.fault("");
-      return;
-    }
-    const lost = this.#isRunning ? " What was being computed is lost; compute again." : "";
-    this.#isRunning = false;
-    this.#panel.fault(`No connection to the server; it is tried again.${lost}`);
     this.#update();
   }
 
@@ -231,4 +300,5 @@ export class Workspace {
   }
 }
 
+const KEEP_PAUSE = 150; // milliseconds: a stroke of the brush changes the choice with every move
 const NOT_YET = { done: 0, total: 0, seconds: 0, eta: null, error: null };

@@ -40,7 +40,7 @@ export class ReadingBox {
 
   async upload(file: File, given: Given): Promise<void> {
     this.#given = given;
-    const known = [...SURFACES, ...TETS];
+    const known = [...SURFACES, ...TETS, ".snapspace"];
     if (!known.some((suffix) => file.name.toLowerCase().endsWith(suffix))) {
       this.failed(`${file.name} is no mesh that is read here: ${known.join(" ")}.`);
       return;
@@ -79,6 +79,11 @@ export class ReadingBox {
 
   progress(progress: Progress): void {
     if (this.#isShown) this.#bar.show(progress);
+  }
+
+  /** The connection is lost: what the server was reading is not known any more. */
+  lose(): void {
+    clearInterval(this.#clock);
   }
 
   failed(message: string): void {

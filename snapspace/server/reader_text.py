@@ -1,0 +1,17 @@
+"""Messages of errors, for readers who see a page and no program."""
+
+from __future__ import annotations
+
+import re
+
+#: A function or class of the library, at the beginning or behind the name of a file.
+_WHO = re.compile(r"(^|: )(?:[a-z]+(?:_[a-z]+)+|(?:[A-Z][a-z]+){2,}): ")
+
+
+def for_reader(message: str) -> str:
+    """The message without the function or class that refused: no page shows its name.
+
+    "bunny.obj: fill_surface: the surface is not closed" becomes "bunny.obj: the surface is not
+    closed".
+    """
+    return _WHO.sub(r"\1", message)

@@ -1,0 +1,91 @@
+"""Workspaces: those of the pages that are connected, and of pages that may come back."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+
+from starlette.concurrency import run_in_threadpool
+
+from .outlet import Put
+from .site import Site
+from .workspace import Workspace
+
+#: Seconds from look to look at whether others wait.
+LOOK = 0.2
+
+Dismiss = Callable[[], Awaitable[None]]
+
+
+class Workspaces:
+    """By id. Used in one event loop.
+
+    Parameters
+    ----------
+    site : Site
+    """
+
+    def __init__(self, site: Site) -> None:
+        self._site = site
+        self._known: dict[str, Workspace] = {}
+        self._pages: dict[str, Dismiss] = {}
+        self._leaving: dict[str, asyncio.Task[None]] = {}
+
+    def get(self, id: str) -> Workspace | None:
+        """The workspace of an id; None if there is none any more."""
+        return self._known.get(id)
+
+    async def enter(self, id: str | None, put: Put, dismiss: Dismiss) -> Workspace:
+        """The workspace of an id for a page, as it was left, or else a new one.
+
+        Parameters
+        ----------
+        id : str or None
+        put : callable
+            Gets the messages for the page.
+        dismiss : callable
+            Ends the page's connection, if another page enters in its place.
+        """
+        known = None if id is None else self._known.get(id)
+        if known is None:
+            workspace = Workspace(self._site, put)
+            self._known[workspace.id], self._pages[workspace.id] = workspace, dismiss
+            await run_in_threadpool(workspace.open)
+            return workspace
+        leaving, before = self._leaving.pop(known.id, None), self._pages.get(known.id)
+        self._pages[known.id] = dismiss
+        if leaving is not None:
+            leaving.cancel()
+        if before is not None:  # the same page on a connection that died, or a second tab
+            known.pause()
+            await before()
+        await run_in_threadpool(known.resume, put)
+        return known
+
+    async def leave(self, workspace: Workspace, dismiss: Dismiss) -> None:
+        """The page that entered with this `dismiss` is gone; it may come back for a while."""
+        if self._pages.get(workspace.id) is not dismiss:
+            return  # another one is in its place
+        del self._pages[workspace.id]
+        workspace.pause()
+        self._leaving[workspace.id] = asyncio.create_task(self._end(workspace))
+
+    async def _end(self, workspace: Workspace) -> None:
+        """Closes a workspace once nobody has come back in time, or the server ends."""
+        own = asyncio.current_task()
+        try:
+            patience, waited = self._site.patience, 0.0
+            while waited < patience.alone:
+                if waited >= patience.waited_for and self._site.turns.waiting:
+                    break
+                await asyncio.sleep(min(LOOK, patience.alone - waited))
+                waited += LOOK
+            self._known.pop(workspace.id, None)
+            await run_in_threadpool(workspace.close)
+        except asyncio.CancelledError:
+            if self._leaving.get(workspace.id) is own:  # the server ends: nobody came back
+                workspace.close()
+            raise
+        finally:
+            if self._leaving.get(workspace.id) is own:
+                del self._leaving[workspace.id]

@@ -1,0 +1,123 @@
+"""The page for fingers, in forced colours, without JavaScript, and with a server that is gone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from snapspace.mesh import write_tets
+
+from .choosing_page import press, wait_for_text
+from .pages import OpenPage, Page
+from .serving import served
+from .test_reload import BAR
+
+#: What a finger must hit and cannot: narrower or lower than 44 pixels.
+SMALL = """[...document.querySelectorAll(
+  "#panel button, #panel input, #panel select, #panel summary, #message button, .corner circle"
+)].filter((e) => e.offsetParent !== null || e.closest("svg")).flatMap((e) => {
+  const { width, height } = e.getBoundingClientRect();
+  return Math.min(width, height) < 43.9 ? [`${e.outerHTML.slice(0, 80)} ${width} x ${height}`] : [];
+})"""
+#: What is wider than its place.
+OVERFLOWING = """[...document.querySelectorAll("#panel, #panel section *")].filter(
+  (e) => e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0
+    && !["hidden", "clip"].includes(getComputedStyle(e).overflowX)
+    && getComputedStyle(e).display !== "inline" && !["INPUT", "SELECT"].includes(e.tagName)
+).map((e) => `${e.outerHTML.slice(0, 90)} ${e.scrollWidth} > ${e.clientWidth}`)"""
+
+LONG = "the_left_hand_of_the_creature_that_waves_to_everybody"
+CHOICE = f"""snapspace.choosing.go({{
+  selected: Int32Array.of(1, 2),
+  handles: [
+    {{ key: 0, name: "{LONG}", vertices: Int32Array.of(3, 4), moving: false }},
+    {{ key: 1, name: "b", vertices: Int32Array.of(5, 6), moving: true,
+       translation: [1, 2, 3], angle: [1, 2, 3] }},
+  ],
+  parts: [{{ key: 0, name: "{LONG}", vertices: Int32Array.of(7, 8), factor: 0.0001 }}],
+}})"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("access")
+    write_tets(folder / "bar.mesh", BAR)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def address(folder: Path, chromium: object) -> Iterator[str]:
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        yield address
+
+
+def with_everything(page: Page) -> None:
+    page.wait("snapspace.kind === 'choosing'")
+    page.run(CHOICE)
+    press(page, "Own range")
+    for summary in page.page.locator("summary").all():
+        summary.click()
+
+
+def test_fingers_hit_what_they_aim_at(
+    address: str, posing_page: Path, many_poses_page: Path, opened: OpenPage
+) -> None:
+    phone = {"size": (390, 844), "has_touch": True, "is_mobile": True}
+    page = opened(address, **phone)
+    with_everything(page)
+    assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
+    page = opened(posing_page.as_uri(), **phone)
+    assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
+    page = opened(many_poses_page.as_uri(), **phone)
+    assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
+
+
+def test_forced_colours_and_long_names(address: str, opened: OpenPage) -> None:
+    page = opened(address, size=(900, 800), forced_colors="active")
+    with_everything(page)
+    assert page.run(OVERFLOWING) == []
+    style = "(e) => { const s = getComputedStyle(e); return [s.backgroundColor, s.borderColor]; }"
+    pressed = page.page.get_by_role("radio", name="Brush").evaluate(style)
+    others = page.page.get_by_role("radio", name="Box").evaluate(style)
+    assert pressed[0] != others[0], "what is pressed can be told"
+    swatches = page.page.locator(".swatch").evaluate_all(
+        "(all) => all.map((e) => getComputedStyle(e).backgroundColor)"
+    )
+    assert len(set(swatches)) == 3, "handles and parts keep their colours"
+
+
+def test_without_javascript_the_page_says_so(posing_page: Path, chromium: object) -> None:
+    context = chromium.new_context(java_script_enabled=False)  # type: ignore[attr-defined]
+    page = context.new_page()
+    page.goto(posing_page.as_uri())
+    assert "JavaScript" in page.locator(".noscript").inner_text()
+    context.close()
+
+
+def test_a_new_token_is_asked_for(folder: Path, opened: OpenPage) -> None:
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        page = opened(address)
+        page.wait("snapspace.kind === 'choosing'")
+        page.run(CHOICE)
+        page.loses_server = True
+        port = address.split(":")[2].split("/")[0]
+    wait_for_text(page, "#connection", "No connection to the server")
+    handles = page.run("snapspace.handles")
+    with served(folder / "bar.mesh", "--port", port, cwd=folder) as other:
+        wait_for_text(page, "#connection", "has another token")
+        field = page.page.get_by_label("Address or token of the server")
+        field.fill("wrong")
+        press(page, "Connect")
+        page.page.wait_for_timeout(100)
+        wait_for_text(page, "#connection", "has another token")
+        field.fill(other)
+        press(page, "Connect")
+        page.wait("document.getElementById('connection').hidden")
+        assert page.run("snapspace.handles") == handles
+        page.page.wait_for_timeout(500)  # the new workspace hears what was chosen
+        page.page.reload()
+        page.wait("snapspace.kind === 'choosing'")
+        assert page.run("snapspace.handles") == handles, "the new server has them as well"
+        page.close()

@@ -1,0 +1,178 @@
+"""Drags that are cancelled, keys in the middle of one, colours of axes, and graphics that are lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel
+from snapspace.mesh import write_tets
+
+from .choosing_page import handles, places, press, selected, stroke, tool
+from .pages import OpenPage, Page
+from .serving import served
+from .test_posing_page import assert_shown
+from .test_reload import BAR
+
+AXES = {"x": "#e8402f", "y": "#3fae3a", "z": "#2f74e8"}
+
+
+def begin_drag(page: Page, dx: float, dy: float) -> None:
+    x, y = page.run("snapspace.handle(1)")
+    mouse = page.page.mouse
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + dx, y + dy, steps=3)
+    page.settle()
+
+
+def key(page: Page, *names: str) -> None:
+    for name in names:
+        page.page.keyboard.press(name)
+    page.settle()
+
+
+def shift_of(page: Page) -> np.ndarray:
+    return np.array(page.motions()[1][1])
+
+
+def test_a_drag_is_cancelled_and_not_undone_meanwhile(
+    posing_model: PosingModel, posing_page: Path, opened: OpenPage
+) -> None:
+    page = opened(posing_page.as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 30, -20)
+    first = shift_of(page)
+    begin_drag(page, 40, 30)
+    dragged = shift_of(page)
+    assert np.linalg.norm(dragged - first) > 0.02
+    key(page, "Control+z", "r", "ArrowUp")
+    assert np.array_equal(shift_of(page), dragged), "no key counts in a drag"
+    page.run("document.querySelector('.row button').click()")  # Undo, by another finger
+    assert np.array_equal(shift_of(page), dragged)
+    key(page, "Escape")
+    assert np.allclose(shift_of(page), first)
+    page.page.mouse.move(300, 300)
+    page.settle()
+    assert np.allclose(shift_of(page), first), "the pointer goes on, the drag does not"
+    page.page.mouse.up()
+    assert page.run("document.querySelectorAll('.row button')[1].disabled"), "nothing to redo"
+    page.drag(page.run("snapspace.handle(1)"), -30, 20)
+    second = shift_of(page)
+    key(page, "Control+z")
+    assert np.allclose(shift_of(page), first), "the cancelled drag is no step"
+    key(page, "Control+y")
+    assert np.allclose(shift_of(page), second)
+    assert_shown(posing_model, page)
+
+    arrows = dict(zip("xyz", np.array(arrow_directions(page)), strict=True))
+    assert np.allclose(np.abs(arrows["z"]), [0, 1, 0]), "up, where z points up"
+    for axis in "yx":
+        tool(page, f"{axis} up")
+        page.settle()
+        arrows = dict(zip("xyz", np.array(arrow_directions(page)), strict=True))
+        assert np.allclose(np.abs(arrows[axis]), [0, 1, 0])
+        for name, place in zip("xyz", range(3), strict=True):
+            script = (
+                f"snapspace.stage.root.matrixWorld.elements.slice({4 * place}, {4 * place + 3})"
+            )
+            along = np.array(page.run(script))
+            assert np.isclose(abs(along @ arrows[name]), np.linalg.norm(along)), name
+
+
+def arrow_directions(page: Page) -> list[list[float]]:
+    """On the stage, of the arrows in the colours of the model's x, y and z."""
+    arrows = page.run("snapspace.arrows()")
+    return [next(a["direction"] for a in arrows if a["color"] == AXES[axis]) for axis in "xyz"]
+
+
+def test_a_drag_of_the_gizmo_is_cancelled(posing_page: Path, opened: OpenPage) -> None:
+    page = opened(posing_page.as_uri())
+    key(page, "2")
+    x, y = page.run("snapspace.handle(1)")
+    mouse = page.page.mouse
+    # along the arrow that points up on the screen
+    top = next(up for up in range(20, 80, 4) if is_on_arrow(page, x, y - up))
+    mouse.move(x, y - top)
+    mouse.down()
+    mouse.move(x, y - top - 40, steps=3)
+    page.settle()
+    assert np.linalg.norm(shift_of(page)) > 0.02
+    key(page, "Escape")
+    assert np.allclose(shift_of(page), 0)
+    mouse.move(x, y - top - 80, steps=3)
+    mouse.up()
+    page.settle()
+    assert np.allclose(shift_of(page), 0)
+    assert page.run("document.querySelector('.row button').disabled"), "nothing to undo"
+
+
+def is_on_arrow(page: Page, x: float, y: float) -> bool:
+    page.page.mouse.move(x, y)
+    page.settle()
+    return any(arrow["color"] == "#ffd23f" for arrow in page.run("snapspace.arrows()"))
+
+
+LOSE = "window.losing = snapspace.stage.renderer.getContext().getExtension('WEBGL_lose_context')"
+PIXELS = """(() => {
+  const { renderer, scene, camera } = snapspace.stage;
+  renderer.render(scene, camera);
+  const gl = renderer.getContext(), size = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+  const pixels = new Uint8Array(4 * size[0] * size[1]);
+  gl.readPixels(0, 0, ...size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  return [...pixels].filter((_, i) => i % 4 === 3 && i % 64 === 3);
+})()"""
+
+
+def test_lost_graphics_are_drawn_again(
+    posing_model: PosingModel, posing_page: Path, opened: OpenPage
+) -> None:
+    page = opened(posing_page.as_uri())
+    page.drag(page.run("snapspace.handle(1)"), 40, -30)
+    before = np.array(page.run(PIXELS))
+    page.run(f"{LOSE}; losing.loseContext(); null")
+    page.wait("snapspace.stage.renderer.getContext().isContextLost()")
+    page.page.wait_for_timeout(50)
+    key(page, "ArrowUp")  # a solve while nothing can be drawn
+    key(page, "Control+z")
+    page.run("losing.restoreContext(); null")
+    page.wait("!snapspace.stage.renderer.getContext().isContextLost()")
+    page.settle()
+    assert_shown(posing_model, page)
+    after = np.array(page.run(PIXELS))
+    assert np.count_nonzero(before) > 100
+    assert np.mean(np.abs(after - before) > 40) < 0.01, "the same picture"
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
+    folder = tmp_path_factory.mktemp("interaction")
+    write_tets(folder / "bar.mesh", BAR)
+    with served(folder / "bar.mesh", cwd=folder) as address:
+        yield address
+
+
+def test_a_stroke_is_not_undone_meanwhile(address: str, opened: OpenPage) -> None:
+    page = opened(address)
+    page.wait("snapspace.kind === 'choosing'")
+    x, y = places(page).mean(axis=0)
+    stroke(page, (x, y), (x + 40, y))
+    painted = selected(page)
+    mouse = page.page.mouse
+    mouse.move(x - 60, y)
+    mouse.down()
+    mouse.move(x - 40, y, steps=2)
+    more = selected(page)
+    assert painted < more
+    key(page, "Control+z", "Enter", "b")
+    assert selected(page) == more and not handles(page)
+    key(page, "Escape")
+    assert selected(page) == painted
+    mouse.up()
+    key(page, "Control+z")
+    assert not selected(page)
+    key(page, "Control+y")
+    assert selected(page) == painted
+    press(page, "Clear")
