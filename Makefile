@@ -6,7 +6,7 @@ STAMP := $(VENV)/.installed
 CORE := $(shell find core -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo test lint format clean
+.PHONY: setup demo test sanitize lint format clean
 
 setup: $(STAMP)
 
@@ -24,6 +24,10 @@ demo: setup
 
 test: setup
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal
+
+# ASan, UBSan and assertions on the core; `$(BIN)/python tools/sanitize.py --help` says more.
+sanitize: setup
+	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
 
 lint: setup
 	$(BIN)/ruff check .
