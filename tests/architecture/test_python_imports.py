@@ -78,6 +78,7 @@ ALLOWED: dict[str, set[str]] = {
     "model_file": {
         "certificate",
         "disk",
+        "input_error",
         "material",
         "mesh",
         "problem",
