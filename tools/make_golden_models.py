@@ -1,11 +1,9 @@
-"""Writes the model files of every released version that tests/model_file/test_golden.py loads.
+"""Writes the model files of this version that tests/model_file/test_golden.py loads.
 
-    python tools/make_golden_models.py 3
-
-Run it for a version once, when that version is new, and never again: the files stand for those that
-users have. Versions 1 and 2 were written from the description of these formats, after version 3 had
-replaced them: double precision for the basis; in version 1 only St.Venant-Kirchhoff, no energies
-summed over few tets in blends, and at first no entry for the kind.
+Run it once when a version is new, and never again: the files stand for those that users have.
+Versions 1 and 2 were written with the code of version 3, from the description of these formats:
+double precision for the basis; in version 1 only St.Venant-Kirchhoff, no energies summed over few
+tets in blends, and at first no entry for the kind.
 """
 
 from __future__ import annotations
@@ -17,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 import snapspace as ss
-from snapspace.model_file import container
+from snapspace.model_file import VERSION
 
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT))
@@ -26,20 +24,12 @@ from fuzz.corpus import models, posing_model  # noqa: E402
 FOLDER = ROOT / "tests" / "model_file" / "golden"
 
 
-def main(version: str) -> None:
+def main() -> None:
     expected = {}
     for name, model in {**dict(models()), "stvk-cubature": posing_model(energy="cubature")}.items():
-        stvk = model.problem.material.kind == "stvk"
-        if version == "1" and not stvk:
-            continue
-        path = model.save(FOLDER / f"v{version}-{name}.snapspace")
-        written = [path]
-        if version in ("1", "2"):
-            _as_of_then(path, version)
-        if version == "1" and name == "posing":
-            written.append(_first_of_all(path))
-        expected |= {file.name: frame(ss.load(file)).tolist() for file in written}
-    target = FOLDER / f"v{version}.json"
+        path = model.save(FOLDER / f"v{VERSION}-{name}.snapspace")
+        expected[path.name] = frame(ss.load(path)).tolist()
+    target = FOLDER / f"v{VERSION}.json"
     target.write_text(json.dumps(expected) + "\n", encoding="ascii", newline="\n")
 
 
@@ -54,24 +44,5 @@ def frame(model: ss.PosingModel | ss.InterpolationModel) -> np.ndarray:
     return session.vertices
 
 
-def _as_of_then(path: Path, version: str) -> None:
-    """The file as that version wrote it; the basis gets digits that single precision lacks."""
-    arrays, header = container.read_container(path)
-    basis = arrays["basis"].astype(np.float64)
-    arrays["basis"] = basis + 1e-9 * np.abs(basis).max() * np.sin(np.arange(basis.size)).reshape(
-        basis.shape
-    )
-    container.write_container(path, arrays, {**header, "version": version})
-
-
-def _first_of_all(path: Path) -> Path:
-    """The file without its kind, as when there was only one."""
-    arrays, header = container.read_container(path)
-    del header["kind"]
-    first = path.with_name("v1-first.snapspace")
-    container.write_container(first, arrays, header)
-    return first
-
-
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main()

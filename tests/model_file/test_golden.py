@@ -27,7 +27,7 @@ def test_every_kind_of_every_version_is_there() -> None:
         found[int(header["version"])].add(header.get("kind", "none"))
     exact, summed = {"posing", "interpolation"}, {"posing-cubature", "interpolation-cubature"}
     assert found[1] == exact | {"posing-cubature", "none"}
-    assert found[2] == found[3] == exact | summed
+    assert all(kinds == exact | summed for version, kinds in found.items() if version > 1)
     assert {path.name for path in GOLDEN.glob("*.snapspace")} == set(EXPECTED)
 
 
