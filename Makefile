@@ -6,7 +6,7 @@ STAMP := $(VENV)/.installed
 CORE := $(shell find core -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo test sanitize lint format clean
+.PHONY: setup demo test sanitize docs lint format clean
 
 setup: $(STAMP)
 
@@ -28,6 +28,11 @@ test: setup
 # ASan, UBSan and assertions on the core; `$(BIN)/python tools/sanitize.py --help` says more.
 sanitize: setup
 	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
+
+# The site is build/docs/index.html. Warnings are errors.
+docs: setup
+	$(BIN)/pip install --quiet "snapspace[docs]"
+	$(BIN)/python -m sphinx -W --keep-going -q -d build/doctrees docs build/docs
 
 lint: setup
 	$(BIN)/ruff check .
