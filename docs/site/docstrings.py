@@ -39,8 +39,19 @@ def _entries(lines: list[str]) -> list[str]:
     return result + lines[end:]
 
 
+def _examples(lines: list[str]) -> list[str]:
+    """The code below the title Examples, set as code."""
+    for i in range(1, len(lines)):
+        if re.fullmatch(r"-{3,}", lines[i]) and lines[i - 1] == "Examples":
+            code = [f"    {line}" if line else line for line in lines[i + 1 :]]
+            return [*lines[: i + 1], ".. code-block:: python", "", *code]
+    return lines
+
+
 def _process(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: list[str]) -> None:
-    lines[:] = _entries([_escaped(line) for line in lines])
+    examples = lines.index("Examples") if "Examples" in lines else len(lines)
+    text = [_escaped(line) for line in lines[:examples]]
+    lines[:] = _examples([*_entries(text), *lines[examples:]])
 
 
 def _process_help(app: Sphinx, context: Any, lines: list[str]) -> None:
