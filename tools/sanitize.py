@@ -3,6 +3,7 @@
     python tools/sanitize.py                    # the widest level that this processor can run
     python tools/sanitize.py --level baseline   # another one
     python tools/sanitize.py tests/online -x    # other tests, options of pytest
+    python tools/sanitize.py --fuzz 60          # mutated model files
 
 A fault ends the tests with the sanitizer's report. Needs GCC, and an environment that
 `make setup` made.
@@ -41,14 +42,19 @@ LEFT_OUT = (
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     parser.add_argument("--level", choices=_core.BUILDS, default=_core.level)
+    parser.add_argument("--fuzz", type=float, metavar="SECONDS", help="run the fuzzers instead")
     options, pytest_options = parser.parse_known_args()
     compiler = build(options.level)
     folder, python = environment(options.level)
+    environment_of_runs = runtime(compiler, options.level)
+    if options.fuzz:
+        command = [python, "-m", "fuzz", "load", "load_snapshots", "--seconds", str(options.fuzz)]
+        return subprocess.call(command, cwd=folder, env=environment_of_runs)
     chosen = [option for option in pytest_options if option.startswith("tests")]
     tests = [] if chosen else [f"tests/{name}" for name in TESTS]
     ignored = [f"--ignore={path}" for path in LEFT_OUT]
     command = [python, "-m", "pytest", *ignored, *tests, *pytest_options]
-    return subprocess.call(command, cwd=folder, env=runtime(compiler, options.level))
+    return subprocess.call(command, cwd=folder, env=environment_of_runs)
 
 
 def build(level: str) -> str:
