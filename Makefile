@@ -7,7 +7,7 @@ TOOLS := $(VENV)/.tools
 CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo wheel wheels test lint format clean
+.PHONY: setup demo wheel wheels test sanitize docs lint format clean
 
 setup: $(STAMP) $(TOOLS)
 
@@ -42,6 +42,15 @@ wheels: $(STAMP)
 
 test: setup
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal
+
+# ASan, UBSan and assertions on the core; `$(BIN)/python tools/sanitize.py --help` says more.
+sanitize: setup
+	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
+
+# The site is build/docs/index.html. Warnings are errors.
+docs: setup
+	$(BIN)/pip install --quiet "snapspace[docs]"
+	$(BIN)/python -m sphinx -W --keep-going -q -d build/doctrees docs build/docs
 
 lint: setup
 	$(BIN)/ruff check .

@@ -7,6 +7,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 
+def one_line(text: str) -> str:
+    """The text with line ends and control characters escaped, whatever a file has for a name."""
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
 class InputError(ValueError):
     """A ValueError that knows where it is from, so that callers can say it better.
 
@@ -15,6 +22,7 @@ class InputError(ValueError):
     """
 
     def __init__(self, place: str | Path, fault: str) -> None:
+        fault = one_line(fault)
         super().__init__(f"{place}: {fault}")
         self.place = str(place)
         self.fault = fault

@@ -19,7 +19,7 @@ void TwoGridCycle::subtract(const Link* link, const Link* end, const Real* x, Po
 template <class Real>
 void TwoGridCycle::sweep_down(std::int32_t i, const Real* b, Real* x) const {
   Point<Real> y = scaled(b, i);
-  subtract(&links_[rows_[i].links], &links_[rows_[i].later], x, y);
+  subtract(links_.data() + rows_[i].links, links_.data() + rows_[i].later, x, y);
   y.store(x + 3 * std::size_t(i));
 }
 
@@ -27,7 +27,7 @@ void TwoGridCycle::sweep_down(std::int32_t i, const Real* b, Real* x) const {
 template <class Real>
 void TwoGridCycle::restrict_residual(std::int32_t i, const Real* x, Real* coarse) const {
   auto residual = Point<Real>::zero();  // over a_ii
-  subtract(&links_[rows_[i].later], &links_[rows_[i + 1].links], x, residual);
+  subtract(links_.data() + rows_[i].later, links_.data() + rows_[i + 1].links, x, residual);
   const float diagonal = 1.0f / inverse_diagonal_[i];
   for (std::int32_t k = rows_[i].parents; k < rows_[i + 1].parents; ++k) {
     Real* entries = coarse + 3 * std::size_t(parents_[k].vertex);
@@ -48,7 +48,7 @@ void TwoGridCycle::prolong(std::int32_t i, const Real* coarse, Real* x) const {
 template <class Real>
 Sum<Real> TwoGridCycle::sweep_up(std::int32_t i, const Real* b, Real* x, Real* solution) const {
   Point<Real> y = scaled(b, i);
-  subtract(&links_[rows_[i].links], &links_[rows_[i + 1].links], x, y);
+  subtract(links_.data() + rows_[i].links, links_.data() + rows_[i + 1].links, x, y);
   const std::size_t at = 3 * std::size_t(i);
   y.store(x + at);
   Real product(0);  // of one vertex: it may be added in the precision of the entries

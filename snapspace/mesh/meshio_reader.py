@@ -11,8 +11,13 @@ from typing import Any
 
 import meshio
 import numpy as np
+from meshio.gmsh import _gmsh22, _gmsh40, _gmsh41
+from meshio.vtk import _vtk_42, _vtk_51
 
+from .bounded_arrays import bound_arrays
 from .file_content import CellArray, FileContent
+
+bound_arrays(_gmsh22, _gmsh40, _gmsh41, _vtk_42, _vtk_51)
 
 # The readers of the formats, not meshio.read: that one prints and calls sys.exit on bad files.
 _READERS: dict[str, Callable[[str], Any]] = {
@@ -38,9 +43,10 @@ def read_with_meshio(path: Path, file_format: str) -> FileContent:
             warnings.simplefilter("ignore")
             warnings.filterwarnings("error", message=".*read to its end.*")
             mesh = _READERS[file_format](str(path))
-            return FileContent(
-                np.asarray(mesh.points, dtype=np.float64), _cells_by_type(mesh.cells)
-            )
+            points = np.asarray(mesh.points, dtype=np.float64)
+            if points.ndim != 2:
+                raise ValueError("its vertices are no table")
+            return FileContent(points, _cells_by_type(mesh.cells))
     except (Exception, SystemExit) as error:
         # meshio has no family of exceptions: bad files give KeyError, IndexError, struct.error, ...
         reason = f" ({' '.join(str(error).split())[:160]})" if str(error) else ""
@@ -50,5 +56,8 @@ def read_with_meshio(path: Path, file_format: str) -> FileContent:
 def _cells_by_type(blocks: list[Any]) -> dict[str, CellArray]:
     by_type: dict[str, list[CellArray]] = {}
     for block in blocks:
-        by_type.setdefault(block.type, []).append(np.asarray(block.data, dtype=np.int64))
+        rows = np.asarray(block.data, dtype=np.int64)
+        if rows.ndim != 2:
+            raise ValueError(f"its {block.type} cells are no table")
+        by_type.setdefault(block.type, []).append(rows)
     return {kind: np.concatenate(parts) for kind, parts in by_type.items()}

@@ -110,6 +110,6 @@ def _blends(
     if "quartics" in arrays:
         check_shapes(arrays, {"quartics": (len(problem.poses), coefficient_count(d))})
         return PoseQuartics(d, arrays["quartics"])
-    return BlendedCubature.of_tets(
-        problem, subspace, arrays["cubature_tets"], arrays["cubature_weights"]
-    )
+    tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
+    check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
+    return BlendedCubature.of_tets(problem, subspace, tets, weights)

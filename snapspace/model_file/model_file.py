@@ -6,6 +6,7 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+from ..input_error import one_line
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import (
     error_estimator,
@@ -96,16 +97,17 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     arrays, header = read_container(path)
     if header.get("format") != FORMAT:
         raise ValueError(f"{path}: not a snapspace model; `snapspace build` makes one")
-    if header.get("version") not in {str(version) for version in READABLE}:
+    version = header.get("version", "none")
+    if version not in {str(readable) for readable in READABLE}:
         raise ValueError(
-            f"{path}: model version {header.get('version')}, this snapspace reads versions "
+            f"{path}: model version {one_line(version[:40])}, this snapspace reads versions "
             f"{', '.join(map(str, READABLE))}; install the snapspace that wrote it, or build "
             "the model again"
         )
     kind = header.get("kind", POSING)  # the first files had only one
     if kind not in _DTYPES:
         raise ValueError(
-            f"{path}: a model of kind '{kind}', this snapspace knows {', '.join(_DTYPES)}; "
+            f"{path}: a model of kind {kind[:40]!r}, this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
     for part in (error_estimator, shown_surface, material, snapshot_energies):
@@ -125,9 +127,11 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         model = make(arrays, parsed(header, "problem"), record)
         return replace(model, error_estimator=error_estimator.estimator(arrays))
     except material.UnknownMaterialError as error:
-        raise ValueError(f"{path}: {error}; install the snapspace that wrote it") from None
+        raise ValueError(
+            f"{path}: {one_line(str(error))}; install the snapspace that wrote it"
+        ) from None
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
-        reason = f"no entry {error}" if isinstance(error, KeyError) else error
+        reason = f"no entry {error}" if isinstance(error, KeyError) else one_line(str(error))
         raise ValueError(
             f"{path}: the model does not fit together ({reason}); build it again"
         ) from None

@@ -120,7 +120,9 @@ def _elastic(
     if "quartic" in arrays:
         check_shapes(arrays, {"quartic": (coefficient_count(subspace.dimension),)})
         return Quartic(subspace.dimension, arrays["quartic"])
-    return Cubature.of_tets(problem, subspace, arrays["cubature_tets"], arrays["cubature_weights"])
+    tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
+    check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
+    return Cubature.of_tets(problem, subspace, tets, weights)
 
 
 def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:

@@ -7,6 +7,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from ..input_error import one_line
+
 
 @contextmanager
 def within(place: str | Path) -> Iterator[None]:
@@ -14,7 +16,7 @@ def within(place: str | Path) -> Iterator[None]:
     try:
         yield
     except ValueError as error:
-        raise ValueError(f"{place}: {error}") from None
+        raise ValueError(f"{place}: {one_line(str(error))}") from None
 
 
 def as_object(value: Any, what: str, *, known: set[str] | None = None) -> dict[str, Any]:

@@ -129,7 +129,8 @@ def _load(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path}: cannot be read as a problem file ({error})") from None
     except (ValueError, RecursionError) as error:
         raise ValueError(f"{path}: not valid JSON: {error}") from None
-    return as_object(content, f"{path}: a problem", known=_KEYS)
+    with within(path):
+        return as_object(content, "a problem", known=_KEYS)
 
 
 def _entry(content: dict[str, Any], key: str) -> Any:

@@ -88,9 +88,14 @@ def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
             f"{file}: these samples are of another problem than {problem!r}: mesh, material, "
             "domain, handles or poses differ; solve them anew"
         )
-    reports = [SampleReport(**entry) for entry in json.loads(header["reports"])]
-    rows = DisplacementRows(arrays["displacements"], problem.base.size)
-    return Snapshots(problem, arrays["parameters"], rows, reports)
+    try:
+        reports = [SampleReport(**entry) for entry in json.loads(header["reports"])]
+        rows = DisplacementRows(arrays["displacements"], problem.base.size)
+        return Snapshots(problem, arrays["parameters"], rows, reports)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ValueError(
+            f"{file}: these samples do not fit together ({error}); write them again"
+        ) from None
 
 
 def _read(file: Path) -> tuple[Arrays, dict[str, str]]:
@@ -110,6 +115,18 @@ def _read(file: Path) -> tuple[Arrays, dict[str, str]]:
         )
     if header.get("crc32") != _checksum(arrays, header):
         raise ValueError(f"{file}: its content has changed since it was written; write it again")
+    wrong = [name for name in ("fingerprint", "reports") if name not in header]
+    for name in ("parameters", "displacements"):
+        array = arrays.get(name)
+        if array is None or array.dtype != np.float64 or array.ndim != 2:
+            wrong.append(name)
+        elif name == "parameters" and not np.isfinite(array).all():
+            wrong.append(name)
+    if wrong or len(arrays) != 2:
+        raise ValueError(
+            f"{file}: {wrong[0] if wrong else 'one more array than known'}: not what a file of "
+            "samples has there; write it again"
+        )
     return arrays, header
 
 
@@ -117,5 +134,7 @@ def _checksum(arrays: Arrays, header: dict[str, Any]) -> str:
     words = [f"{key}={header[key]}\n" for key in sorted(header) if key != "crc32"]
     checksum = zlib.crc32("".join(words).encode())
     for name in sorted(arrays):
-        checksum = zlib.crc32(np.ascontiguousarray(arrays[name]).data.cast("B"), checksum)
+        # not a cast of the memory's view, which arrays without entries refuse
+        content = np.ascontiguousarray(arrays[name]).reshape(-1).view(np.uint8).data
+        checksum = zlib.crc32(content, checksum)
     return f"{checksum:08x}"

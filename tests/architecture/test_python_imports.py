@@ -81,6 +81,7 @@ ALLOWED: dict[str, set[str]] = {
     "model_file": {
         "certificate",
         "disk",
+        "input_error",
         "material",
         "mesh",
         "problem",

@@ -1,4 +1,4 @@
-"""Drags that are cancelled, keys in the middle of one, colours of axes, and graphics that are lost."""
+"""Drags that are cancelled, keys in the middle of one, colours of axes, and lost graphics."""
 
 from __future__ import annotations
 

@@ -10,6 +10,20 @@ interface Entry {
 
 const ITEM_BYTES: Record<string, number> = { F64: 8, F32: 4, I32: 4, I16: 2 };
 
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null && !Array.isArray(value);
+}
+
+/** Whether this is the entry of an array whose size is that of its type and shape. */
+function isEntry(value: unknown): value is Entry {
+  if (!isObject(value)) return false;
+  const { dtype, shape, data_offsets: ends } = value;
+  const counts = (list: unknown): list is number[] =>
+    Array.isArray(list) && list.every((n) => Number.isSafeInteger(n) && n >= 0);
+  if (typeof dtype !== "string" || !counts(shape) || !counts(ends) || ends.length !== 2) return false;
+  return ends[1] - ends[0] === shape.reduce((product, n) => product * n, 1) * (ITEM_BYTES[dtype] ?? NaN);
+}
+
 /** Arrays and header of a file. */
 export class Container {
   readonly header: Record<string, string>;
@@ -31,18 +45,18 @@ export class Container {
     } catch {
       throw broken("its header is not JSON");
     }
-    this.header = (parsed["__metadata__"] ?? {}) as Record<string, string>;
+    if (!isObject(parsed)) throw broken("its header is not an object");
+    const metadata = parsed["__metadata__"] ?? {};
+    if (!isObject(metadata)) throw broken("its metadata is not an object");
+    this.header = metadata as Record<string, string>;
     this.#bytes = bytes;
     this.#start = 8 + size;
     this.#entries = new Map();
     for (const [name, entry] of Object.entries(parsed)) {
       if (name === "__metadata__") continue;
-      const { dtype, shape, data_offsets: ends } = entry as Entry;
-      const items = shape.reduce((product, n) => product * n, 1);
-      const fits = ends[1] - ends[0] === items * (ITEM_BYTES[dtype] ?? NaN);
-      if (!fits || this.#start + ends[1] > bytes.byteLength)
+      if (!isEntry(entry) || this.#start + entry.data_offsets[1] > bytes.byteLength)
         throw broken(`the array '${name}' is cut off or of an unknown type`);
-      this.#entries.set(name, entry as Entry);
+      this.#entries.set(name, entry);
     }
   }
 

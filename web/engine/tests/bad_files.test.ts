@@ -37,6 +37,23 @@ test("what is no model is told", () => {
     /version 1, and .* reads version 2. Open it/,
   );
   refused(container({ a: { dtype: "F64", shape: [3], data_offsets: [0, 24] } }, 8), /'a' is cut off/);
+  for (const entry of [
+    null,
+    7,
+    {},
+    { dtype: "F64", shape: [1] },
+    { dtype: "F64", shape: 1, data_offsets: [0, 8] },
+  ])
+    refused(container({ a: entry }, 8), /'a' is cut off or of an unknown type/);
+  for (const offsets of [
+    [-8, 0],
+    [0.5, 8.5],
+    [0, 8, 8],
+  ])
+    refused(container({ a: { dtype: "F64", shape: [1], data_offsets: offsets } }, 8), /'a' is cut off/);
+  refused(container("[1]"), /header is not an object/);
+  refused(container({ __metadata__: 3 }), /metadata is not an object/);
+  refused(container({ __metadata__: { format: "snapspace-model", version: "9\n9" } }), /version 9 9,/);
   refused(container({ a: { dtype: "BF16", shape: [1], data_offsets: [0, 2] } }, 2), /unknown type/);
 });
 

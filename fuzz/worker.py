@@ -1,0 +1,79 @@
+"""Mutates and reads files for a while, in a process of its own; ends at the first fault."""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import sys
+import time
+from pathlib import Path
+from random import Random
+
+from .targets import TARGETS, FaultError, run
+
+#: A reader that takes longer than so many seconds hangs.
+SECONDS = 5.0
+#: Bytes that reading one file may take beyond those in use before.
+MEMORY = 1 << 30
+
+
+def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float) -> int:
+    """Prints executions, files taken and a fault's reason, which is empty without one."""
+    target, random = TARGETS[name], Random(seed)
+    seeds = sorted((corpus / target.corpus).iterdir())
+    contents = [seed.read_bytes() for seed in seeds]
+    for path, data in zip(seeds, contents, strict=True):  # a seed itself must be taken
+        if not _taken(name, _written(folder, path, data, seeds)):
+            print(f"0 0 the file {path.name} of the corpus is refused", flush=True)
+            return 1
+    _bound_memory()
+    end, count, taken = time.monotonic() + seconds, 0, 0
+    while time.monotonic() < end:
+        at = random.randrange(len(seeds))
+        data = target.mutated(contents[at], random, contents)
+        path = _written(folder, seeds[at], data, seeds)
+        faulthandler.dump_traceback_later(SECONDS, exit=True)
+        try:
+            taken += run(target, path)
+        except FaultError as fault:
+            faulthandler.cancel_dump_traceback_later()
+            print(f"{count + 1} {taken} {' '.join(str(fault).split())[:600]}", flush=True)
+            return 1
+        faulthandler.cancel_dump_traceback_later()
+        count += 1
+        if count % 100 == 0:
+            print(f"{count} {taken}", flush=True)
+    print(f"{count} {taken}", flush=True)
+    return 0
+
+
+def _taken(name: str, path: Path) -> bool:
+    return run(TARGETS[name], path)
+
+
+def _written(folder: Path, seed: Path, data: bytes, seeds: list[Path]) -> Path:
+    """Writes the only input of the folder; what belongs to it stays as in the corpus."""
+    for old in folder.iterdir():
+        old.unlink()
+    path = folder / f"input{seed.suffix}"
+    path.write_bytes(data)
+    if seed.suffix in (".node", ".ele"):  # a pair of files
+        other = {".node": ".ele", ".ele": ".node"}[seed.suffix]
+        (folder / f"input{other}").write_bytes(seed.with_suffix(other).read_bytes())
+    return path
+
+
+def _bound_memory() -> None:
+    # the runtime of AddressSanitizer reserves terabytes of addresses
+    if sys.platform != "linux" or "libasan" in os.environ.get("LD_PRELOAD", ""):
+        return
+    import resource
+
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    limit = pages * resource.getpagesize() + MEMORY
+    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+
+if __name__ == "__main__":
+    name, corpus, folder, seed, seconds = sys.argv[1:]
+    sys.exit(main(name, Path(corpus), Path(folder), int(seed), float(seconds)))

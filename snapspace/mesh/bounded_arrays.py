@@ -1,0 +1,50 @@
+"""Arrays of bounded size for meshio, whose readers make as large ones as a file's numbers say.
+
+A Gmsh file of a few bytes with the node number 2^31 would fill 16 GB, a VTK file with huge
+dimensions any memory.
+"""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+#: Entries of an array. A mesh of more vertices is far beyond what can be solved.
+MOST_ENTRIES = 1 << 26
+
+
+class BoundedArrays:
+    """NumPy, except that what makes arrays of a given size refuses huge ones by ValueError."""
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(np, name)
+
+    def full(self, shape: Any, *args: Any, **options: Any) -> Any:
+        return np.full(_checked(shape), *args, **options)
+
+    def ones(self, shape: Any, *args: Any, **options: Any) -> Any:
+        return np.ones(_checked(shape), *args, **options)
+
+    def empty(self, shape: Any, *args: Any, **options: Any) -> Any:
+        return np.empty(_checked(shape), *args, **options)
+
+    def arange(self, *ends: Any, **options: Any) -> Any:
+        _checked(int(ends[0] if len(ends) == 1 else ends[1] - ends[0]))
+        return np.arange(*ends, **options)
+
+
+def bound_arrays(*modules: ModuleType) -> None:
+    """Gives modules of meshio these functions in place of NumPy's."""
+    for module in modules:
+        module.np = BoundedArrays()  # type: ignore[attr-defined]
+
+
+def _checked(shape: Any) -> Any:
+    entries = 1.0
+    for count in np.atleast_1d(shape).tolist():
+        entries *= count
+    if entries > MOST_ENTRIES:
+        raise ValueError(f"an array of {entries:.3g} entries is too large: renumber its vertices")
+    return shape
