@@ -39,7 +39,8 @@ def write_animation(
     frames_per_second : float, default 30
         Of a film.
     **picture
-        Of a film: size, azimuth, elevation, up, colors and others, see `pictures.save_film`.
+        Of a film: size, azimuth, elevation, up (default: that of the model), colors and others, see
+        `pictures.save_film`.
 
     Returns
     -------
@@ -64,6 +65,7 @@ def write_animation(
         surface = model.surface
         seen = [surface.vertices(_checked(shape, model)) for shape in shapes]
         rate = frames_per_second
+        picture.setdefault("up", model.up)
         return [save_film(target, seen, surface.faces, frames_per_second=rate, **picture)]
     if picture:
         raise ValueError(

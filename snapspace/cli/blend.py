@@ -127,7 +127,7 @@ def blend(
     if output is not None and is_film(output):
         film = [shape.vertices for shape in shapes]
         rate = frames_per_second or 30.0
-        written = write_animation(output, model, film, frames_per_second=rate, up=up)
+        written = write_animation(output, model, film, frames_per_second=rate, up=up or model.up)
     else:
         written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:

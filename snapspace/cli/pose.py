@@ -100,9 +100,9 @@ def pose(
 
     if frames is not None:
         path = posed_path(model, motions, frames)
-        files = path.written(
-            output, kind=kind or "obj", frames_per_second=frames_per_second or 30.0, up=up
-        )
+        rate = frames_per_second or 30.0
+        shown_up = up or model.up
+        files = path.written(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
         path.print_report(files)
         if as_json:
             print_json({"dimension": model.dimension, **path.as_json(files)})
