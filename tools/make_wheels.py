@@ -2,15 +2,13 @@
 
 The wheel is built from the sdist, where no Node.js is needed, with this Python and this machine's
 compiler. On Linux auditwheel gives it the oldest manylinux tag that its symbols permit; hosted CI
-builds those of manylinux_2_28 (cibuildwheel, in pyproject.toml). With --zig this machine does that
-too: zig's Clang links against the symbols of glibc 2.28.
+builds those of manylinux_2_28 (cibuildwheel, in pyproject.toml).
 
-    python tools/make_wheels.py [--zig]
+    python tools/make_wheels.py
 """
 
 from __future__ import annotations
 
-import argparse
 import os
 import shutil
 import subprocess
@@ -27,7 +25,6 @@ import check_wheel
 ROOT = Path(__file__).parent.parent
 DIST = ROOT / "dist"
 MOST_BYTES = 4_000_000
-GLIBC = "2.28"
 
 
 def make_sdist(folder: Path) -> Path:
@@ -44,16 +41,9 @@ def make_sdist(folder: Path) -> Path:
     return sdist
 
 
-def make_wheel(sdist: Path, folder: Path, *, zig: bool) -> Path:
-    """A wheel from the sdist, built in an environment of pip's own, without npm on the path."""
+def make_wheel(sdist: Path, folder: Path) -> Path:
+    """A wheel from the sdist, built in an environment of pip's own; npm may not download."""
     environment = {**os.environ, "npm_config_offline": "true"}
-    if zig:
-        compiler = folder / "c++"
-        target = f"{os.uname().machine}-linux-gnu.{GLIBC}"
-        words = f'exec "{sys.executable}" -m ziglang c++ -target {target} "$@"'
-        compiler.write_text(f"#!/bin/sh\n{words}\n", encoding="utf-8")
-        compiler.chmod(0o755)
-        environment["CXX"] = str(compiler)
     words_of_pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, sdist]
     _run(sys.executable, *words_of_pip, environment=environment)
     (wheel,) = folder.glob("*.whl")
@@ -75,9 +65,6 @@ def repaired(wheel: Path, folder: Path) -> Path:
 
 def main() -> None:
     """Puts what was built into dist/ once it is checked."""
-    parser = argparse.ArgumentParser(description="Builds and checks the sdist and a wheel.")
-    parser.add_argument("--zig", action="store_true", help=f"for glibc {GLIBC}, with zig's Clang")
-    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         sources, built, tagged = (Path(name) / part for part in ("sdist", "wheel", "tagged"))
         for folder in (sources, built, tagged):
@@ -85,7 +72,7 @@ def main() -> None:
         print("== the sdist", flush=True)
         sdist = make_sdist(sources)
         print("== the wheel, for all processor levels", flush=True)
-        wheel = repaired(make_wheel(sdist, built, zig=options.zig), tagged)
+        wheel = repaired(make_wheel(sdist, built), tagged)
         size = wheel.stat().st_size
         if size > MOST_BYTES:
             raise SystemExit(f"make_wheels: {wheel.name} has {size} bytes, more than {MOST_BYTES}")

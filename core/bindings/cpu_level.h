@@ -1,4 +1,4 @@
-// The processor's x86-64 level. Plain code: it also runs in a program of its own, before the core is built.
+// The processor's x86-64 level. Plain code: CMake runs it in a program of its own too.
 #pragma once
 
 namespace snapspace {
