@@ -64,6 +64,7 @@ ALLOWED: dict[str, set[str]] = {
         "energy",
         "interruptible",
         "mesh",
+        "notice",
         "problem",
         "snapshots",
         "subspace",
