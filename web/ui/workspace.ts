@@ -66,8 +66,9 @@ export class Workspace {
     document.body.append(notice.element);
     server.onConnection = (connection) => {
       notice.show(connection);
-      if (connection !== "open") this.#begun(null);
-      if (connection !== "open" && !this.#mesh) this.#reading.lose();
+      if (connection === "open") return;
+      this.#begun(null);
+      if (!this.#mesh) this.#reading.lose();
     };
     for (const type of ["input", "change"])
       document.getElementById("panel")!.addEventListener(type, () => this.#keepSoon());
@@ -116,9 +117,7 @@ export class Workspace {
     this.#mesh = readMesh(await this.#server.fetched(given.mesh));
     this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
-    this.#model = null;
-    this.#job = given.job ?? 0;
-    this.#isRunning = given.is_running ?? false;
+    [this.#model, this.#job, this.#isRunning] = [null, given.job ?? 0, given.is_running ?? false];
     this.#motions = motionsOf(location.hash); // of a page that was loaded again
     this.#panel.clear();
     this.#choosing(true);
@@ -179,8 +178,7 @@ export class Workspace {
     this.#keeping = 0;
     if (!this.#mesh || !this.#sampling || !this.#server.isOpen) return;
     const { seed: _, ...sampling } = this.#sampling;
-    const handles = listed(this.#choice.handles);
-    const parts = partMessages(this.#choice.parts);
+    const [handles, parts] = [listed(this.#choice.handles), partMessages(this.#choice.parts)];
     this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#room.stage.up });
   }
 
@@ -222,8 +220,7 @@ export class Workspace {
 
   async #tellChoice(): Promise<void> {
     const { translation, angle } = this.#sampling!;
-    const handles = messageOf(this.#choice.handles);
-    const parts = partMessages(this.#choice.parts);
+    const [handles, parts] = [messageOf(this.#choice.handles), partMessages(this.#choice.parts)];
     await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
   }
 
