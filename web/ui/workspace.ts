@@ -105,10 +105,8 @@ export class Workspace {
       return;
     }
     if (this.#isBack && isSame) {
-      this.#isBack = false;
-      if (this.#isRunning)
-        this.#panel.fault("The server has forgotten what was being computed; compute again.");
-      this.#isRunning = false;
+      if (this.#isRunning) this.#panel.fault("The server has forgotten the computation; compute again.");
+      [this.#isBack, this.#isRunning] = [false, false];
       this.#update();
       this.#keep();
       return;
@@ -297,5 +295,5 @@ export class Workspace {
   }
 }
 
-const KEEP_PAUSE = 150; // milliseconds: a stroke of the brush changes the choice with every move
+const KEEP_PAUSE = 150; // milliseconds: a brush changes the choice with every move
 const NOT_YET = { done: 0, total: 0, seconds: 0, eta: null, error: null };
