@@ -135,7 +135,7 @@ def test_the_extras_are_those_of_the_project() -> None:
     tomllib = pytest.importorskip("tomllib", reason="part of Python from 3.11 on")
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     extras = project["optional-dependencies"]
-    assert set(extras) == {*EXTRAS, "all", "test", "lint"}
+    assert set(extras) == {*EXTRAS, "all", "docs", "lint", "test"}
     assert extras["all"] == [f"snapspace[{','.join(sorted(EXTRAS))}]"]
     names = {re.split("[<>=]", line)[0] for line in project["dependencies"]}
     assert names == {"numpy", "scipy", "meshio", "safetensors", "click", "rich", "threadpoolctl"}

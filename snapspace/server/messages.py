@@ -9,63 +9,16 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-Vector = tuple[float, float, float]
-Matrix = tuple[float, float, float, float, float, float, float, float, float]
+from .message_parts import (
+    HandleChoice,
+    HandleMotion,
+    MaterialChoice,
+    Matrix,
+    PartChoice,
+    Vector,
+)
 
-
-@dataclass(frozen=True, kw_only=True)
-class HandleChoice:
-    """A handle as the page chose it, or as a problem file has it.
-
-    name : unique among the handles
-    vertices : indices among all vertices of the packed mesh, also those inside
-    moving : whether it moves while sampling; one handle at least does not
-    translation, angle : its own bounds of the sampled motions; null: the common ones
-    """
-
-    name: str
-    vertices: tuple[int, ...]
-    moving: bool = True
-    translation: Vector | None = None
-    angle: Vector | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class PartChoice:
-    """A part of the body that is stiffer or softer.
-
-    name : unique among the parts
-    vertices : as those of a handle; tets with three of their corners among them are in the part
-    factor : of all moduli there, 0.0001 to 10000; of parts that overlap the later one counts
-    """
-
-    name: str
-    vertices: tuple[int, ...]
-    factor: float
-
-
-@dataclass(frozen=True, kw_only=True)
-class MaterialChoice:
-    """A material that can be computed with.
-
-    kind, title : its name in files and messages, and for the reader
-    has_poisson : whether Poisson's ratio changes anything
-    """
-
-    kind: str
-    title: str
-    has_poisson: bool
-
-
-@dataclass(frozen=True, kw_only=True)
-class HandleMotion:
-    """Where a handle is: a rigid motion about its centre at rest.
-
-    rotation : row by row
-    """
-
-    rotation: Matrix
-    translation: Vector
+__all__ = ["HandleChoice", "HandleMotion", "MaterialChoice", "Matrix", "PartChoice", "Vector"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -134,9 +87,7 @@ class Keep:
 
     The next `Workspace` of the same id returns it, as after the page was loaded again.
 
-    handles, parts, translation, angle : as in `Choose`, in any order
-    target_error, most_samples, stiffness, material, poisson : as in `Compute`
-    up : axis that points up
+    As in `Choose`, in any order, and as in `Compute`; and the axis that points up.
     """
 
     request: int
@@ -185,8 +136,7 @@ class Polish:
 class Workspace:
     """Server: what the page works with. The first message, and again after an upload.
 
-    For a page that comes back, as when it is loaded again, it has what the page had chosen. The
-    newest `Model` and the last `Progress` follow.
+    A page that comes back gets what it had chosen; newest `Model` and last `Progress` follow.
 
     id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and in that of the
         websocket, live?workspace=ID&token=..., of a page that comes back
@@ -197,8 +147,7 @@ class Workspace:
     up : axis that points up at first, x, y or z
     handles, parts, translation, angle : chosen at first
     diagonal : of the mesh; 0 if there is none
-    target_error, most_samples, seed, stiffness, material, poisson : computed with unless the page
-        asks for others
+    target_error, most_samples, seed, stiffness, material, poisson : computed with at first
     materials : that can be chosen
     folder : where `Save` writes, for the reader
     upload_limit : bytes

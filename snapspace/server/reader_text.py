@@ -15,3 +15,12 @@ def for_reader(message: str) -> str:
     closed".
     """
     return _WHO.sub(r"\1", message)
+
+
+def text_of(error: Exception) -> str:
+    """What the page says of an error."""
+    if isinstance(error, MemoryError):
+        return "the memory of this machine is used up; take fewer samples or a coarser mesh"
+    if isinstance(error, ValueError):
+        return for_reader(str(error))
+    return f"the server has a fault ({type(error).__name__}: {error}); its output tells more"

@@ -25,7 +25,7 @@ from .mesh_pack import packed_mesh
 from .models import Models
 from .outlet import Outlet
 from .polish_jobs import PolishJobs
-from .reader_text import for_reader
+from .reader_text import text_of
 from .reporter import Reporter
 from .shared_body import Stage
 from .site import Site
@@ -258,15 +258,9 @@ class Workspace:
         self._emit(message)
 
     def _fail(self, request: int, error: Exception) -> None:
-        if isinstance(error, MemoryError):
-            text = "the memory of this machine is used up; take fewer samples or a coarser mesh"
-        elif isinstance(error, ValueError):
-            text = for_reader(str(error))
-        else:
+        if not isinstance(error, MemoryError | ValueError):
             logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
-            text = (
-                f"the server has a fault ({type(error).__name__}: {error}); its output tells more"
-            )
+        text = text_of(error)
         self._emit(messages.Failed(request=request, message=text.replace("\n", " ")))
 
     @property

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 FloatArray = NDArray[np.float64]
+
+_PACKAGE = __name__.partition(".")[0]
 
 
 def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
@@ -34,6 +37,14 @@ def radians(euler: ArrayLike, name: str) -> FloatArray:
             f"{name} has an angle of {largest:g} radians, more than a full turn; if these are "
             "degrees give np.deg2rad(...) of them",
             UserWarning,
-            stacklevel=4,
+            stacklevel=_outside(),
         )
     return angles
+
+
+def _outside() -> int:
+    """The `stacklevel` of the first caller that is not of this package."""
+    frame, level = sys._getframe(1), 1
+    while frame.f_back is not None and frame.f_globals["__name__"].startswith(f"{_PACKAGE}."):
+        frame, level = frame.f_back, level + 1
+    return level

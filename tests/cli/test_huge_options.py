@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 import pytest
 
+from snapspace.cli.commands import COMMANDS
 from snapspace.cli.main import snapspace
 
 from .conftest import Run
@@ -16,9 +17,12 @@ HUGE = "1" + "0" * 30
 
 def whole_numbers() -> list[tuple[str, str]]:
     """Every option of the program that takes a whole number."""
+    context = click.Context(snapspace)
+    commands = [(name, snapspace.get_command(context, name)) for name in COMMANDS]
     return [
         (name, option.opts[-1])
-        for name, command in snapspace.commands.items()
+        for name, command in commands
+        if command is not None
         for option in command.params
         if isinstance(option, click.Option) and isinstance(option.type, click.types.IntParamType)
     ]

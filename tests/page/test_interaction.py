@@ -1,4 +1,4 @@
-"""Drags that are cancelled, keys in the middle of one, colours of axes, and lost graphics."""
+"""Cancelled drags, keys in the middle of one, colours of axes, and graphics that are lost."""
 
 from __future__ import annotations
 

@@ -109,7 +109,6 @@ def test_poses_of_exported_pages_are_in_the_address(
     assert_shown(posing_model, page)
     press(page, "Reset")
     assert "#pose" not in page.page.url
-    page.page.goto(many_poses_page.as_uri() + "#blend=twist_1:0.25;arc-03:0.75")
-    page.wait("snapspace.kind === 'interpolation'")
+    page = opened(many_poses_page.as_uri() + "#blend=twist_1:0.25;arc-03:0.75")
     weights = page.run("snapspace.session.weights.filter((w) => w !== 0)")
     assert sorted(weights) == [0.25, 0.75]

@@ -131,9 +131,7 @@ export interface Polish {
  *
  * The next `Workspace` of the same id returns it, as after the page was loaded again.
  *
- * handles, parts, translation, angle : as in `Choose`, in any order
- * target_error, most_samples, stiffness, material, poisson : as in `Compute`
- * up : axis that points up
+ * As in `Choose`, in any order, and as in `Compute`; and the axis that points up.
  */
 export interface Keep {
   readonly type: "keep";
@@ -158,8 +156,7 @@ export interface Edit {
 
 /** Server: what the page works with. The first message, and again after an upload.
  *
- * For a page that comes back, as when it is loaded again, it has what the page had chosen. The
- * newest `Model` and the last `Progress` follow.
+ * A page that comes back gets what it had chosen; newest `Model` and last `Progress` follow.
  *
  * id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and in that of the
  *     websocket, live?workspace=ID&token=..., of a page that comes back
@@ -170,8 +167,7 @@ export interface Edit {
  * up : axis that points up at first, x, y or z
  * handles, parts, translation, angle : chosen at first
  * diagonal : of the mesh; 0 if there is none
- * target_error, most_samples, seed, stiffness, material, poisson : computed with unless the page
- *     asks for others
+ * target_error, most_samples, seed, stiffness, material, poisson : computed with at first
  * materials : that can be chosen
  * folder : where `Save` writes, for the reader
  * upload_limit : bytes

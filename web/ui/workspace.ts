@@ -66,8 +66,9 @@ export class Workspace {
     document.body.append(notice.element);
     server.onConnection = (connection) => {
       notice.show(connection);
-      if (connection !== "open") this.#begun(null);
-      if (connection !== "open" && !this.#mesh) this.#reading.lose();
+      if (connection === "open") return;
+      this.#begun(null);
+      if (!this.#mesh) this.#reading.lose();
     };
     for (const type of ["input", "change"])
       document.getElementById("panel")!.addEventListener(type, () => this.#keepSoon());
@@ -104,10 +105,8 @@ export class Workspace {
       return;
     }
     if (this.#isBack && isSame) {
-      this.#isBack = false;
-      if (this.#isRunning)
-        this.#panel.fault("The server has forgotten what was being computed; compute again.");
-      this.#isRunning = false;
+      if (this.#isRunning) this.#panel.fault("The server has forgotten the computation; compute again.");
+      [this.#isBack, this.#isRunning] = [false, false];
       this.#update();
       this.#keep();
       return;
@@ -116,9 +115,7 @@ export class Workspace {
     this.#mesh = readMesh(await this.#server.fetched(given.mesh));
     this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
-    this.#model = null;
-    this.#job = given.job ?? 0;
-    this.#isRunning = given.is_running ?? false;
+    [this.#model, this.#job, this.#isRunning] = [null, given.job ?? 0, given.is_running ?? false];
     this.#motions = motionsOf(location.hash); // of a page that was loaded again
     this.#panel.clear();
     this.#choosing(true);
@@ -179,8 +176,7 @@ export class Workspace {
     this.#keeping = 0;
     if (!this.#mesh || !this.#sampling || !this.#server.isOpen) return;
     const { seed: _, ...sampling } = this.#sampling;
-    const handles = listed(this.#choice.handles);
-    const parts = partMessages(this.#choice.parts);
+    const [handles, parts] = [listed(this.#choice.handles), partMessages(this.#choice.parts)];
     this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#room.stage.up });
   }
 
@@ -222,8 +218,7 @@ export class Workspace {
 
   async #tellChoice(): Promise<void> {
     const { translation, angle } = this.#sampling!;
-    const handles = messageOf(this.#choice.handles);
-    const parts = partMessages(this.#choice.parts);
+    const [handles, parts] = [messageOf(this.#choice.handles), partMessages(this.#choice.parts)];
     await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
   }
 
@@ -300,5 +295,5 @@ export class Workspace {
   }
 }
 
-const KEEP_PAUSE = 150; // milliseconds: a stroke of the brush changes the choice with every move
+const KEEP_PAUSE = 150; // milliseconds: a brush changes the choice with every move
 const NOT_YET = { done: 0, total: 0, seconds: 0, eta: null, error: null };
