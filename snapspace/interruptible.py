@@ -11,24 +11,10 @@ from . import _core as core
 from .stopping import check_stop, ctrl_c_at_checks
 
 POLL_SECONDS = 0.1
-#: More are never of use, and far larger numbers do not fit in the core's integers.
-MOST_THREADS = 1024
 #: Name of threads with work that nobody has to wait for.
 ABANDONABLE = "abandonable"
 
 Result = TypeVar("Result")
-
-
-def checked_threads(threads: int | None, who: str) -> int:
-    """The number of threads, 0 for all; ValueError of `who` for a number that nobody has."""
-    if threads is None:
-        return 0
-    if not 0 <= threads <= MOST_THREADS:
-        raise ValueError(
-            f"{who}: threads is {threads}, but must be between 1 and {MOST_THREADS}, or None for "
-            "all"
-        )
-    return threads
 
 
 def run_abandonable(work: Callable[[], Result]) -> Result:

@@ -43,7 +43,7 @@ from .pose_path import handle_colors, posed_path
 @click.option(
     "--path",
     "frames",
-    type=click.IntRange(min=2),
+    type=click.IntRange(2, 1_000_000),
     metavar="N",
     help="N shapes on the way from rest to the motions, in place of the last one alone.",
 )

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any, overload
 
 from ..cubature import BlendedCubature, Cubature, train_blended_cubature, train_cubature
-from ..interruptible import checked_threads
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
 from ..subspace.orthonormality import check_orthonormal
+from ..thread_count import checked_threads
 from .energy_choice import Energy, chosen_energy, fewest_snapshots
 from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..interruptible import checked_threads
 from ..problem import Problem
+from ..thread_count import checked_threads
 from .checkpoint import Checkpoint
 from .run import Run
 from .snapshots import Snapshots

@@ -17,6 +17,7 @@ ALLOWED: dict[str, set[str]] = {
     "disk": set(),
     "extras": set(),
     "notice": set(),
+    "thread_count": set(),
     "blas": {"stopping"},
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
@@ -53,6 +54,7 @@ ALLOWED: dict[str, set[str]] = {
         "problem",
         "registration",
         "stopping",
+        "thread_count",
     },
     "certificate": {"_core", "material", "mesh", "problem", "subspace"},
     "cubature": {"_core", "blas", "material", "mesh", "problem", "subspace"},
@@ -68,6 +70,7 @@ ALLOWED: dict[str, set[str]] = {
         "problem",
         "snapshots",
         "subspace",
+        "thread_count",
     },
     "greedy": {
         "_core",

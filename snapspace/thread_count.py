@@ -1,0 +1,18 @@
+"""checked_threads: how many threads a caller wants."""
+
+from __future__ import annotations
+
+#: More are never of use, and far larger numbers do not fit in the core's integers.
+MOST_THREADS = 1024
+
+
+def checked_threads(threads: int | None, who: str) -> int:
+    """The number of threads, 0 for all; ValueError of `who` for a number that nobody has."""
+    if threads is None:
+        return 0
+    if not 0 <= threads <= MOST_THREADS:
+        raise ValueError(
+            f"{who}: threads is {threads}, but must be between 1 and {MOST_THREADS}, or None for "
+            "all"
+        )
+    return threads
