@@ -81,6 +81,11 @@ def _written(
     if suffix not in SURFACE_OUTPUTS + TET_OUTPUTS:
         known = ", ".join(known.removeprefix(".") for known in SURFACE_OUTPUTS + TET_OUTPUTS)
         raise ValueError(f"write_animation: unknown kind '{suffix[1:]}'; known are {known}")
+    if folder.suffix and not folder.is_dir():
+        raise ValueError(
+            f"write_animation: {folder} is neither a film, .gif or .mp4, nor a folder; give a name "
+            "without an extension for a new folder"
+        )
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

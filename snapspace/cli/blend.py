@@ -33,6 +33,7 @@ from .frames import (
 )
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
+from .progress import spinner
 
 EVEN = ("shape", "weights")
 
@@ -127,7 +128,10 @@ def blend(
     if output is not None and is_film(output):
         film = [shape.vertices for shape in shapes]
         rate = frames_per_second or 30.0
-        written = write_animation(output, model, film, frames_per_second=rate, up=up or model.up)
+        with spinner("drawing the film"):
+            written = write_animation(
+                output, model, film, frames_per_second=rate, up=up or model.up
+            )
     else:
         written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:

@@ -49,7 +49,17 @@ def check_frames_output(
         if output.suffix.lower() == ".mp4":
             need_extra("video", who=f"-o {output}")
     else:
+        _check_folder(output)
         make_folder(output, option="-o")
+
+
+def _check_folder(output: Path) -> None:
+    """ValueError for a name with an extension, unless such a folder is there."""
+    if output.suffix and not output.is_dir():
+        raise ValueError(
+            f"{output}: frames go to a film, {' or '.join(FILMS)}, or to a folder; give a name "
+            "without an extension for a new folder"
+        )
 
 
 def notice_old_frames(folder: Path, frames: int) -> None:

@@ -22,6 +22,7 @@ from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
 from .pose_path import handle_colors, posed_path
+from .progress import spinner
 
 
 @click.command(cls=MotionCommand, short_help="Move handles and write the shape.")
@@ -102,7 +103,8 @@ def pose(
         path = posed_path(model, motions, frames)
         rate = frames_per_second or 30.0
         shown_up = up or model.up
-        files = path.written(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
+        with spinner("writing the frames"):
+            files = path.written(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
         path.print_report(files)
         if as_json:
             print_json({"dimension": model.dimension, **path.as_json(files)})
