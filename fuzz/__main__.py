@@ -20,6 +20,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m fuzz", description=__doc__)
     parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(TARGETS)}")
     parser.add_argument("--seconds", type=float, default=120.0, help="in all (default: 120)")
+    parser.add_argument(
+        "--executions", type=int, default=10**9, help="at most, of each target; the same every time"
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the mutations (default: 0)")
     options = parser.parse_args()
     names = options.targets or list(TARGETS)
@@ -30,15 +33,16 @@ def main() -> int:
         corpus = Path(temporary) / "corpus"
         write_corpus(corpus)
         share = options.seconds / len(names)
-        faults = [fuzz(name, corpus, options.seed, share) for name in names]
+        faults = [fuzz(name, corpus, options.seed, share, options.executions) for name in names]
     return 1 if any(faults) else 0
 
 
-def fuzz(name: str, corpus: Path, seed: int, seconds: float) -> bool:
+def fuzz(name: str, corpus: Path, seed: int, seconds: float, executions: int) -> bool:
     """Whether a reader has a fault; prints executions and, if so, the fault."""
     folder = corpus.parent / name
     folder.mkdir()
-    command = [sys.executable, "-m", "fuzz.worker", name, corpus, folder, str(seed), str(seconds)]
+    bounds = [seed, seconds, executions]
+    command = [sys.executable, "-m", "fuzz.worker", name, corpus, folder, *bounds]
     finished = subprocess.run(
         list(map(str, command)), cwd=ROOT, capture_output=True, text=True, encoding="utf-8"
     )

@@ -17,7 +17,7 @@ SECONDS = 5.0
 MEMORY = 1 << 30
 
 
-def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float) -> int:
+def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float, executions: int) -> int:
     """Prints executions, files taken and a fault's reason, which is empty without one."""
     target, random = TARGETS[name], Random(seed)
     seeds = sorted((corpus / target.corpus).iterdir())
@@ -28,7 +28,7 @@ def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float) -> in
             return 1
     _bound_memory()
     end, count, taken = time.monotonic() + seconds, 0, 0
-    while time.monotonic() < end:
+    while count < executions and time.monotonic() < end:
         at = random.randrange(len(seeds))
         data = target.mutated(contents[at], random, contents)
         path = _written(folder, seeds[at], data, seeds)
@@ -75,5 +75,5 @@ def _bound_memory() -> None:
 
 
 if __name__ == "__main__":
-    name, corpus, folder, seed, seconds = sys.argv[1:]
-    sys.exit(main(name, Path(corpus), Path(folder), int(seed), float(seconds)))
+    name, corpus, folder, seed, seconds, most = sys.argv[1:]
+    sys.exit(main(name, Path(corpus), Path(folder), int(seed), float(seconds), int(most)))

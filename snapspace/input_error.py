@@ -6,9 +6,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+#: The longest message; a file may have names of any length.
+_LONGEST = 800
+
 
 def one_line(text: str) -> str:
-    """The text with line ends and control characters escaped, whatever a file has for a name."""
+    """The text with control characters escaped, and the middle of a long one left out.
+
+    A file may have anything for a name.
+    """
+    if len(text) > _LONGEST:
+        text = f"{text[: _LONGEST - 300]} ... {text[-290:]}"
     if text.isprintable():
         return text
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)

@@ -37,3 +37,11 @@ def test_a_file_takes_the_place_of_the_function(error: Exception) -> None:
 def test_other_errors_pass() -> None:
     with pytest.raises(KeyError), located("a.mesh"):
         raise KeyError("x")
+
+
+def test_messages_about_long_names_stay_short() -> None:
+    """The beginning says where, and the end says what helps."""
+    error = InputError("a.json", f"unknown entry '{'x' * 5000}'; known are mesh, handles")
+    assert len(str(error)) < 1000
+    assert str(error).startswith("a.json: unknown entry 'xxx")
+    assert str(error).endswith("xxx'; known are mesh, handles")
