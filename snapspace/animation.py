@@ -75,6 +75,14 @@ def write_animation(
     return _written(target, model, shapes, f".{kind}")
 
 
+def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
+    """Writes a shape (n, 3) of a model: its surface or its tets, by the extension."""
+    if path.suffix.lower() in SURFACE_OUTPUTS:
+        write_surface(path, model.surface.vertices(vertices), model.surface.faces)
+    else:
+        write_tets(path, model.problem.mesh, vertices=vertices)
+
+
 def _written(
     folder: Path, model: ReducedModel, shapes: Iterable[ArrayLike], suffix: str
 ) -> list[Path]:
@@ -96,10 +104,7 @@ def _written(
     for number, shape in enumerate(shapes):
         vertices = _checked(shape, model)
         file = folder / f"frame-{number:04d}{suffix}"
-        if suffix in SURFACE_OUTPUTS:
-            write_surface(file, model.surface.vertices(vertices), model.surface.faces)
-        else:
-            write_tets(file, model.problem.mesh, vertices=vertices)
+        write_shape(file, model, vertices)
         files.append(file)
     return files
 

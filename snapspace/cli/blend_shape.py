@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import tet_volumes, write_surface, write_tets
+from ..animation import write_shape
+from ..mesh import tet_volumes
 from ..reduction import InterpolationModel
 from ..session import BlendingSession, FrameReport
-from .files import SURFACE_OUTPUTS
 
 FloatArray = NDArray[np.float64]
 
@@ -82,8 +82,5 @@ def write_blended(model: InterpolationModel, shape: BlendedShape, path: Path) ->
     if shape.linear is not None:
         files.append((path.with_name(f"{path.stem}-linear{path.suffix}"), shape.linear))
     for file, vertices in files:
-        if file.suffix.lower() in SURFACE_OUTPUTS:
-            write_surface(file, model.surface.vertices(vertices), model.surface.faces)
-        else:
-            write_tets(file, model.problem.mesh, vertices=vertices)
+        write_shape(file, model, vertices)
     return [file for file, _ in files]

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from ..accurate import MOTIONS
+from ..animation import write_shape
 from ..disk.atomic_file import atomic_file
 from ..extras import missing
 from ..generators import creature
@@ -26,7 +27,6 @@ from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
 from .options import FILE, MODE_COUNT, SAMPLE_COUNT, SEED_NUMBER, json_option, threads_option
-from .pose import write_shape
 from .progress import sample_progress, spinner
 from .recipe import Recipe, check_dimension
 from .samples import GivenSamples, sampling_record

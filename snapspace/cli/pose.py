@@ -10,11 +10,11 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from ..animation import write_shape
 from ..extras import need_extra
-from ..mesh import write_surface, write_tets
 from ..mesh.input_path import writable_path
 from ..pictures import render, save_png
-from ..reduction import PosingModel, ReducedModel
+from ..reduction import PosingModel
 from .console import notice, print_facts, print_json
 from .files import SURFACE_OUTPUTS, TET_OUTPUTS
 from .frames import check_frames_output, format_option, rate_option
@@ -136,14 +136,6 @@ def pose(
     _print_report(figures)
     if as_json:
         print_json(figures)
-
-
-def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
-    """Writes a pose (n, 3) of a model: its surface or its tets, by the extension."""
-    if path.suffix.lower() in SURFACE_OUTPUTS:
-        write_surface(path, model.surface.vertices(vertices), model.surface.faces)
-    else:
-        write_tets(path, model.problem.mesh, vertices=vertices)
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:

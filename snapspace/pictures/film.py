@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..disk import atomic_file
 from ..extras import need_extra
 from .backdrop import backdrop, to_bytes
 from .checks import checked_samples, checked_size
@@ -92,13 +92,11 @@ def save_film(
         samples=checked_samples(samples, who="save_film"),
     )
     frames = (to_bytes(one.over(paper * one.shadow()[:, :, None])) for one in exposures)
-    with tempfile.TemporaryDirectory(prefix=".film-", dir=target.parent) as folder:
-        unfinished = Path(folder) / f"film{target.suffix.lower()}"
+    with atomic_file(target) as unfinished:
         if movie:
             _write_movie(unfinished, frames, (width, height), frames_per_second)
         else:
             _write_gif(unfinished, frames, frames_per_second)
-        os.replace(unfinished, target)
     return target
 
 
