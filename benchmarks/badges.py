@@ -34,7 +34,7 @@ def figures(name: str, unseen: int) -> dict[str, Any]:
     built = ss.accurate_model(problem)
     judging = built.snapshots.select(built.held_out & built.snapshots.converged)
     begin = time.perf_counter()
-    ss.calibrated(built.model, reference=judging, thorough=False)
+    ss.calibrate(built.model, reference=judging, thorough=False)
     seconds = time.perf_counter() - begin
     checked = ss.validate(built.model, samples=unseen, seed=5)
     session, estimates, milliseconds = built.model.session(), [], []

@@ -74,7 +74,7 @@ def estimates(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     """Both certificates and other indicators against true errors."""
     model, reference = built(args)
     begin = time.perf_counter()
-    model = ss.calibrated(model, samples=args.calibration, seed=args.seed)
+    model = ss.calibrate(model, samples=args.calibration, seed=args.seed)
     seconds = time.perf_counter() - begin
     found: dict[str, list[Any]] = {"quick": [], "thorough": []}
     truth, relative, others = [], [], []

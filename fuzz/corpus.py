@@ -47,7 +47,7 @@ def models() -> Iterator[tuple[str, ss.ReducedModel]]:
     soft = np.linspace(0.5, 2.0, len(mesh().tets))
     material = ss.StableNeoHookean(lam=1.5 * soft, mu=soft)
     cubature = posing_model(material, energy="cubature")
-    yield "posing-cubature", ss.calibrated(cubature, samples=8)
+    yield "posing-cubature", ss.calibrate(cubature, samples=8)
     corners = np.array([[0, 1, 2, 3], [4, 5, 6, 7], [0, 2, 4, 6]], np.int32)
     surface = EmbeddedSurface(np.array([[0, 1, 2]], np.int32), corners, np.full((3, 4), 0.25))
     yield "own-surface", replace(posing_model(energy="exact"), surface=surface)

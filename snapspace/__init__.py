@@ -11,7 +11,7 @@ from typing import Any as _Any
 EXPORTS = {
     "accurate": ("AccurateModel", "Growth", "accurate_model", "growing_models"),
     "animation": ("write_animation",),
-    "calibration": ("calibrated",),
+    "calibration": ("calibrate",),
     "certificate": ("Certificate", "ErrorEstimator"),
     "cubature": ("Cubature", "CubatureErrors"),
     "displacements": ("DisplacementRows", "SnapshotGram"),
@@ -78,7 +78,7 @@ EXPORTS = {
         "SolveProgress",
         "SolverOptions",
         "UnsavedSamplesError",
-        "carried",
+        "carry_over",
         "load_snapshots",
         "save_snapshots",
         "solve_snapshots",

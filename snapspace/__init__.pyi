@@ -7,7 +7,7 @@ from .accurate import (
     growing_models,
 )
 from .animation import write_animation
-from .calibration import calibrated
+from .calibration import calibrate
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
 from .displacements import DisplacementRows, SnapshotGram
@@ -89,7 +89,7 @@ from .snapshots import (
     SolveProgress,
     SolverOptions,
     UnsavedSamplesError,
-    carried,
+    carry_over,
     load_snapshots,
     save_snapshots,
     solve_snapshots,
@@ -172,8 +172,8 @@ __all__ = [
     "accurate_model",
     "affine_subspace",
     "boundary_surface",
-    "calibrated",
-    "carried",
+    "calibrate",
+    "carry_over",
     "embed_surface",
     "error_curve",
     "export_html",

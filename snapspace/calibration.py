@@ -1,4 +1,4 @@
-"""calibrated: a model that can say how far its frames are from full solutions."""
+"""calibrate: a model that can say how far its frames are from full solutions."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ TYPICAL_FRAMES = 32
 NOTHING = 1e-12
 
 
-def calibrated(
+def calibrate(
     model: Model,
     *,
     samples: int | None = None,
@@ -112,19 +112,19 @@ def _full(
     if reference is not None:
         if samples is not None or seed is not None:
             raise ValueError(
-                "calibrated: the parameters come from the reference, so samples and seed are of no "
+                "calibrate: the parameters come from the reference, so samples and seed are of no "
                 "effect; leave them or the reference out"
             )
-        check_reference(model, reference, who="calibrated")
+        check_reference(model, reference, who="calibrate")
         if len(reference) < 2:
             raise ValueError(
-                "calibrated: the reference has one full solution, but it takes two to compare "
+                "calibrate: the reference has one full solution, but it takes two to compare "
                 "with; give one of more samples"
             )
         return reference
     count = SAMPLES if samples is None else samples
     if count < 2:
-        raise ValueError(f"calibrated: samples is {count}, but must be at least 2")
+        raise ValueError(f"calibrate: samples is {count}, but must be at least 2")
     problem = model.problem
     # as tight as in `validate`: at 1e-7 the errors of a creature's frames come out 5 % too small
     solved = solve_snapshots(
@@ -137,7 +137,7 @@ def _full(
     full = solved.select(solved.converged)
     if len(full) < 2:
         raise ValueError(
-            f"calibrated: {len(full)} of {count} full solutions converged, but it takes two to "
+            f"calibrate: {len(full)} of {count} full solutions converged, but it takes two to "
             "compare with; choose a smaller domain"
         )
     return full

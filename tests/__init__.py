@@ -1,1 +1,1 @@
-"""Tests; a package, so that the rooms can share `shapes` and `taylor`."""
+"""Tests; a package, so that the packages can share `shapes` and `taylor`."""

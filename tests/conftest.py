@@ -1,4 +1,4 @@
-"""Fixtures that several rooms share: they cost a second and are made once."""
+"""Fixtures that several packages share: they cost a second and are made once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Generated meshes, deformations and problems that several test rooms share."""
+"""Generated meshes, deformations and problems that several test packages share."""
 
 from __future__ import annotations
 

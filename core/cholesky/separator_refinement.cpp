@@ -11,7 +11,7 @@ namespace {
 /// The side to which a pass moves vertices. A separator that goes to one side only sweeps over
 /// hills that it does not climb while vertices go both ways: a tenth of the factor's entries in
 /// bodies.
-enum class Towards : std::int8_t { left, right, either };
+enum class MoveSide : std::int8_t { left, right, either };
 
 class Refinement {
  public:
@@ -31,14 +31,14 @@ class Refinement {
     return static_cast<double>(weights_[2]) * (1.0 + 0.5 * uneven * uneven);
   }
 
-  [[nodiscard]] Towards lighter() const {
-    return weights_[0] <= weights_[1] ? Towards::left : Towards::right;
+  [[nodiscard]] MoveSide lighter() const {
+    return weights_[0] <= weights_[1] ? MoveSide::left : MoveSide::right;
   }
 
   /// Moves every vertex once at most, also at a loss; what comes after the best state is undone.
-  void run_pass(Towards towards) {
-    open_[0] = towards != Towards::right;
-    open_[1] = towards != Towards::left;
+  void run_pass(MoveSide towards) {
+    open_[0] = towards != MoveSide::right;
+    open_[1] = towards != MoveSide::left;
     std::size_t patience = start_pass(), keep = 0;
     double least = cost();
     while (moves_.size() < keep + patience) {
@@ -166,9 +166,9 @@ class Refinement {
 double refine_separator(const WeightedGraph& graph, std::vector<Side>& sides) {
   constexpr int kMaxPasses = 12;
   Refinement refinement(graph, sides);
-  const bool left_first = refinement.lighter() == Towards::left;
-  const Towards turns[] = {left_first ? Towards::left : Towards::right,
-                           left_first ? Towards::right : Towards::left, Towards::either};
+  const bool left_first = refinement.lighter() == MoveSide::left;
+  const MoveSide turns[] = {left_first ? MoveSide::left : MoveSide::right,
+                           left_first ? MoveSide::right : MoveSide::left, MoveSide::either};
   for (int pass = 0, in_vain = 0; pass < kMaxPasses && in_vain < 3; ++pass) {
     const double before = refinement.cost();
     refinement.run_pass(turns[pass % 3]);

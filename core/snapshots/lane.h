@@ -20,7 +20,7 @@ struct Lane {
   static constexpr int kMaxShortenings = 30;
 
   /// On a trial: the sample begins there, or has moved there, or neither.
-  enum class Verdict { refused, started, moved };
+  enum class TrialOutcome { refused, started, moved };
 
   std::optional<Sample> sample;
   bool fresh = false;      // the start itself is evaluated next
@@ -53,17 +53,17 @@ struct Lane {
   /// @param trial_slope  gradient there . direction
   /// @param step_square  of the length of the step there; trial_square: of the displacement
   /// @param rounding     relative error of a value
-  Verdict judge(double trial_value, double trial_slope, double step_square, double trial_square,
+  TrialOutcome judge(double trial_value, double trial_slope, double step_square, double trial_square,
                 double rounding) {
-    if (!running()) return Verdict::refused;
+    if (!running()) return TrialOutcome::refused;
     ++evaluations;
     if (fresh) {
       fresh = false;
       value = trial_value;
       step = 1.0;
-      if (std::isfinite(value)) return Verdict::started;
+      if (std::isfinite(value)) return TrialOutcome::started;
       finish(SolveStatus::not_finite);
-      return Verdict::refused;
+      return TrialOutcome::refused;
     }
     if (sufficient_decrease(value, slope, step, trial_value, trial_slope, rounding)) {
       record(value - trial_value, std::sqrt(step_square) / step, std::sqrt(trial_square));
@@ -74,11 +74,11 @@ struct Lane {
       // a tenth are the rule. Searches begin near the last accepted length: on the Dragon that
       // takes 155 evaluations instead of 250, and growth by 1.4 a tenth fewer than growth by 2.
       step = std::min(1.0, 1.4 * step);
-      return Verdict::moved;
+      return TrialOutcome::moved;
     }
     step = shorter_step(value, slope, step, trial_value, trial_slope);
     if (++shortenings > kMaxShortenings) finish(SolveStatus::line_search_failed);
-    return Verdict::refused;
+    return TrialOutcome::refused;
   }
 
   [[nodiscard]] SolveReport report() const {

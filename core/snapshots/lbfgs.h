@@ -81,7 +81,7 @@ class LaneLbfgs {
   using Vectors = LbfgsVectors<Real, memory>;
   using Products = typename Vectors::Products;
   using Outcome = typename Vectors::Outcome;
-  using Verdict = Lane::Verdict;
+  using TrialOutcome = Lane::TrialOutcome;
 
   /// Takes over the samples of a wider pack that has at most kWidth.
   template <class Wide>
@@ -116,7 +116,7 @@ class LaneLbfgs {
 
   /// Where a lane is, although the vectors are not told yet.
   [[nodiscard]] double at(int lane, int i) const {
-    return verdicts_[lane] == Verdict::refused ? vectors_.at(lane, i) : trial_[i][lane];
+    return verdicts_[lane] == TrialOutcome::refused ? vectors_.at(lane, i) : trial_[i][lane];
   }
 
   void hand_over(int lane, SampleExchange& exchange) {
@@ -132,7 +132,7 @@ class LaneLbfgs {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
-    verdicts_[index] = Verdict::refused;
+    verdicts_[index] = TrialOutcome::refused;
     pairs_[index].forget();
     objective_->load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
@@ -156,7 +156,7 @@ class LaneLbfgs {
       verdicts_[lane] =
           lanes_[lane].judge(value[lane], slope(lane, products), products.step_square[lane],
                              products.trial_square[lane], kRounding);
-      if (verdicts_[lane] == Verdict::refused) continue;
+      if (verdicts_[lane] == TrialOutcome::refused) continue;
       lanes_[lane].accept_norm(std::sqrt(products.itself[lane]));
     }
     scale_ = pass.scale;
@@ -216,17 +216,17 @@ class LaneLbfgs {
   /// New directions of the lanes that accept their trial; or the end of their samples.
   void turn(const Products& products, Total itself) {
     for (int lane = 0; lane < kWidth; ++lane) {
-      if (verdicts_[lane] == Verdict::refused) continue;
+      if (verdicts_[lane] == TrialOutcome::refused) continue;
       typename Pairs::Trial trial{slope(lane, products), {}, {}, itself[lane]};
       for (int k = 0; k < kPairs; ++k) trial.images[k] = products.images[k][lane];
       for (int k = 0; k < kPairs - 1; ++k) trial.steps[k] = products.steps[k][lane];
-      if (verdicts_[lane] == Verdict::moved)
+      if (verdicts_[lane] == TrialOutcome::moved)
         pairs_[lane].move(trial, steps_[lane]);
       else
         pairs_[lane].start(trial);
       const double slope = pairs_[lane].turn();
       if (!std::isfinite(slope)) {  // nothing of this trial may get into the vectors
-        verdicts_[lane] = Verdict::refused;
+        verdicts_[lane] = TrialOutcome::refused;
         lanes_[lane].finish(SolveStatus::not_finite);
         pairs_[lane].forget();
         continue;
@@ -240,11 +240,11 @@ class LaneLbfgs {
     Outcome outcome;
     outcome.scale = scale_;
     for (int lane = 0; lane < kWidth; ++lane) {
-      outcome.accepted.set(lane, verdicts_[lane] != Verdict::refused ? 1 : 0);
+      outcome.accepted.set(lane, verdicts_[lane] != TrialOutcome::refused ? 1 : 0);
       outcome.weigh(lane, pairs_[lane]);
       const bool going = lanes_[lane].running() && !lanes_[lane].fresh;
       outcome.going.set(lane, going);
-      const double before = verdicts_[lane] == Verdict::refused ? steps_[lane] : 1.0;
+      const double before = verdicts_[lane] == TrialOutcome::refused ? steps_[lane] : 1.0;
       steps_.set(lane, going ? lanes_[lane].step : 0.0);
       if (going) outcome.next_length.set(lane, steps_[lane] / before);
     }
@@ -278,7 +278,7 @@ class LaneLbfgs {
   Vectors vectors_;
   Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
-  Verdict verdicts_[kWidth];  // on the last trials
+  TrialOutcome verdicts_[kWidth];  // on the last trials
   bool pending_ = false;      // the vectors are not told of these verdicts yet
   Total scale_ = 1.0;         // A^-1 gradient = scale_ * single_gradient() in the last trials
   Total steps_ = 0.0;         // that lead to the trials, as shares of the directions

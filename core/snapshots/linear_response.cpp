@@ -21,7 +21,7 @@ constexpr int kMostResponseSteps = 200;
 /// Decrease of the energy in a step that ends the solve, as a share of that in all steps but the
 /// first, in which the handles move. On the Dragon it is 20 steps; starts from exact responses need
 /// as many evaluations.
-constexpr double kEnough = 3e-4;
+constexpr double kLeastGain = 3e-4;
 
 /// Lane by lane; nothing where there is no divisor.
 ResponseSums quotient(ResponseSums a, ResponseSums b) {
@@ -33,7 +33,7 @@ ResponseSums quotient(ResponseSums a, ResponseSums b) {
 
 bool negligible(ResponseSums gain, ResponseSums all) {
   for (int lane = 0; lane < kTogether; ++lane)
-    if (gain[lane] > kEnough * all[lane]) return false;
+    if (gain[lane] > kLeastGain * all[lane]) return false;
   return true;
 }
 

@@ -13,7 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Checkpoint, Progress, Snapshots, SolverOptions
-from .model_search import Aim, Model, ModelSearch, Tell
+from .model_search import Model, ModelSearch, SearchOptions, Tell
 from .solving import Solving
 from .step import Step
 
@@ -163,7 +163,9 @@ def accurate_model(
     """
     search = ModelSearch(
         problem,
-        Aim(target_error=target_error, most_samples=most_samples, budget=budget, seed=seed),
+        SearchOptions(
+            target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
+        ),
         Solving(
             options=options,
             threads=threads,

@@ -13,7 +13,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
-from .model_search import Aim, Begins, Model, ModelSearch, Trial
+from .model_search import Begins, Model, ModelSearch, SearchOptions, Trial
 from .solving import Solving
 from .step import Step
 
@@ -85,7 +85,9 @@ def growing_models(
     """
     search = ModelSearch(
         problem,
-        Aim(target_error=target_error, most_samples=most_samples, budget=budget, seed=seed),
+        SearchOptions(
+            target_error=target_error, most_samples=most_samples, budget=budget, seed=seed
+        ),
         Solving(options=options, threads=threads, progress=progress, executor=executor),
         start=start,
         surface=surface,

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..calibration import calibrated
+from ..calibration import calibrate
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
@@ -18,12 +18,12 @@ from ..snapshots import Snapshots
 from ..subspace import snapshot_pca
 from ..validation import unseen_errors, with_lower_minima
 from .checks import check_budget, check_most, check_target
+from .dimension_search import DimensionSearch
 from .growing_samples import GrowingSamples
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, usual_most_samples
 from .solving import Solving
 from .step import Step
-from .tries import Tries
 
 Model = PosingModel | InterpolationModel
 #: Gets a line for people.
@@ -42,7 +42,7 @@ class Trial:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Aim:
+class SearchOptions:
     """What is looked for; None stands for the default.
 
     target_error, most_samples, budget, seed : as for `accurate_model`
@@ -60,7 +60,7 @@ class ModelSearch:
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
-    aim : Aim
+    options : SearchOptions
     solving : Solving
     start : PosingModel, optional
         Of other handles, see `accurate_model`.
@@ -76,7 +76,7 @@ class ModelSearch:
     def __init__(
         self,
         problem: PosingProblem | InterpolationProblem,
-        aim: Aim,
+        options: SearchOptions,
         solving: Solving,
         *,
         start: PosingModel | None = None,
@@ -86,12 +86,14 @@ class ModelSearch:
     ) -> None:
         self._begin = time.perf_counter()
         usual = plan_of(problem)
-        self.target = usual.target if aim.target_error is None else aim.target_error
-        self._most = usual_most_samples(problem) if aim.most_samples is None else aim.most_samples
+        self.target = usual.target if options.target_error is None else options.target_error
+        self._most = (
+            usual_most_samples(problem) if options.most_samples is None else options.most_samples
+        )
         check_target(self.target)
         check_most(self._most)
-        check_budget(aim.budget)
-        self._budget = aim.budget
+        check_budget(options.budget)
+        self._budget = options.budget
         self._plan = usual.fitting(self._most)
         self._old: OldModel | None = None
         self._near = 0  # shapes that the first model is made of, with an old one
@@ -109,7 +111,7 @@ class ModelSearch:
             problem,
             self._most,
             method=self._plan.sampling,
-            seed=aim.seed,
+            seed=options.seed,
             first=0 if self._old else self._plan.first,  # the old model has trained already
             held_out=self._plan.held_out,
         )
@@ -159,7 +161,7 @@ class ModelSearch:
         provenance: dict[str, Any] = {**best.model.provenance, "accurate": record}
         model = replace(best.model, provenance=provenance)
         if len(best.unseen) > 1:
-            model = calibrated(model, reference=best.unseen, thorough=False)
+            model = calibrate(model, reference=best.unseen, thorough=False)
         return replace(best, model=model)
 
     def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
@@ -182,7 +184,7 @@ class ModelSearch:
             if self._first is not None and stage == 0:
                 yield self._taken(self._judged(count, self._first))
             else:
-                tries = Tries(self.samples, self._plan, self.target, ratio)
+                tries = DimensionSearch(self.samples, self._plan, self.target, ratio)
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
                     tries.add(trial.step)
@@ -214,7 +216,7 @@ class ModelSearch:
             self.best = trial
         return trial
 
-    def _try(self, count: int, dimension: int, tries: Tries) -> Trial:
+    def _try(self, count: int, dimension: int, tries: DimensionSearch) -> Trial:
         begin = time.perf_counter()
         model = self._model(self.samples.trained, dimension)
         trial = self._judged(count, model, tries.projection(dimension))

@@ -14,7 +14,7 @@ from ..greedy import after_steps, reduced_solutions
 from ..interruptible import begin_abandonable
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import PosingModel, handle_quadric
-from ..snapshots import SampleReport, Snapshots, carried, lowest_start
+from ..snapshots import SampleReport, Snapshots, carry_over, lowest_start
 
 FloatArray = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ class OldModel:
         model = self._model
         rows = model.training_coordinates[: self._most] @ model.subspace.basis.T
         parameters = model.training_parameters[: self._most]
-        return carried(_guessed(model.problem, parameters, rows), self._problem)
+        return carry_over(_guessed(model.problem, parameters, rows), self._problem)
 
     def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
         """Shapes near the solutions for samples (k, p): guesses, and some steps of the solver."""
@@ -113,7 +113,7 @@ class OldModel:
         columns = (6 * (self._kept[1:, None] - 1) + np.arange(6)).reshape(-1)
         wanted = np.ascontiguousarray(parameters[:, columns])
         solved = reduced_solutions(self._with_handles(common, columns), wanted)
-        there = carried(_guessed(common, wanted, solved), problem).parameters
+        there = carry_over(_guessed(common, wanted, solved), problem).parameters
         return solved + problem.guesses(parameters) - problem.guesses(there)
 
     def _with_handles(

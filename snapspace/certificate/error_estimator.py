@@ -68,6 +68,6 @@ class ErrorEstimator:
         if self.movement_ratios is None:
             raise ValueError(
                 "certificate: the model was calibrated for quick certificates only; "
-                "snapspace.calibrated(model) measures what a polish moves, too"
+                "snapspace.calibrate(model) measures what a polish moves, too"
             )
         return LocalRatios(self.coordinates, self.movement_ratios)

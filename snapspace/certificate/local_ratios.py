@@ -82,6 +82,6 @@ def _rank(count: int, confidence: float) -> int:
         needed = math.ceil(confidence / (1 - confidence) - 1e-9)
         raise ValueError(
             f"certificate: a confidence of {confidence:g} takes {needed} calibration samples, the "
-            f"model has {count}; use calibrated(model, samples={needed})"
+            f"model has {count}; use calibrate(model, samples={needed})"
         )
     return rank

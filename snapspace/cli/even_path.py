@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..reduction import InterpolationModel
 from ..session import BlendingSession
-from .even_walk import EvenWalk, Jump, Place, Way
+from .even_walk import EvenWalk, Jump, PathPoint, ShapePath
 
 FloatArray = NDArray[np.float64]
 
@@ -52,7 +52,7 @@ class Leg:
     A jump does not count: no frame is in its middle.
     """
 
-    places: list[Place]
+    places: list[PathPoint]
     lengths: FloatArray
     jumps: list[Jump]
 
@@ -126,7 +126,11 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
             return session.q
 
         walk = EvenWalk(
-            Way(solve, motion), q, length=float(straight[k]), even=even / FINER, jump=JUMP * even
+            ShapePath(solve, motion),
+            q,
+            length=float(straight[k]),
+            even=even / FINER,
+            jump=JUMP * even,
         )
         places, lengths, jumps = [walk.at], [0.0], []
         while walk.at.share < 1:
@@ -143,7 +147,7 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
     return legs
 
 
-def _place_at(leg: Leg, way: float) -> tuple[float, Place]:
+def _place_at(leg: Leg, way: float) -> tuple[float, PathPoint]:
     """The share of a leg where the shape has moved so far, and the place before it."""
     if way <= 0:
         return 0.0, leg.places[0]  # a pose exactly, also if the shape rests there

@@ -21,7 +21,7 @@ GROWTHS = 3
 
 
 @dataclass(frozen=True)
-class Place:
+class PathPoint:
     """A shape on the way, by its coordinates q (d,), at a share of it between 0 and 1."""
 
     share: float
@@ -29,7 +29,7 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Way:
+class ShapePath:
     """What is walked: shapes by their share of it, solved for from one near, and how far they move.
 
     A motion is the largest of a vertex between two shapes.
@@ -43,8 +43,8 @@ class Way:
 class Jump:
     """Between two places that are LEAST_STEP apart the shape moves so far."""
 
-    before: Place
-    after: Place
+    before: PathPoint
+    after: PathPoint
     motion: float
 
 
@@ -56,10 +56,12 @@ class EvenWalk:
     `jump` is a jump: the energy has no minimum between.
     """
 
-    def __init__(self, way: Way, start: FloatArray, *, length: float, even: float, jump: float):
+    def __init__(
+        self, way: ShapePath, start: FloatArray, *, length: float, even: float, jump: float
+    ):
         self._way, self._even, self._jump = way, even, jump
         self._pace = 1 / length if length > 0 else np.inf
-        self.at = Place(0.0, start)
+        self.at = PathPoint(0.0, start)
 
     def step(self) -> Jump | None:
         """Takes a step, a shorter one at the end of the way; the jump in it, if there is one."""
@@ -72,7 +74,7 @@ class EvenWalk:
         near, far, moved, growths = start, None, 0.0, 0
         share = within(self._pace * even)
         while True:
-            tried = Place(share, way.solve(share, near.q))
+            tried = PathPoint(share, way.solve(share, near.q))
             motion = way.motion(start.q, tried.q)
             is_first = far is None
             if motion > LARGE * even:
@@ -97,7 +99,7 @@ class EvenWalk:
         self._go(near, moved)
         return None
 
-    def _cross(self, start: Place, near: Place, far: Place) -> Jump | None:
+    def _cross(self, start: PathPoint, near: PathPoint, far: PathPoint) -> Jump | None:
         """Between `near` and `far` there is no smaller step."""
         gap = self._way.motion(near.q, far.q)
         if gap <= self._jump:
@@ -107,7 +109,7 @@ class EvenWalk:
         self.at = far
         return Jump(near, far, gap)
 
-    def _go(self, place: Place, moved: float) -> None:
+    def _go(self, place: PathPoint, moved: float) -> None:
         step = place.share - self.at.share
         if step > 0:
             self._pace = min(step / moved if moved > 0 else np.inf, 4 * self._pace)

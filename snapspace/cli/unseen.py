@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..accurate import plan_of
-from ..calibration import calibrated
+from ..calibration import calibrate
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from ..validation import Validation, solved_reference, validate, with_lower_minima
@@ -46,7 +46,7 @@ def with_estimates(model: Model, validation: Validation | None) -> Model:
     """The model with error estimates for its frames, measured by what judged it."""
     if validation is None or len(validation.reference) < 2:
         return model
-    return calibrated(model, reference=validation.reference, thorough=False)
+    return calibrate(model, reference=validation.reference, thorough=False)
 
 
 def unseen_record(

@@ -23,7 +23,7 @@ from ..server import (
     serve,
 )
 from ..server.serve import HOST
-from ..server.site import UPLOAD_LIMIT
+from ..server.settings import UPLOAD_LIMIT
 from .console import notice
 from .loading import load_leading
 from .options import FILE, leading_option, up_option

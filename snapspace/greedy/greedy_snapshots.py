@@ -75,8 +75,8 @@ def greedy_snapshots(
     checkpoint : Checkpoint, optional
         As for `solve_snapshots`; each batch has a folder in that of the checkpoint.
     known : Snapshots, optional
-        Of the same problem, solved or `carried`. The model counts them as samples, so that even the
-        first batch is chosen, and they are starts.
+        Of the same problem, solved or carried over. The model counts them as samples, so that
+        even the first batch is chosen, and they are starts.
 
     Returns
     -------

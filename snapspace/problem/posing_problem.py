@@ -92,7 +92,7 @@ class PosingProblem:
     def with_handles(self, handles: Handles, *, domain: HandleBox | None = None) -> PosingProblem:
         """The same body, of the same material and stiffness, moved by other handles.
 
-        What solutions for the old handles are worth for the new ones is told by `carried`.
+        What solutions for the old handles are worth for the new ones is told by `carry_over`.
 
         Parameters
         ----------

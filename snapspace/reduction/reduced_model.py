@@ -33,7 +33,7 @@ class ReducedModel(ABC):
     training_parameters : (k, p) of the solutions that the subspace was made from, or (0, p)
     training_coordinates : (k, d) of their projections, or (0, d)
     provenance : what made it: versions, seeds, options, timings
-    error_estimator : ErrorEstimator of `calibrated`, for `Session.certificate`
+    error_estimator : ErrorEstimator of `calibrate`, for `Session.certificate`
     """
 
     problem: Problem

@@ -17,7 +17,7 @@ from ..page.page_file import PLACE, page_html
 from .guard import Guard
 from .hosts import LOCAL
 from .live import live_endpoint
-from .site import Site
+from .settings import ServerSettings
 from .uploads import upload_endpoint
 from .workspace import Workspace
 from .workspaces import Workspaces
@@ -25,15 +25,15 @@ from .workspaces import Workspaces
 Handler = Callable[[Request], Awaitable[Response]]
 
 
-def page_app(site: Site, *, hosts: Container[str] = LOCAL) -> Starlette:
+def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Starlette:
     """Serves requests that `Guard` lets through.
 
-    GET / is the page, /model the model of the site, /mesh/ID/NUMBER and /model/ID/NUMBER what a
+    GET / is the page, /model the model of the settings, /mesh/ID/NUMBER and /model/ID/NUMBER what a
     workspace has; POST /mesh takes uploads, and /live is the websocket, see `messages`.
 
     Parameters
     ----------
-    site : Site
+    settings : ServerSettings
     hosts : container of str, default this machine's local names
         As for `Guard`.
 
@@ -42,24 +42,28 @@ def page_app(site: Site, *, hosts: Container[str] = LOCAL) -> Starlette:
     ValueError
         If the package was made without its page, or for a model that pages do not solve.
     """
-    workspaces = Workspaces(site)
+    workspaces = Workspaces(settings)
     routes = [
-        Route("/", _page(site)),
-        Route("/mesh", upload_endpoint(site, workspaces), methods=["POST"]),
+        Route("/", _page(settings)),
+        Route("/mesh", upload_endpoint(settings, workspaces), methods=["POST"]),
         Route("/mesh/{id}/{number:int}", _content(workspaces, Workspace.mesh_content)),
         Route("/model/{id}/{number:int}", _content(workspaces, Workspace.model_content)),
         WebSocketRoute("/live", live_endpoint(workspaces)),
     ]
-    if site.model is not None:
-        routes.append(Route("/model", _bytes(packed(site.model, name=site.title, up=site.up))))
-    return Starlette(routes=routes, middleware=[Middleware(Guard, token=site.token, hosts=hosts)])
+    if settings.model is not None:
+        routes.append(
+            Route("/model", _bytes(packed(settings.model, name=settings.title, up=settings.up)))
+        )
+    return Starlette(
+        routes=routes, middleware=[Middleware(Guard, token=settings.token, hosts=hosts)]
+    )
 
 
-def _page(site: Site) -> Handler:
+def _page(settings: ServerSettings) -> Handler:
     """The page, told where its server is, and its model if there is one."""
-    query = f"?token={site.token}"
+    query = f"?token={settings.token}"
     places = {"snapspace-server": f"live{query}"}
-    if site.model is not None:
+    if settings.model is not None:
         places["snapspace-model"] = f"model{query}"
     told = "".join(
         f'<meta name="{name}" content="{html.escape(address)}" />'

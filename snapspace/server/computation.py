@@ -9,10 +9,10 @@ from ..mesh import EmbeddedSurface
 from ..problem import PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Interrupted, SolveProgress
+from .computation_queue import ComputationQueue
 from .messages import Compute
 from .reporter import Reporter
 from .solved_samples import SolvedSamples
-from .turns import Turns
 
 Publish = Callable[[Growth, float], None]
 
@@ -27,7 +27,7 @@ class Computation:
     ----------
     problem : PosingProblem
     order : Compute
-    turns : Turns
+    queue : ComputationQueue
         Of the machine.
     solved : SolvedSamples
         What is known, and where finished samples are kept, also when this is stopped.
@@ -50,7 +50,7 @@ class Computation:
         problem: PosingProblem,
         order: Compute,
         *,
-        turns: Turns,
+        queue: ComputationQueue,
         solved: SolvedSamples,
         report: Reporter,
         start: PosingModel | None,
@@ -59,7 +59,7 @@ class Computation:
     ) -> None:
         _check(order)
         self._problem, self._order = problem, order
-        self._turns, self._solved = turns, solved
+        self._queue, self._solved = queue, solved
         self._report, self._publish = report, publish
         self._start, self._surface = start, surface
         self._error: float | None = None  # of the newest model
@@ -67,7 +67,7 @@ class Computation:
     def run(self) -> None:
         """Computes to the last model; ValueError of the numerics."""
         order = self._order
-        with self._turns.turn(self._waiting):
+        with self._queue.turn(self._waiting):
             self._report.restart()
             self._report.tell("snapshots")
             try:

@@ -12,7 +12,7 @@ LOCAL: Container[str] = frozenset({"127.0.0.1", "localhost", "::1"})
 _EVERYWHERE = ("0.0.0.0", "::")
 
 
-class OwnNames:
+class TrustedHosts:
     """All addresses, and the names that this machine gives itself.
 
     Another page in a browser can reach a server under a name of its own whose address it changes
@@ -34,7 +34,7 @@ class OwnNames:
 def hosts_for(host: str) -> Container[str]:
     """The names for a server that listens at `host`."""
     if host in _EVERYWHERE:
-        return OwnNames()
+        return TrustedHosts()
     return frozenset({"127.0.0.1", "localhost", "::1", host.lower()})
 
 

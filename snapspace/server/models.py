@@ -12,7 +12,7 @@ KEPT = 2
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptModel:
     """A model and what the page reads of it."""
 
     number: int
@@ -24,17 +24,17 @@ class Models:
     """Numbers count from 1, also after `clear`: an address never means another model."""
 
     def __init__(self) -> None:
-        self._kept: tuple[Kept, ...] = ()
+        self._kept: tuple[KeptModel, ...] = ()
         self._count = 0
 
     def add(self, model: ReducedModel, content: bytes) -> int:
         """Keeps a model, and lets go of the oldest one; its number."""
         self._count += 1
-        self._kept = (*self._kept[1 - KEPT :], Kept(self._count, model, content))
+        self._kept = (*self._kept[1 - KEPT :], KeptModel(self._count, model, content))
         return self._count
 
     @property
-    def newest(self) -> Kept | None:
+    def newest(self) -> KeptModel | None:
         """The last model; None before the first."""
         return self._kept[-1] if self._kept else None
 
@@ -53,7 +53,7 @@ class Models:
         other = model.problem.fingerprint != problem.fingerprint
         return model if other and len(model.training_parameters) else None
 
-    def find(self, number: int) -> Kept | None:
+    def find(self, number: int) -> KeptModel | None:
         """A model by number; None if it is not there any more."""
         return next((kept for kept in self._kept if kept.number == number), None)
 

@@ -25,7 +25,7 @@ LONGEST = 100
 
 
 @dataclass
-class Savings:
+class SavedFiles:
     """Writes files of one page, and knows which are its own: only those are replaced.
 
     A file counts as its own while nobody else has changed it since.

@@ -14,8 +14,8 @@ from ..extras import need_extra
 from ..reduction import ReducedModel
 from .hosts import hosts_for, shown_host
 from .listener import listening
+from .settings import UPLOAD_LIMIT, ServerSettings
 from .shared_body import SharedBody
-from .site import UPLOAD_LIMIT, Site
 from .surface_filling import SurfaceFilling
 
 HOST = "127.0.0.1"
@@ -78,7 +78,7 @@ def serve(
     token = secrets.token_urlsafe(18)
     try:
         with _terminated_alike(), _scratch_folder() as scratch:
-            site = Site(
+            settings = ServerSettings(
                 title=title,
                 up=up,
                 token=token,
@@ -90,7 +90,7 @@ def serve(
                 filling=filling or SurfaceFilling(),
             )
             address = f"http://{shown_host(host)}:{listener.getsockname()[1]}/?token={token}"
-            run(page_app(site, hosts=hosts_for(host)), listener, started=lambda: ready(address))
+            run(page_app(settings, hosts=hosts_for(host)), listener, started=lambda: ready(address))
     except KeyboardInterrupt:  # uvicorn has closed everything, and raises it again
         pass
     finally:

@@ -15,11 +15,13 @@ from starlette.responses import PlainTextResponse, Response
 from ..model_file import SUFFIX
 from .body import MESH_SUFFIXES
 from .saving import plain_name
-from .site import Site
+from .settings import ServerSettings
 from .workspaces import Workspaces
 
 
-def upload_endpoint(site: Site, workspaces: Workspaces) -> Callable[[Request], Awaitable[Response]]:
+def upload_endpoint(
+    settings: ServerSettings, workspaces: Workspaces
+) -> Callable[[Request], Awaitable[Response]]:
     """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
 
     The answer is 202 once the file is here, the rest comes by the websocket. Else it is one line of
@@ -28,7 +30,7 @@ def upload_endpoint(site: Site, workspaces: Workspaces) -> Callable[[Request], A
 
     Parameters
     ----------
-    site : Site
+    settings : ServerSettings
     workspaces : Workspaces
     """
 
@@ -48,12 +50,12 @@ def upload_endpoint(site: Site, workspaces: Workspaces) -> Callable[[Request], A
             return _refusal(404, "the page of this upload is not connected; reload it")
         if Path(name).suffix.lower() not in (*MESH_SUFFIXES, SUFFIX):
             return _refusal(415, f"{name}: a page takes meshes, {' '.join(MESH_SUFFIXES)}")
-        too_large = f"{name}: more than {site.upload_limit / 2**20:g} MB; raise --upload-limit"
-        if int(request.headers.get("content-length", "0")) > site.upload_limit:
+        too_large = f"{name}: more than {settings.upload_limit / 2**20:g} MB; raise --upload-limit"
+        if int(request.headers.get("content-length", "0")) > settings.upload_limit:
             return _refusal(413, too_large)
-        place = Path(tempfile.mkdtemp(dir=site.scratch)) / name
+        place = Path(tempfile.mkdtemp(dir=settings.scratch)) / name
         try:
-            complete = await _received(body, place, site.upload_limit)
+            complete = await _received(body, place, settings.upload_limit)
         except (ClientDisconnect, OSError) as error:
             await run_in_threadpool(shutil.rmtree, place.parent, ignore_errors=True)
             return _refusal(

@@ -17,18 +17,18 @@ from ..page import packed
 from ..reduction import PosingModel, ReducedModel
 from ..stopping import check_stop
 from . import messages
-from .bench import Bench
 from .body import Body, mesh_body, model_body
+from .body_session import BodySession
 from .job import Job
 from .materials import material_choices, shown_poisson
 from .mesh_pack import packed_mesh
 from .models import Models
-from .outlet import Outlet
+from .page_channel import PageChannel
 from .polish_jobs import PolishJobs
 from .reader_text import text_of
 from .reporter import Reporter
+from .settings import ServerSettings
 from .shared_body import Stage
-from .site import Site
 
 #: How long the end of stopped work is waited for: solvers ask between the parts of an iteration.
 STOP_SECONDS = 0.4
@@ -39,19 +39,19 @@ class Workspace:
 
     Parameters
     ----------
-    site : Site
+    settings : ServerSettings
     emit : callable
         Gets messages, and bytes for binary frames; those of one call stay together. From any
         thread.
     """
 
-    def __init__(self, site: Site, emit: Callable[..., None]) -> None:
+    def __init__(self, settings: ServerSettings, emit: Callable[..., None]) -> None:
         self.id = secrets.token_urlsafe(9)
-        self._site, self._emit = site, Outlet(emit)
+        self._settings, self._emit = settings, PageChannel(emit)
         self._lock = threading.Lock()  # of the calls; jobs do not take it
         self._work: Job | None = None
         self._polishes = PolishJobs(self._emit, self._fail)
-        self._bench: Bench | None = None
+        self._session: BodySession | None = None
         self._meshes = 0  # that were opened; the last one counts
         self._models = Models()
         self._draft: messages.Keep | None = None
@@ -60,14 +60,14 @@ class Workspace:
 
     def open(self) -> None:
         """Sends the first message, and begins to read or fill where the server has a mesh."""
-        shared = self._site.body
-        if self._site.model is not None:
+        shared = self._settings.body
+        if self._settings.model is not None:
             self._emit(replace(self._empty(), kind="model"))
         elif shared is None:
             self._emit(self._empty())
         else:
             with self._lock:
-                self._open(shared.get, self._site.title)
+                self._open(shared.get, self._settings.title)
 
     def pause(self) -> None:
         """The page is gone, perhaps for a moment: what is made stays, and work goes on."""
@@ -102,13 +102,13 @@ class Workspace:
             try:
                 if path.suffix.lower() == SUFFIX:
                     stage("reading")
-                    return model_body(load(path), name=path.stem, folder=self._site.folder)
-                body = mesh_body(path, stage=stage, filling=self._site.filling)
+                    return model_body(load(path), name=path.stem, folder=self._settings.folder)
+                body = mesh_body(path, stage=stage, filling=self._settings.filling)
             except ValueError as error:
                 raise ValueError(str(error).replace(str(path), path.name)) from None
             finally:
                 shutil.rmtree(path.parent, ignore_errors=True)
-            return replace(body, file=None, surface_file=None, folder=self._site.folder)
+            return replace(body, file=None, surface_file=None, folder=self._settings.folder)
 
         with self._lock:
             if self._closed:  # the page went while its file came
@@ -126,10 +126,10 @@ class Workspace:
 
     def mesh_content(self, number: int) -> bytes | None:
         """The packed mesh of an address; None if there is another one by now."""
-        bench = self._bench
-        if bench is None or number != self._meshes:
+        session = self._session
+        if session is None or number != self._meshes:
             return None
-        return packed_mesh(bench.body, up=self._up)
+        return packed_mesh(session.body, up=self._up)
 
     def model_content(self, number: int) -> bytes | None:
         """The packed model of an address; None if it is not kept any more."""
@@ -146,20 +146,20 @@ class Workspace:
             for job in jobs:
                 job.wait(STOP_SECONDS)
             # by hand: jobs refer to this, and a collector of cycles does not see their size
-            self._work = self._bench = None
+            self._work = self._session = None
             self._polishes = PolishJobs(self._emit, self._fail)
             self._models.clear()
 
     def _answer(self, message: messages.PageMessage) -> None:
         if isinstance(message, messages.Choose):
-            self._emit(self._bench_now().choose(message))
+            self._emit(self._current_session().choose(message))
         elif isinstance(message, messages.Compute):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
             self._end_work()
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
-            self._emit(self._bench_now().save(message))
+            self._emit(self._current_session().save(message))
         elif isinstance(message, messages.Keep):
             self._draft = message
         elif isinstance(message, messages.Edit):
@@ -167,27 +167,27 @@ class Workspace:
         else:
             self._polishes.begin(message, self._model(message.model))
 
-    def _bench_now(self) -> Bench:
-        if self._bench is None:
+    def _current_session(self) -> BodySession:
+        if self._session is None:
             raise ValueError("there is no mesh yet; drop one on the page, or wait until it is read")
-        return self._bench
+        return self._session
 
     def _model(self, number: int) -> ReducedModel:
-        if number == 0 and self._site.model is not None:
-            return self._site.model
+        if number == 0 and self._settings.model is not None:
+            return self._settings.model
         kept = self._models.find(number)
         if kept is None:
             raise ValueError(f"model {number} is not kept any more; take the newest one")
         return kept.model
 
     def _edit(self) -> None:
-        model, title, folder = self._site.model, self._site.title, self._site.folder
+        model, title, folder = self._settings.model, self._settings.title, self._settings.folder
         if model is None:
             raise ValueError("this server has no model of its own; choose handles on its mesh")
         self._open(lambda stage: model_body(model, name=title, folder=folder), title)
 
     def _compute(self, order: messages.Compute) -> None:
-        bench, request = self._bench_now(), order.request
+        session, request = self._current_session(), order.request
 
         def publish(growth: Growth, seconds: float) -> None:
             if growth.step is None and self._models.is_of(growth.model.problem):
@@ -195,9 +195,9 @@ class Workspace:
             newest = self._models.newest
             before = newest.model if newest and self._models.is_of(growth.model.problem) else None
             assert before is None or isinstance(before, PosingModel)
-            name, up = bench.body.name, self._up
+            name, up = session.body.name, self._up
             assert isinstance(growth.model, PosingModel)
-            owners = bench.painted_owners(growth.model)
+            owners = session.painted_owners(growth.model)
             content = packed(growth.model, name=name, up=up, before=before, owners=owners)
             check_stop()
             number = self._models.add(growth.model, content)
@@ -215,8 +215,8 @@ class Workspace:
             )
 
         report = Reporter(self._tell, request)
-        computation = bench.computation(
-            order, turns=self._site.turns, report=report, publish=publish
+        computation = session.computation(
+            order, queue=self._settings.queue, report=report, publish=publish
         )
         self._end_work()
         self._job = request
@@ -225,7 +225,7 @@ class Workspace:
     def _open(self, make: Callable[[Stage], Body], name: str) -> None:
         """Begins to make a body of a name; the page gets it when it is there."""
         self._end_work()
-        self._bench = None
+        self._session = None
         self._models.clear()
         self._draft, self._job = None, 0
         self._meshes += 1
@@ -237,9 +237,9 @@ class Workspace:
             try:
                 body = make(report.tell)
                 check_stop()
-                bench = Bench(body, self._models)
-                self._bench = bench
-                self._emit(bench.begin(empty, mesh=self._address("mesh", number)))
+                session = BodySession(body, self._models)
+                self._session = session
+                self._emit(session.begin(empty, mesh=self._address("mesh", number)))
             except BaseException:
                 if number == self._meshes:  # else the page reads another one by now
                     self._emit(empty)
@@ -268,21 +268,21 @@ class Workspace:
         """As the page has it, else as the server was told, else as its file says."""
         if self._draft is not None:
             return self._draft.up
-        if self._site.up is not None:
-            return self._site.up
-        bench, model = self._bench, self._site.model
-        if bench is not None:
-            return bench.body.up or "z"
+        if self._settings.up is not None:
+            return self._settings.up
+        session, model = self._session, self._settings.model
+        if session is not None:
+            return session.body.up or "z"
         return "z" if model is None else model.up
 
     def _address(self, what: str, number: int) -> str:
-        return f"{what}/{self.id}/{number}?token={self._site.token}"
+        return f"{what}/{self.id}/{number}?token={self._settings.token}"
 
     def _empty(self) -> messages.Workspace:
         return messages.Workspace(
             id=self.id,
             kind="empty",
-            name=self._site.title,
+            name=self._settings.title,
             mesh=None,
             up=self._up,
             handles=(),
@@ -295,6 +295,6 @@ class Workspace:
             materials=material_choices(),
             material=DEFAULT_MATERIAL.kind,
             poisson=shown_poisson(DEFAULT_MATERIAL()),
-            folder=str(self._site.folder),
-            upload_limit=self._site.upload_limit,
+            folder=str(self._settings.folder),
+            upload_limit=self._settings.upload_limit,
         )

@@ -7,8 +7,8 @@ from collections.abc import Awaitable, Callable
 
 from starlette.concurrency import run_in_threadpool
 
-from .outlet import Put
-from .site import Site
+from .page_channel import Put
+from .settings import ServerSettings
 from .workspace import Workspace
 
 #: Seconds from look to look at whether others wait.
@@ -22,11 +22,11 @@ class Workspaces:
 
     Parameters
     ----------
-    site : Site
+    settings : ServerSettings
     """
 
-    def __init__(self, site: Site) -> None:
-        self._site = site
+    def __init__(self, settings: ServerSettings) -> None:
+        self._settings = settings
         self._known: dict[str, Workspace] = {}
         self._pages: dict[str, Dismiss] = {}
         self._leaving: dict[str, asyncio.Task[None]] = {}
@@ -48,7 +48,7 @@ class Workspaces:
         """
         known = None if id is None else self._known.get(id)
         if known is None:
-            workspace = Workspace(self._site, put)
+            workspace = Workspace(self._settings, put)
             self._known[workspace.id], self._pages[workspace.id] = workspace, dismiss
             await run_in_threadpool(workspace.open)
             return workspace
@@ -74,11 +74,11 @@ class Workspaces:
         """Closes a workspace once nobody has come back in time, or the server ends."""
         own = asyncio.current_task()
         try:
-            patience, waited = self._site.patience, 0.0
-            while waited < patience.alone:
-                if waited >= patience.waited_for and self._site.turns.waiting:
+            timeouts, waited = self._settings.timeouts, 0.0
+            while waited < timeouts.alone:
+                if waited >= timeouts.waited_for and self._settings.queue.waiting:
                     break
-                await asyncio.sleep(min(LOOK, patience.alone - waited))
+                await asyncio.sleep(min(LOOK, timeouts.alone - waited))
                 waited += LOOK
             self._known.pop(workspace.id, None)
             await run_in_threadpool(workspace.close)

@@ -52,12 +52,12 @@ def _estimator(session: Session[Any]) -> ErrorEstimator:
     if estimator is None:
         raise ValueError(
             "certificate: the model has no calibrated error estimate; make one with "
-            "snapspace.calibrated(model)"
+            "snapspace.calibrate(model)"
         )
     if estimator.dimension != len(session.q):
         raise ValueError(
             f"certificate: the error estimate was calibrated for dimension {estimator.dimension}, "
-            f"but the session has {len(session.q)}; use snapspace.calibrated on the model of that "
+            f"but the session has {len(session.q)}; use snapspace.calibrate on the model of that "
             "dimension"
         )
     return estimator

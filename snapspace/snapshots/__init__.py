@@ -1,6 +1,6 @@
 """Snapshots: full-space solutions at sampled parameters."""
 
-from .carry import carried
+from .carry import carry_over
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
 from .run import Interrupted
 from .snapshot_file import SAMPLES_SUFFIX, load_snapshots, save_snapshots
@@ -24,7 +24,7 @@ __all__ = [
     "SolveProgress",
     "SolverOptions",
     "UnsavedSamplesError",
-    "carried",
+    "carry_over",
     "load_snapshots",
     "lowest_start",
     "run_key",

@@ -1,4 +1,4 @@
-"""carried: the solutions for some handles as snapshots of a problem with other handles."""
+"""carry_over: the solutions for some handles as snapshots of a problem with other handles."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 @single_threaded_blas
-def carried(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
+def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
     """What snapshots are worth for a problem with other handles: as starts, and in its basis.
 
     Each shape gets the parameters of the new problem that it fits best. A handle with the same
@@ -143,17 +143,19 @@ def _checked(snapshots: Snapshots, problem: PosingProblem) -> PosingProblem:
     for what, one in (("the problem of the snapshots", old), ("the problem", problem)):
         if not isinstance(one, PosingProblem):
             raise ValueError(
-                f"carried: {what} is an {type(one).__name__}, but only a PosingProblem has handles"
+                f"carry_over: {what} is an {type(one).__name__}, "
+                "but only a PosingProblem has handles"
             )
     assert isinstance(old, PosingProblem)
     if old.mesh.fingerprint != problem.mesh.fingerprint:
         raise ValueError(
-            f"carried: the snapshots are of {old.mesh!r}, but the problem is on another mesh, "
+            f"carry_over: the snapshots are of {old.mesh!r}, but the problem is on another mesh, "
             f"{problem.mesh!r}; make it with snapshots.problem.with_handles"
         )
     if not snapshots.usable.any():
         raise ValueError(
-            f"carried: none of the {len(snapshots)} snapshots converged; allow more iterations or "
+            f"carry_over: none of the {len(snapshots)} snapshots converged; "
+            "allow more iterations or "
             "a smaller domain"
         )
     return old

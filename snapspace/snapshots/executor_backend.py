@@ -19,7 +19,7 @@ from .. import _core as core
 from ..problem import Problem
 from .block_task import BlockAnswer, BlockTask, solve_block
 from .executor_faults import cancelled_fault, refused_fault, task_fault
-from .held_problems import HELD_PROBLEMS, Home
+from .held_problems import HELD_PROBLEMS, RunContext
 from .solved import Solved
 from .solver_options import ResolvedOptions
 from .worker_names import for_worker
@@ -63,7 +63,7 @@ class ExecutorBackend:
         # not its fingerprint: that leaves out a mean shape that was given
         self._key = hashlib.sha256(self._payload).hexdigest()
         self._run = uuid.uuid4().hex
-        self._home = Home(problem, core.SolveControl())
+        self._home = RunContext(problem, core.SolveControl())
         HELD_PROBLEMS.share(self._run, self._home)
         self._numbers = count()
         self._under_way: dict[Future[BlockAnswer], BlockTask] = {}

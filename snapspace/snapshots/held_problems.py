@@ -18,7 +18,7 @@ _MOST_RECEIVED = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Home:
+class RunContext:
     """What a run shares with the tasks in its own process: the problem, and what ends them."""
 
     problem: Problem
@@ -41,15 +41,15 @@ class HeldProblems:
         """Forgets everything."""
         # building a factor under the lock makes one for a process, not one for each of its threads
         self._lock = threading.Lock()
-        self._homes: WeakValueDictionary[str, Home] = WeakValueDictionary()
+        self._homes: WeakValueDictionary[str, RunContext] = WeakValueDictionary()
         self._received: OrderedDict[str, Problem] = OrderedDict()
 
-    def share(self, run: str, home: Home) -> None:
+    def share(self, run: str, home: RunContext) -> None:
         """Lets tasks in this process find a run's home for as long as it is referenced."""
         with self._lock:
             self._homes[run] = home
 
-    def home(self, run: str, options: ResolvedOptions) -> Home | None:
+    def home(self, run: str, options: ResolvedOptions) -> RunContext | None:
         """The home of a run of this process, with what its options need compiled; else None."""
         with self._lock:
             home = self._homes.get(run)

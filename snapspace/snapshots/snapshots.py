@@ -23,7 +23,7 @@ class SampleReport:
     decrease that the solver's model still predicted, seconds the wall time, inverted_tets the
     number of tets with det F <= 0.
 
-    The status carried is that of a shape that was not solved for these parameters, see `carried`:
+    The status carried is that of a shape not solved for these parameters, see `carry_over`:
     all its numbers are zero.
     """
 
@@ -138,7 +138,7 @@ class Snapshots:
         if others.problem.fingerprint != self.problem.fingerprint:
             raise ValueError(
                 f"Snapshots.joined: the others are of another problem, {others.problem!r} instead "
-                f"of {self.problem!r}; `carried` brings them to the handles of this one"
+                f"of {self.problem!r}; `carry_over` brings them to the handles of this one"
             )
         return Snapshots(
             self.problem,
@@ -151,7 +151,7 @@ class Snapshots:
         """ValueError of `who` unless these may be starts for samples of a problem."""
         if self.problem.fingerprint != problem.fingerprint:
             raise ValueError(
-                f"{who}: the known snapshots are of another problem; `carried` makes them "
+                f"{who}: the known snapshots are of another problem; `carry_over` makes them "
                 "snapshots of this one"
             )
 

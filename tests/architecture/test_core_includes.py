@@ -1,4 +1,4 @@
-"""The core's include graph, and the room that must compile alone: core/online."""
+"""The core's include graph, and the package that must compile alone: core/online."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pytest
 
 CORE = Path(__file__).parents[2] / "core"
 
-#: What a room's files may include of the project, besides their own room.
+#: What a package's files may include of the project, besides their own package.
 ALLOWED: dict[str, set[str]] = {
     "dense": set(),
     "element": set(),
@@ -94,8 +94,8 @@ def test_includes_point_one_way(path: Path) -> None:
     own = path.relative_to(CORE).parts[0]
     for target in included(path, r'"([^"]+)"'):
         assert (CORE / target).is_file(), f"{name(path)} includes {target}, which is not in core"
-        room = target.split("/")[0]
-        assert room == own or room in ALLOWED[own], f"{name(path)} includes {target}"
+        package = target.split("/")[0]
+        assert package == own or package in ALLOWED[own], f"{name(path)} includes {target}"
 
 
 def test_every_room_has_its_place() -> None:

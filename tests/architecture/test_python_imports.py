@@ -170,7 +170,7 @@ REACHING_UP = {
 TOP = {"cli", "__main__", "__init__"}
 
 
-def room(path: Path) -> str:
+def package(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py").removesuffix(".pyi")
 
 
@@ -179,7 +179,7 @@ def modules() -> list[Path]:
 
 
 def imported(node: ast.stmt, path: Path) -> Iterator[str]:
-    """Rooms of this package that an import statement names; '' for the package itself."""
+    """Packages of this package that an import statement names; '' for the package itself."""
     package = ("snapspace", *path.relative_to(PACKAGE).parent.parts)
     if isinstance(node, ast.Import):
         targets = [alias.name.split(".") for alias in node.names]
@@ -211,8 +211,8 @@ def statements(path: Path) -> Iterator[tuple[ast.stmt, bool]]:
 
 
 def violations(path: Path) -> list[str]:
-    """Imports of a module that point the wrong way, as 'file:line: room imports room'."""
-    own = room(path)
+    """Imports of a module that point the wrong way, as 'file:line: package imports package'."""
+    own = package(path)
     found = []
     for node, later in statements(path):
         for target in imported(node, path):
@@ -226,14 +226,14 @@ def violations(path: Path) -> list[str]:
 
 @pytest.mark.parametrize("path", modules(), ids=lambda p: str(p.relative_to(PACKAGE)))
 def test_imports_point_one_way(path: Path) -> None:
-    if room(path) not in TOP:
+    if package(path) not in TOP:
         assert violations(path) == []
 
 
 def test_every_room_has_its_place() -> None:
-    """A new room is put into the table above, or the check would pass over it."""
-    rooms = {room(path) for path in modules()}
-    assert rooms - TOP == set(ALLOWED)
+    """A new package is put into the table above, or the check would pass over it."""
+    packages = {package(path) for path in modules()}
+    assert packages - TOP == set(ALLOWED)
 
 
 def test_the_table_has_no_cycle() -> None:
@@ -248,7 +248,7 @@ def test_the_table_has_no_cycle() -> None:
 
 def test_nothing_imports_the_top() -> None:
     for path in modules():
-        if room(path) not in TOP:
+        if package(path) not in TOP:
             for node, _ in statements(path):
                 assert not set(imported(node, path)) & (TOP | {""}), path
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from snapspace.cli.even_walk import LARGE, LEAST_STEP, SMALL, EvenWalk, Jump, Way
+from snapspace.cli.even_walk import LARGE, LEAST_STEP, SMALL, EvenWalk, Jump, ShapePath
 
 EVEN = 0.02
 MOST_SOLVES = 18
@@ -31,7 +31,7 @@ def walked(curve: Callable[[float, float], float], *, length: float) -> Walked:
         result.solves[-1] += 1
         return np.array([curve(share, near[0])])
 
-    way = Way(solve, lambda a, b: float(abs(b - a)[0]))
+    way = ShapePath(solve, lambda a, b: float(abs(b - a)[0]))
     walk = EvenWalk(way, np.array([curve(0.0, 0.0)]), length=length, even=EVEN, jump=4 * EVEN)
     while walk.at.share < 1:
         before = walk.at

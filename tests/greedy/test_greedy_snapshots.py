@@ -200,7 +200,7 @@ def test_numbers_out_of_range_are_refused(wrong: dict[str, Any], message: str) -
 
 def test_known_snapshots_of_another_problem_are_refused() -> None:
     known = greedy_snapshots(posing_bar(), 2)
-    with pytest.raises(ValueError, match="are of another problem; `carried` makes them"):
+    with pytest.raises(ValueError, match="are of another problem; `carry_over` makes them"):
         greedy_snapshots(posing_bar(stiffness=5.0), 2, known=known)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from safetensors.numpy import load_file
 
-from snapspace import InterpolationModel, PosingModel, calibrated, load
+from snapspace import InterpolationModel, PosingModel, calibrate, load
 from snapspace.model_file.container import read_container, write_container
 from snapspace.model_file.error_estimator import DTYPES
 
@@ -16,8 +16,8 @@ from snapspace.model_file.error_estimator import DTYPES
 @pytest.fixture(scope="module")
 def models(posing_model: PosingModel, blending_model: InterpolationModel) -> dict[str, object]:
     return {
-        "posing": calibrated(posing_model, samples=9, threads=1),
-        "blending": calibrated(blending_model, samples=9, threads=1),
+        "posing": calibrate(posing_model, samples=9, threads=1),
+        "blending": calibrate(blending_model, samples=9, threads=1),
     }
 
 

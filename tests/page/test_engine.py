@@ -18,7 +18,7 @@ from snapspace import (
     PosingModel,
     PosingSession,
     TetMesh,
-    calibrated,
+    calibrate,
 )
 from snapspace.certificate import PosingProbe
 from snapspace.generators import bar
@@ -191,11 +191,11 @@ def expected(
     folder = tmp_path_factory.mktemp("expected")
     own_boxes = with_own_boxes(posing_model)
     models = {
-        "posing": calibrated(posing_model, samples=12, threads=1),
+        "posing": calibrate(posing_model, samples=12, threads=1),
         "own_surface": own_surface_model,
         "cubature": cubature_model,
-        "blending": calibrated(blending_model, samples=12, threads=1),
-        "blending-cubature": calibrated(blended_cubature_model, samples=12, threads=1),
+        "blending": calibrate(blending_model, samples=12, threads=1),
+        "blending-cubature": calibrate(blended_cubature_model, samples=12, threads=1),
         "own_boxes": own_boxes,
     }
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, calibrated, export_html
+from snapspace import PosingModel, export_html
 
 from .pages import OpenPage, Page
 
@@ -69,7 +69,7 @@ def test_the_badge_tells_the_error_where_the_model_knows_it(
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
     page.settle()
     assert page.page.locator(".badge").is_hidden()
-    model = calibrated(posing_model, samples=12, threads=1)
+    model = calibrate(posing_model, samples=12, threads=1)
     page = opened(export_html(model, tmp_path / "bar.html").as_uri())
     assert page.page.locator(".badge").is_hidden()  # at rest
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
@@ -95,7 +95,7 @@ def test_the_badge_tells_the_error_where_the_model_knows_it(
 def test_the_badge_says_what_is_outside_of_what_was_sampled(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
-    model = calibrated(posing_model, samples=4, threads=1)
+    model = calibrate(posing_model, samples=4, threads=1)
     page = opened(export_html(model, tmp_path / "bar.html").as_uri())
     page.drag(page.run("snapspace.handle(1)"), 300, -250)
     page.wait("document.querySelector('.badge').innerText.startsWith('outside ')")

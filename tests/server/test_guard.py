@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from snapspace.server.guard import Guard
-from snapspace.server.hosts import LOCAL, OwnNames, hosts_for, shown_host
+from snapspace.server.hosts import LOCAL, TrustedHosts, hosts_for, shown_host
 
 
 def answer(
@@ -107,7 +107,7 @@ def test_more_than_one_origin_is_refused() -> None:
 def test_a_server_for_all_answers_to_addresses_and_its_own_name() -> None:
     own = socket.gethostname().lower()
     for host in ("192.168.3.4", "10.0.0.1", "::1", "fe80::1", "localhost", own):
-        assert host in OwnNames()
+        assert host in TrustedHosts()
     for host in (
         "evil.example",
         f"{own}.evil.example",
@@ -116,7 +116,7 @@ def test_a_server_for_all_answers_to_addresses_and_its_own_name() -> None:
         "1.2.3",
         "0x7f.1",
     ):
-        assert host not in OwnNames()
+        assert host not in TrustedHosts()
     everywhere = hosts_for("0.0.0.0")
     assert answer("http", host="192.168.3.4:80", hosts=everywhere) == "the application"
     assert answer("http", host="[fe80::1]:80", hosts=everywhere) == "the application"

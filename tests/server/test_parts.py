@@ -12,14 +12,14 @@ import pytest
 
 from snapspace import PosingProblem, StableNeoHookean, read_problem
 from snapspace.mesh import EmbeddedSurface
-from snapspace.server.bench import Bench
 from snapspace.server.body import Body
+from snapspace.server.body_session import BodySession
+from snapspace.server.computation_queue import ComputationQueue
 from snapspace.server.messages import Choose, Compute, HandleChoice, PartChoice, Save
 from snapspace.server.models import Models
 from snapspace.server.parts import part_factors, with_factors
 from snapspace.server.reporter import Reporter
 from snapspace.server.surface_regions import SurfaceRegions
-from snapspace.server.turns import Turns
 from snapspace.server.wire import decoded
 
 from ..shapes import bar_problem, surface_around
@@ -50,18 +50,18 @@ def compute(**options: object) -> Compute:
     return replace(order, **options)  # type: ignore[arg-type]
 
 
-def bench_of(folder: Path, problem: PosingProblem | None = None) -> Bench:
+def session_of(folder: Path, problem: PosingProblem | None = None) -> BodySession:
     body = Body(name="bar", mesh=MESH, file=None, folder=folder, problem=problem)
-    return Bench(body, Models())
+    return BodySession(body, Models())
 
 
-def computed(bench: Bench, order: Compute) -> PosingProblem:
-    """The problem that a bench would compute a model of."""
-    bench.computation(
-        order, turns=Turns(), report=Reporter(lambda _: None, 1), publish=lambda *_: None
+def computed(session: BodySession, order: Compute) -> PosingProblem:
+    """The problem that a session would compute a model of."""
+    session.computation(
+        order, queue=ComputationQueue(), report=Reporter(lambda _: None, 1), publish=lambda *_: None
     )
-    assert bench._problem is not None
-    return bench._problem
+    assert session._problem is not None
+    return session._problem
 
 
 def test_tets_with_three_corners_in_a_part_are_multiplied() -> None:
@@ -136,30 +136,30 @@ def test_parts_are_computed_with_and_do_not_pile_up(tmp_path: Path) -> None:
     file = PosingProblem(
         MESH, PROBLEM.handles, domain=PROBLEM.domain, material=given, stiffness=50.0
     )
-    bench = bench_of(tmp_path, file)
-    bench.choose(choose(part("front", FRONT)))
-    first = computed(bench, compute())
-    again = computed(bench, compute())
+    session = session_of(tmp_path, file)
+    session.choose(choose(part("front", FRONT)))
+    first = computed(session, compute())
+    again = computed(session, compute())
     assert first is again, "the same problem shares what was solved"
     assert sorted(np.unique(first.material.moduli[:, 1])) == [2.0, 20.0]
-    bench.choose(choose())
-    assert computed(bench, compute()).material == given
-    assert computed(bench, compute()).fingerprint != first.fingerprint
+    session.choose(choose())
+    assert computed(session, compute()).material == given
+    assert computed(session, compute()).fingerprint != first.fingerprint
 
 
 def test_a_refused_part_leaves_what_was_chosen_before(tmp_path: Path) -> None:
-    bench = bench_of(tmp_path)
-    bench.choose(choose(part("front", FRONT)))
+    session = session_of(tmp_path)
+    session.choose(choose(part("front", FRONT)))
     with pytest.raises(ValueError, match="'tiny' has no tet"):
-        bench.choose(choose(PartChoice(name="tiny", vertices=(0,), factor=2.0)))
-    assert not computed(bench, compute()).material.uniform
+        session.choose(choose(PartChoice(name="tiny", vertices=(0,), factor=2.0)))
+    assert not computed(session, compute()).material.uniform
 
 
 def test_a_saved_problem_has_the_parts(tmp_path: Path) -> None:
-    bench = bench_of(tmp_path)
-    bench.choose(choose(part("front", FRONT), part("tip", X > X.max() - 1.1, 0.1)))
-    wanted = computed(bench, compute(material="corotational", poisson=0.4)).material
-    saved = bench.save(Save(request=2, name="soft"))
+    session = session_of(tmp_path)
+    session.choose(choose(part("front", FRONT), part("tip", X > X.max() - 1.1, 0.1)))
+    wanted = computed(session, compute(material="corotational", poisson=0.4)).material
+    saved = session.save(Save(request=2, name="soft"))
     assert saved.problem is not None
     read = read_problem(saved.problem)
     assert read.material.kind == "corotational"

@@ -11,7 +11,7 @@ import pytest
 from snapspace import PosingModel, PosingProblem, load, read_problem, write_tets
 from snapspace.server.body import Body, mesh_body, problem_body
 from snapspace.server.messages import Saved
-from snapspace.server.saving import Savings, checked_name, plain_name
+from snapspace.server.saving import SavedFiles, checked_name, plain_name
 
 
 @pytest.fixture
@@ -22,9 +22,14 @@ def body(posing_model: PosingModel, tmp_path: Path) -> Body:
 
 
 def saved(
-    savings: Savings, body: Body, model: PosingModel, *, name: str | None = None, whole: bool = True
+    files: SavedFiles,
+    body: Body,
+    model: PosingModel,
+    *,
+    name: str | None = None,
+    whole: bool = True,
 ) -> Saved:
-    return savings.save(body, model.problem, model if whole else None, name=name, request=1)
+    return files.save(body, model.problem, model if whole else None, name=name, request=1)
 
 
 def assert_same(a: PosingProblem, b: PosingProblem) -> None:
@@ -35,7 +40,7 @@ def assert_same(a: PosingProblem, b: PosingProblem) -> None:
 
 
 def test_problem_and_model_are_read_again(body: Body, posing_model: PosingModel) -> None:
-    done = saved(Savings(), body, posing_model)
+    done = saved(SavedFiles(), body, posing_model)
     assert done.mesh is None, "it lies there already"
     assert done.problem is not None and done.model is not None
     assert_same(read_problem(done.problem), posing_model.problem)
@@ -44,7 +49,7 @@ def test_problem_and_model_are_read_again(body: Body, posing_model: PosingModel)
 
 def test_a_mesh_that_is_in_no_file_is_saved_too(posing_model: PosingModel, tmp_path: Path) -> None:
     filled = Body(name="filled", mesh=posing_model.problem.mesh, file=None, folder=tmp_path)
-    done = saved(Savings(), filled, posing_model, whole=False)
+    done = saved(SavedFiles(), filled, posing_model, whole=False)
     assert (done.mesh, done.model) == (str(tmp_path / "filled.msh"), None)
     assert done.problem is not None
     assert_same(read_problem(done.problem), posing_model.problem)
@@ -55,34 +60,34 @@ def test_a_surface_that_was_filled_is_saved_with_its_tets(
 ) -> None:
     mesh, surface = own_surface_model.problem.mesh, own_surface_model.surface
     filled = Body(name="own", mesh=mesh, file=None, folder=tmp_path, surface=surface)
-    done = saved(Savings(), filled, own_surface_model)
+    done = saved(SavedFiles(), filled, own_surface_model)
     assert done.surface == str(tmp_path / "own.obj") and done.problem is not None
     again = problem_body(Path(done.problem))
     assert again.surface_file == tmp_path / "own.obj" and again.surface is not None
     assert np.array_equal(again.surface.faces, surface.faces)
     points = surface.vertices(mesh.vertices)
     assert again.surface.vertices(mesh.vertices) == pytest.approx(points, abs=1e-12)
-    there = saved(Savings(), again, own_surface_model, name="other")
+    there = saved(SavedFiles(), again, own_surface_model, name="other")
     assert there.surface is None, "it lies there already"
     assert there.problem is not None
     assert problem_body(Path(there.problem)).surface_file == tmp_path / "own.obj"
 
 
 def test_own_files_are_replaced_and_others_never(body: Body, posing_model: PosingModel) -> None:
-    savings, folder = Savings(), body.folder
+    files, folder = SavedFiles(), body.folder
     foreign = folder / "bar.snapspace"
     foreign.write_text("somebody's")
-    first = saved(savings, body, posing_model)
+    first = saved(files, body, posing_model)
     assert first.problem == str(folder / "bar-2.json")
     assert first.model == str(folder / "bar-2.snapspace")
-    assert saved(savings, body, posing_model) == first, "one's own is replaced"
+    assert saved(files, body, posing_model) == first, "one's own is replaced"
     assert foreign.read_text() == "somebody's" and not (folder / "bar.json").exists()
-    other = saved(Savings(), body, posing_model)
+    other = saved(SavedFiles(), body, posing_model)
     assert other.problem == str(folder / "bar-3.json"), "another page's is not"
     edited = folder / "bar-2.json"
     edited.write_text("edited by hand")
     os.utime(edited, ns=(1, 1))
-    assert saved(savings, body, posing_model).problem == str(folder / "bar-4.json")
+    assert saved(files, body, posing_model).problem == str(folder / "bar-4.json")
     assert edited.read_text() == "edited by hand"
 
 
@@ -91,7 +96,7 @@ def test_a_link_that_leads_elsewhere_is_not_followed(
 ) -> None:
     outside = tmp_path / "outside.txt"
     (body.folder / "bar.json").symlink_to(outside)
-    done = saved(Savings(), body, posing_model, whole=False)
+    done = saved(SavedFiles(), body, posing_model, whole=False)
     assert done.problem == str(body.folder / "bar-2.json") and not outside.exists()
 
 
@@ -100,7 +105,7 @@ def test_nothing_is_left_behind_where_nothing_can_be_written(
 ) -> None:
     gone = Body(name="x", mesh=posing_model.problem.mesh, file=None, folder=tmp_path / "no")
     with pytest.raises(ValueError, match=r"no: cannot be written to .*start the server in"):
-        saved(Savings(), gone, posing_model)
+        saved(SavedFiles(), gone, posing_model)
     here = Body(name="x", mesh=posing_model.problem.mesh, file=None, folder=tmp_path)
 
     def full(*_: object) -> None:
@@ -108,7 +113,7 @@ def test_nothing_is_left_behind_where_nothing_can_be_written(
 
     monkeypatch.setattr("snapspace.server.saving.write_tets", full)
     with pytest.raises(ValueError, match="disk full"):
-        saved(Savings(), here, posing_model)
+        saved(SavedFiles(), here, posing_model)
     assert list(tmp_path.iterdir()) == []
 
 

@@ -14,8 +14,8 @@ import pytest
 from snapspace.server.body import Body
 from snapspace.server.messages import Compute, Failed, Model
 from snapspace.server.messages import Workspace as Opened
+from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
-from snapspace.server.site import Site
 from snapspace.server.workspace import Workspace
 
 from ..shapes import bar_problem
@@ -48,11 +48,13 @@ class Mailbox:
 
 
 @pytest.fixture
-def site(tmp_path: Path) -> Site:
+def settings(tmp_path: Path) -> ServerSettings:
     problem = bar_problem()
     body = Body(name="bar", mesh=problem.mesh, file=None, folder=tmp_path, problem=problem)
     shared = SharedBody(lambda stage: body)
-    return Site(title="", up="z", token="t", folder=tmp_path, scratch=tmp_path, body=shared)
+    return ServerSettings(
+        title="", up="z", token="t", folder=tmp_path, scratch=tmp_path, body=shared
+    )
 
 
 @pytest.fixture
@@ -63,22 +65,24 @@ def no_collector() -> Iterator[None]:
     gc.enable()
 
 
-def test_a_closed_page_holds_no_memory(site: Site, no_collector: None) -> None:
+def test_a_closed_page_holds_no_memory(settings: ServerSettings, no_collector: None) -> None:
     """Not even until cycles are collected: samples are large, and objects that hold them few."""
     mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
+    workspace = Workspace(settings, mailbox.put)
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     workspace.receive(ORDER)
     mailbox.wait_for(Model, final=True)
-    held = [weakref.ref(workspace._bench), weakref.ref(workspace._models.newest.model)]  # type: ignore[union-attr]
+    held = [weakref.ref(workspace._session), weakref.ref(workspace._models.newest.model)]  # type: ignore[union-attr]
     workspace.close()
     assert [one() for one in held] == [None, None]
 
 
-def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: Site) -> None:
+def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(
+    settings: ServerSettings,
+) -> None:
     mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
+    workspace = Workspace(settings, mailbox.put)
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     materials = []
@@ -93,9 +97,9 @@ def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(site: S
     assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
 
 
-def test_each_material_starts_from_the_samples_of_the_one_before(site: Site) -> None:
+def test_each_material_starts_from_the_samples_of_the_one_before(settings: ServerSettings) -> None:
     mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
+    workspace = Workspace(settings, mailbox.put)
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     for request, kind in enumerate(("stvk", "arap", "stable-neo-hookean"), start=1):
@@ -107,7 +111,7 @@ def test_each_material_starts_from_the_samples_of_the_one_before(site: Site) -> 
     assert not any(isinstance(message, Failed) for message in mailbox.messages)
 
 
-def refusal(site: Site, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
+def refusal(settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
     """What a page is told when a computation raises an error."""
 
     def raises(*_: object, **__: object) -> None:
@@ -115,7 +119,7 @@ def refusal(site: Site, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Fa
 
     monkeypatch.setattr("snapspace.server.computation.growing_models", raises)
     mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
+    workspace = Workspace(settings, mailbox.put)
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     workspace.receive(ORDER)
@@ -126,31 +130,35 @@ def refusal(site: Site, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Fa
 
 
 def test_a_fault_is_an_answer_and_leaves_a_trace(
-    site: Site, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+    settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    failed = refusal(site, monkeypatch, KeyError("a fault of ours"))
+    failed = refusal(settings, monkeypatch, KeyError("a fault of ours"))
     assert failed.message.startswith("the server has a fault") and "\n" not in failed.message
     assert "a fault of ours" in caplog.text and caplog.records[0].exc_info
 
 
-def test_an_empty_memory_is_told_with_its_cure(site: Site, monkeypatch: pytest.MonkeyPatch) -> None:
-    failed = refusal(site, monkeypatch, MemoryError())
+def test_an_empty_memory_is_told_with_its_cure(
+    settings: ServerSettings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    failed = refusal(settings, monkeypatch, MemoryError())
     assert "fewer samples or a coarser mesh" in failed.message
 
 
-def test_a_file_that_comes_after_its_page_has_gone_is_removed(site: Site, tmp_path: Path) -> None:
+def test_a_file_that_comes_after_its_page_has_gone_is_removed(
+    settings: ServerSettings, tmp_path: Path
+) -> None:
     place = tmp_path / "upload" / "bar.obj"
     place.parent.mkdir()
     place.write_text("")
     mailbox = Mailbox()
-    workspace = Workspace(site, mailbox.put)
+    workspace = Workspace(settings, mailbox.put)
     workspace.close()
     workspace.upload(place)
     assert not place.parent.exists() and mailbox.messages == []
 
 
 def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
-    site: Site, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    settings: ServerSettings, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     release = threading.Event()
     problem = bar_problem()
@@ -165,7 +173,7 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
     monkeypatch.setattr("snapspace.server.workspace.mesh_body", read)
     monkeypatch.setattr("snapspace.server.workspace.STOP_SECONDS", 0.01)
     mailbox = Mailbox()
-    workspace = Workspace(replace(site, body=None), mailbox.put)
+    workspace = Workspace(replace(settings, body=None), mailbox.put)
     workspace.upload(tmp_path / "a" / "slow.obj")
     late = workspace._work
     assert late is not None

@@ -19,8 +19,8 @@ from snapspace import PosingModel
 from snapspace.server import workspace as module
 from snapspace.server.body import Body
 from snapspace.server.serve import serve
+from snapspace.server.settings import PageTimeouts
 from snapspace.server.shared_body import SharedBody
-from snapspace.server.site import Patience
 
 from ..shapes import bar_problem
 from .running import Page
@@ -65,7 +65,7 @@ def address(folder: Path) -> Iterator[str]:
     problem = bar_problem()
     body = Body(name="bar", mesh=problem.mesh, file=None, folder=folder, problem=problem)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Patience.__init__, "__kwdefaults__", {"alone": 1.0, "waited_for": 0.2})
+        patch.setattr(PageTimeouts.__init__, "__kwdefaults__", {"alone": 1.0, "waited_for": 0.2})
         yield started(body=SharedBody(lambda stage: body), folder=folder)
 
 

@@ -20,7 +20,7 @@ from snapspace import (
     SolverOptions,
     StVK,
     TetMesh,
-    calibrated,
+    calibrate,
     reduce,
     sample,
     snapshot_pca,
@@ -43,7 +43,7 @@ def creature_model() -> PosingModel:
     problem = PosingProblem(mesh, handles, domain=HandleBox(translation=0.2, angle=0.6))
     snapshots = solve_snapshots(problem, sample(problem.domain, 40, seed=1), threads=1)
     model = reduce(problem, snapshot_pca(snapshots, dimension=15), snapshots=snapshots, threads=1)
-    return calibrated(model, samples=59, threads=1)
+    return calibrate(model, samples=59, threads=1)
 
 
 @pytest.fixture(scope="module")
@@ -148,7 +148,7 @@ def test_the_unit_of_the_mesh_does_not_matter() -> None:
             threads=1,
         )
         model = reduce(problem, snapshot_pca(snapshots, dimension=8), snapshots=snapshots)
-        session = calibrated(model, samples=9, threads=1).session(tolerance=1e-12)
+        session = calibrate(model, samples=9, threads=1).session(tolerance=1e-12)
         session.pose(problem.domain.from_unit(np.array([0.1, 0.9, 0.3, 0.8, 0.2, 0.6])))
         for thorough in (False, True):
             certificate = session.certificate(thorough=thorough)
@@ -157,7 +157,7 @@ def test_the_unit_of_the_mesh_does_not_matter() -> None:
 
 
 def test_a_common_motion_of_all_handles_changes_no_certificate(posing_model: PosingModel) -> None:
-    session = calibrated(posing_model, samples=9, threads=1).session()
+    session = calibrate(posing_model, samples=9, threads=1).session()
     session.move("head", euler=(0.3, 0.2, -0.4), translation=(0.2, 0.1, 0.3))
     before = session.certificate()
     turn = random_rotation()
@@ -179,7 +179,7 @@ def test_what_is_not_calibrated_has_no_certificate(
 
 
 def test_blends_have_certificates(blending_model: ReducedModel) -> None:
-    model = calibrated(blending_model, samples=19, threads=1)  # type: ignore[type-var]
+    model = calibrate(blending_model, samples=19, threads=1)  # type: ignore[type-var]
     session = model.session()
     session.blend([0.2, 0.7, 0.1])
     for thorough in (False, True):

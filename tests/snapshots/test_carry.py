@@ -19,7 +19,7 @@ from snapspace import (
     Snapshots,
     SolverOptions,
     StVK,
-    carried,
+    carry_over,
     rigid_registration,
     solve_snapshots,
 )
@@ -67,7 +67,7 @@ motions = st.lists(st.floats(-1.5, 1.5), min_size=12, max_size=12).map(np.array)
 def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) -> None:
     new = PROBLEM.with_handles(HANDLES.replacing("head", X > 0.8).replacing("belly", KNEE))
     x = following(new, w, seed=seed)
-    result = carried(given_shapes(PROBLEM, np.zeros((1, 12)), x[None]), new)
+    result = carry_over(given_shapes(PROBLEM, np.zeros((1, 12)), x[None]), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
     np.testing.assert_array_equal(result.shapes[:, 0], x)
     assert new.handle_energy(x, new.offsets(result.parameters[0])) < 1e-22
@@ -84,7 +84,7 @@ def test_motions_count_from_the_handle_that_is_fixed(
     there = (x.reshape(-1, 3) @ rotation_matrix(common[:3]).T + common[3:6]).reshape(1, -1)
     # the old problem knows nothing of the handles that the new one has
     other = PROBLEM.with_handles(Handles([X < 0.1, (X > 0.4) & (X < 0.6)]))
-    result = carried(given_shapes(other, np.zeros((1, 6)), there), new)
+    result = carry_over(given_shapes(other, np.zeros((1, 6)), there), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
     np.testing.assert_allclose(result.shapes[:, 0], x, rtol=0, atol=1e-12)
 
@@ -94,7 +94,7 @@ def test_the_same_handles_keep_every_bit(old: Snapshots) -> None:
     renamed = Handles([handle.vertices for handle in HANDLES], names=["a", "b", "c"])
     box = HandleBox(translation=0.1, angle=0.1)
     for new in (PROBLEM, PROBLEM.with_handles(renamed, domain=box)):
-        result = carried(old, new)
+        result = carry_over(old, new)
         assert result.problem is new
         np.testing.assert_array_equal(result.parameters, old.parameters)
         assert_same_bits(result, old)
@@ -102,13 +102,13 @@ def test_the_same_handles_keep_every_bit(old: Snapshots) -> None:
 
 def test_an_added_handle_leaves_shapes_and_other_motions_as_they_are(old: Snapshots) -> None:
     new = PROBLEM.with_handles(HANDLES.adding("knee", KNEE))
-    result = carried(old, new)
+    result = carry_over(old, new)
     np.testing.assert_array_equal(result.parameters[:, :12], old.parameters)
     np.testing.assert_array_equal(result.shapes, old.shapes)
 
 
 def test_a_removed_handle_leaves_the_motions_of_the_others(old: Snapshots) -> None:
-    result = carried(old, PROBLEM.with_handles(HANDLES.without("head")))
+    result = carry_over(old, PROBLEM.with_handles(HANDLES.without("head")))
     np.testing.assert_array_equal(result.parameters, old.parameters[:, 6:])
     np.testing.assert_array_equal(result.shapes, old.shapes)
 
@@ -116,7 +116,7 @@ def test_a_removed_handle_leaves_the_motions_of_the_others(old: Snapshots) -> No
 def test_no_motion_nearby_fits_better(old: Snapshots) -> None:
     """The shapes' ends are bent, so nothing fits exactly."""
     new = PROBLEM.with_handles(Handles([X < 0.3, X > 0.6]))
-    result = carried(old, new)
+    result = carry_over(old, new)
     rng = np.random.default_rng(0)
     for w, x in zip(result.parameters, result.shapes.T, strict=True):
         best = new.value_and_gradient(x, w)[0]
@@ -129,7 +129,7 @@ def test_no_motion_nearby_fits_better(old: Snapshots) -> None:
 def test_fixing_another_handle_moves_solutions_rigidly(old: Snapshots, name: str) -> None:
     """Shape, objective and gradient are those of the old solution in another frame."""
     new = PROBLEM.with_handles(HANDLES.fixing(name))
-    result = carried(old, new)
+    result = carry_over(old, new)
     assert list(result.reports) == list(old.reports)
     mass = PROBLEM.mass()
     for w, x, before, report in zip(
@@ -146,8 +146,8 @@ def test_fixing_another_handle_moves_solutions_rigidly(old: Snapshots, name: str
 
 
 def test_there_and_back_is_where_it_was(old: Snapshots) -> None:
-    there = carried(old, PROBLEM.with_handles(HANDLES.fixing("belly")))
-    back = carried(there, PROBLEM)
+    there = carry_over(old, PROBLEM.with_handles(HANDLES.fixing("belly")))
+    back = carry_over(there, PROBLEM)
     np.testing.assert_allclose(back.parameters, old.parameters, rtol=0, atol=1e-12)
     np.testing.assert_allclose(back.shapes, old.shapes, rtol=0, atol=1e-12)
 
@@ -160,7 +160,7 @@ def test_a_fitted_handle_is_off_by_its_softness() -> None:
         snapshots = solved(problem, 4)
         # one vertex less, so that it is not the old handle and its motion must be found
         tip = HANDLES["head"].vertices[1:]
-        result = carried(snapshots, problem.with_handles(HANDLES.replacing("head", tip)))
+        result = carry_over(snapshots, problem.with_handles(HANDLES.replacing("head", tip)))
         # another centroid: compare where the motions take the vertices
         both = [
             one.problem.target_displacements(one.problem.offsets(w))[
@@ -176,7 +176,7 @@ def test_a_fitted_handle_is_off_by_its_softness() -> None:
 
 def test_a_point_has_no_rotation_of_its_own(old: Snapshots) -> None:
     vertex = int(np.flatnonzero(KNEE)[0])
-    result = carried(old, PROBLEM.with_handles(HANDLES.adding("point", [vertex])))
+    result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("point", [vertex])))
     moved = old.shapes.T.reshape(len(old), -1, 3)[:, vertex] - MESH.vertices[vertex]
     np.testing.assert_allclose(result.parameters[:, 12:15], moved, rtol=0, atol=1e-14)
     assert not result.parameters[:, 15:].any()
@@ -185,7 +185,7 @@ def test_a_point_has_no_rotation_of_its_own(old: Snapshots) -> None:
 def test_a_line_takes_the_smallest_rotation(old: Snapshots) -> None:
     """By the angle between the line and where it has gone."""
     pair = np.flatnonzero(KNEE)[[0, -1]]
-    result = carried(old, PROBLEM.with_handles(HANDLES.adding("line", pair)))
+    result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("line", pair)))
     before = np.subtract(*MESH.vertices[pair])
     for w, x in zip(result.parameters, result.shapes.T, strict=True):
         after = np.subtract(*x.reshape(-1, 3)[pair])
@@ -197,7 +197,7 @@ def test_a_line_takes_the_smallest_rotation(old: Snapshots) -> None:
 
 
 def test_reports_claim_no_solve(old: Snapshots) -> None:
-    result = carried(old, PROBLEM.with_handles(HANDLES.adding("knee", KNEE)))
+    result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("knee", KNEE)))
     assert not result.converged.any() and result.usable.all()
     assert set(result.reports) == {SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)}
 
@@ -207,7 +207,7 @@ def test_an_added_handle_hardly_pulls() -> None:
     problem = PROBLEM.with_handles(HANDLES.without("belly"))
     knee = np.flatnonzero(KNEE)[:12]
     new = problem.with_handles(problem.handles.adding("knee", knee))
-    result = carried(solved(problem), new)
+    result = carry_over(solved(problem), new)
     iterations = []
     for starts in (result.shapes.T - new.base, np.zeros_like(result.shapes.T)):
         batch = core_solve(
@@ -224,7 +224,7 @@ def test_an_added_handle_hardly_pulls() -> None:
 
 def test_another_material_makes_solutions_starts(old: Snapshots) -> None:
     soft = PosingProblem(MESH, HANDLES, domain=PROBLEM.domain, material=StVK(lam=0.0, mu=1.0))
-    result = carried(old, soft)
+    result = carry_over(old, soft)
     np.testing.assert_array_equal(result.parameters, old.parameters)
     assert {report.status for report in result.reports} == {"carried"}
     np.testing.assert_array_equal(result.shapes, old.shapes)
@@ -239,9 +239,9 @@ def failing(snapshots: Snapshots, *failed: int) -> Snapshots:
 
 def test_what_did_not_converge_stays_behind(old: Snapshots) -> None:
     new = PROBLEM.with_handles(HANDLES.without("belly"))
-    result = carried(failing(old, 1, 3), new)
+    result = carry_over(failing(old, 1, 3), new)
     np.testing.assert_array_equal(result.shapes, old.shapes[:, [0, 2, 4]])
-    twice = carried(result, PROBLEM)
+    twice = carry_over(result, PROBLEM)
     assert [report.status for report in twice.reports] == ["carried"] * 3
 
 
@@ -274,6 +274,6 @@ def test_what_cannot_be_carried_is_refused(
 ) -> None:
     if "reports" in changes:
         changes = {"reports": failing(old, *range(5)).reports}
-    with pytest.raises(ValueError, match=f"carried: .*{message}") as caught:
-        carried(replace(old, **changes), new)
+    with pytest.raises(ValueError, match=f"carry_over: .*{message}") as caught:
+        carry_over(replace(old, **changes), new)
     assert "\n" not in str(caught.value)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace import Snapshots, carried, snapshot_pca, solve_snapshots
+from snapspace import Snapshots, carry_over, snapshot_pca, solve_snapshots
 
 from ..shapes import bar_problem
 from .bars import parameters
@@ -22,7 +22,7 @@ def fresh() -> Snapshots:
 @pytest.fixture(scope="module")
 def from_before() -> Snapshots:
     before = solve_snapshots(SMALLER, parameters(SMALLER, 3), threads=1)
-    return carried(before, PROBLEM)
+    return carry_over(before, PROBLEM)
 
 
 def test_joined_are_the_samples_of_both_in_order(fresh: Snapshots, from_before: Snapshots) -> None:
@@ -39,7 +39,7 @@ def test_samples_of_another_problem_are_not_joined(fresh: Snapshots) -> None:
     before = solve_snapshots(SMALLER, parameters(SMALLER, 2), threads=1)
     with pytest.raises(ValueError, match="joined: the others are of another problem") as caught:
         fresh.joined(before)
-    assert "`carried` brings them to the handles" in str(caught.value)
+    assert "`carry_over` brings them to the handles" in str(caught.value)
     assert "\n" not in str(caught.value)
 
 

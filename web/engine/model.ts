@@ -5,7 +5,7 @@ import type { ShapeSpace } from "./shape_space.ts";
 /** What the page needs of a model, whether it came as a model file or in an exported page. */
 export type Model = PosingModel | BlendingModel;
 
-interface Common {
+interface ModelBase {
   readonly name: string;
   /** Axis that points up at first, where the model tells. */
   readonly up?: "x" | "y" | "z";
@@ -41,7 +41,7 @@ export interface Body {
   readonly material: Material;
 }
 
-export interface PosingModel extends Common {
+export interface PosingModel extends ModelBase {
   readonly kind: "posing";
   readonly handles: readonly Handle[];
   /** Index of the handle that a surface vertex belongs to, or -1. */
@@ -98,7 +98,7 @@ export interface Handle {
   readonly center: readonly [number, number, number];
 }
 
-export interface BlendingModel extends Common {
+export interface BlendingModel extends ModelBase {
   readonly kind: "interpolation";
   readonly poses: readonly string[];
   /** The poses registered to the mean shape, as tau + one mode per pose: with weights that sum to one

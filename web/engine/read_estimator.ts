@@ -13,7 +13,7 @@ interface Body {
   readonly material: Material;
 }
 
-interface Held {
+interface HandleData {
   readonly handleOf: Int32Array;
   readonly handles: readonly Handle[];
   readonly rest: Float64Array;
@@ -64,7 +64,7 @@ export function estimatorOf(
 }
 
 /** The sampled vertices that handles hold. */
-export function pinsOf(corners: number[], isSampled: boolean[], held: Held): Pins {
+export function pinsOf(corners: number[], isSampled: boolean[], held: HandleData): Pins {
   const { handleOf, handles, rest, masses, stiffness } = held;
   const pinned = corners.flatMap((vertex, i) => (isSampled[i] && handleOf[vertex] >= 0 ? [i] : []));
   const owners = Int32Array.from(pinned, (i) => handleOf[corners[i]]);

@@ -3,7 +3,7 @@ import type { TriangleTree } from "./triangle_tree.ts";
 
 /** Which vertices a tool takes. Shapes are x0 y0 z0 x1 ..., places on the screen x0 y0 x1 ... in pixels. */
 
-export type Place = readonly [x: number, y: number];
+export type ScreenPoint = readonly [x: number, y: number];
 
 export const NOTHING: Int32Array = new Int32Array(0);
 
@@ -50,7 +50,7 @@ export function placesOf(
 }
 
 /** Vertices in the rectangle with two opposite corners. */
-export function inRectangle(places: Float32Array, a: Place, b: Place): Int32Array {
+export function inRectangle(places: Float32Array, a: ScreenPoint, b: ScreenPoint): Int32Array {
   const [left, right] = a[0] < b[0] ? [a[0], b[0]] : [b[0], a[0]];
   const [top, bottom] = a[1] < b[1] ? [a[1], b[1]] : [b[1], a[1]];
   return where(places.length / 2, (vertex) => {
@@ -61,11 +61,11 @@ export function inRectangle(places: Float32Array, a: Place, b: Place): Int32Arra
 }
 
 /** Vertices in a closed line. What it goes around twice is inside too: the winding number decides. */
-export function inLasso(places: Float32Array, line: readonly Place[]): Int32Array {
+export function inLasso(places: Float32Array, line: readonly ScreenPoint[]): Int32Array {
   if (line.length < 3) return new Int32Array(0);
   const xs = Float64Array.from(line, ([x]) => x);
   const ys = Float64Array.from(line, ([, y]) => y);
-  const bounds: [Place, Place] = [
+  const bounds: [ScreenPoint, ScreenPoint] = [
     [Math.min(...xs), Math.min(...ys)],
     [Math.max(...xs), Math.max(...ys)],
   ];

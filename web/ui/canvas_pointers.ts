@@ -1,4 +1,4 @@
-interface PointerActs {
+interface PointerActions {
   down(event: PointerEvent): void;
   move(event: PointerEvent): void;
   up(event: PointerEvent): void;
@@ -6,11 +6,11 @@ interface PointerActs {
 }
 
 /** Hears the pointer on a canvas before the camera's controls do, until the signal. */
-export function listenToPointers(canvas: HTMLCanvasElement, acts: PointerActs, signal: AbortSignal): void {
-  const room = canvas.parentElement!;
+export function listenToPointers(canvas: HTMLCanvasElement, acts: PointerActions, signal: AbortSignal): void {
+  const shell = canvas.parentElement!;
   const options = { capture: true, signal };
-  room.addEventListener("pointerdown", acts.down, options);
-  room.addEventListener("pointermove", acts.move, options);
-  room.addEventListener("pointerup", acts.up, options);
-  room.addEventListener("pointercancel", acts.cancel, options);
+  shell.addEventListener("pointerdown", acts.down, options);
+  shell.addEventListener("pointermove", acts.move, options);
+  shell.addEventListener("pointerup", acts.up, options);
+  shell.addEventListener("pointercancel", acts.cancel, options);
 }

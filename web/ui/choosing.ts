@@ -13,7 +13,7 @@ import {
   seenFrom,
   union,
   without,
-  type Place,
+  type ScreenPoint,
 } from "../engine/selecting.ts";
 import { TriangleTree } from "../engine/triangle_tree.ts";
 import { ownerColors } from "./choosing_colors.ts";
@@ -127,7 +127,7 @@ export class Choosing {
   }
 
   /** Where a point of the canvas hits the mesh, in the mesh's frame; null beside it. */
-  hit([x, y]: Place): Vector | null {
+  hit([x, y]: ScreenPoint): Vector | null {
     const { camera, root } = this.stage;
     const [width, height] = this.size;
     this.#caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
@@ -153,11 +153,11 @@ export class Choosing {
     return (this.radius * this.mesh.diagonal * root.scale.x * focal) / Math.max(-depth, camera.near);
   }
 
-  inBox(from: Place, to: Place): Int32Array {
+  inBox(from: ScreenPoint, to: ScreenPoint): Int32Array {
     return this.#open(inRectangle(this.#places(), from, to));
   }
 
-  inLine(line: readonly Place[]): Int32Array {
+  inLine(line: readonly ScreenPoint[]): Int32Array {
     return this.#open(inLasso(this.#places(), line));
   }
 

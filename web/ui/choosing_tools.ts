@@ -1,6 +1,6 @@
 import { MOUSE, TOUCH } from "three";
 
-import { NOTHING, union, type Place } from "../engine/selecting.ts";
+import { NOTHING, union, type ScreenPoint } from "../engine/selecting.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
 import type { Choosing } from "./choosing.ts";
 import type { ToolOverlay } from "./choosing_overlay.ts";
@@ -11,7 +11,7 @@ const MOST_DABS = 24; // of the brush, from one event of the pointer to the next
 interface Stroke {
   pointer: number;
   remove: boolean;
-  line: Place[];
+  line: ScreenPoint[];
 }
 
 /** Brush, box and lasso, with mouse, pen and touch.
@@ -23,7 +23,7 @@ export class ChoosingTools {
   readonly #canvas: HTMLCanvasElement;
   readonly #fingers = new Set<number>();
   #ownStroke: Stroke | null = null;
-  #cursor: Place | null = null;
+  #cursor: ScreenPoint | null = null;
 
   constructor(choosing: Choosing, overlay: ToolOverlay, signal: AbortSignal) {
     this.#choosing = choosing;
@@ -153,7 +153,7 @@ export class ChoosingTools {
     if (event.pointerId === this.#stroke?.pointer) this.cancel();
   }
 
-  #brush(places: Place[]): void {
+  #brush(places: ScreenPoint[]): void {
     if (places.length === 0) return;
     const { remove } = this.#stroke!;
     const choosing = this.#choosing;
@@ -167,7 +167,7 @@ export class ChoosingTools {
   }
 
   /** Places from one to the next, a third of the brush apart. */
-  #between(from: Place, to: Place): Place[] {
+  #between(from: ScreenPoint, to: ScreenPoint): ScreenPoint[] {
     const center = this.#choosing.hit(to) ?? this.#choosing.hit(from);
     const step = center ? Math.max(this.#choosing.brushPixels(center) / 3, 2) : 12;
     const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -178,7 +178,7 @@ export class ChoosingTools {
     });
   }
 
-  #hover(place: Place, remove: boolean): void {
+  #hover(place: ScreenPoint, remove: boolean): void {
     const { tool } = this.#choosing;
     const center = tool === "brush" ? this.#choosing.hit(place) : null;
     if (center) this.#overlay.ring(place, this.#choosing.brushPixels(center), remove);
@@ -191,7 +191,7 @@ export class ChoosingTools {
     return event.altKey || (this.#choosing.removing && !event.shiftKey);
   }
 
-  #placeOf(event: PointerEvent): Place {
+  #placeOf(event: PointerEvent): ScreenPoint {
     const box = this.#canvas.getBoundingClientRect();
     return [event.clientX - box.left, event.clientY - box.top];
   }

@@ -11,7 +11,7 @@ const STAGES: Record<string, string> = {
   energy: "Reducing the energy",
 };
 
-export interface ComputeActs {
+export interface ComputeActions {
   compute(): void;
   cancel(): void;
   save(): void;
@@ -33,7 +33,7 @@ export class ComputePanel {
   readonly #told = h("p", { className: "saved", role: "status", hidden: true });
   readonly #fault = h("p", { className: "fault", role: "alert", hidden: true });
 
-  constructor(acts: ComputeActs) {
+  constructor(acts: ComputeActions) {
     const button = (label: string, act: () => void, className = "") =>
       h("button", { type: "button", className, onclick: act }, label);
     this.#compute = button("Compute", acts.compute, "primary");

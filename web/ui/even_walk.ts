@@ -1,5 +1,5 @@
 /** A way from share 0 to share 1 with a shape at each share. */
-export interface Way<Shape> {
+export interface ShapePath<Shape> {
   /** The shape at a share, solved for from the shape at one before it. */
   solve(share: number, from: Shape): Shape;
   /** The largest motion of a vertex between two shapes. */
@@ -13,7 +13,7 @@ const JUMP = 4; // even steps
 const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: so much is not seen
 const GROWTHS = 3; // of one step: a pace that is too slow is found over a few frames
 
-interface Place<Shape> {
+interface PathPoint<Shape> {
   readonly share: number;
   readonly shape: Shape;
 }
@@ -24,12 +24,12 @@ interface Place<Shape> {
  * so that no step solves more than 18 times. What still moves it farther than JUMP even steps is a jump: the energy has
  * no minimum between. */
 export class EvenWalk<Shape> {
-  readonly #way: Way<Shape>;
-  #at: Place<Shape>;
+  readonly #way: ShapePath<Shape>;
+  #at: PathPoint<Shape>;
   #pace: number; // shares for a motion
 
   /** `length` is about how far the shape will move on the whole way. */
-  constructor(way: Way<Shape>, start: Shape, length: number) {
+  constructor(way: ShapePath<Shape>, start: Shape, length: number) {
     this.#way = way;
     this.#at = { share: 0, shape: start };
     this.#pace = length > 0 ? 1 / length : Infinity;
@@ -49,7 +49,7 @@ export class EvenWalk<Shape> {
     const last = Math.min(from.share + MOST_STEP, 1);
     const within = (step: number) => Math.min(from.share + Math.max(step, LEAST_STEP), last);
     let [near, moved, growths] = [from, 0, 0];
-    let far: Place<Shape> | null = null;
+    let far: PathPoint<Shape> | null = null;
     let share = within(this.#pace * even);
     for (;;) {
       const tried = { share, shape: this.#way.solve(share, near.shape) };
@@ -74,7 +74,7 @@ export class EvenWalk<Shape> {
   }
 
   /** Between `near` and `far` there is no smaller step. */
-  #cross(from: Place<Shape>, near: Place<Shape>, far: Place<Shape>, even: number): number {
+  #cross(from: PathPoint<Shape>, near: PathPoint<Shape>, far: PathPoint<Shape>, even: number): number {
     const gap = this.#way.motion(near.shape, far.shape);
     const isJump = gap > JUMP * even;
     const reached = isJump ? near : far; // a jump tells nothing of the pace
@@ -83,7 +83,7 @@ export class EvenWalk<Shape> {
     return isJump ? gap : 0;
   }
 
-  #go(from: Place<Shape>, to: Place<Shape>, moved: number): void {
+  #go(from: PathPoint<Shape>, to: PathPoint<Shape>, moved: number): void {
     const step = to.share - from.share;
     if (step > 0) this.#pace = Math.min(step / moved, 4 * this.#pace);
     this.#at = to;

@@ -4,7 +4,7 @@ import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
 import { polishAt } from "./polishing.ts";
 import { posingView } from "./posing_view.ts";
-import { readable, Room } from "./room.ts";
+import { readable, AppShell } from "./app_shell.ts";
 import { Server } from "./server.ts";
 import { fromFile, ownModel, type Source } from "./source.ts";
 import { Workspace } from "./workspace.ts";
@@ -25,9 +25,9 @@ declare global {
 const started = performance.now();
 window.snapspace = {};
 document.getElementById("panel")!.append(h("footer", {}, opener()));
-const room = new Room();
+const shell = new AppShell();
 const server = Server.ofPage();
-const workspace = server && new Workspace(room, server);
+const workspace = server && new Workspace(shell, server);
 
 /** Shows a model in place of the one before; a message if it cannot be read, and the one before stays. */
 async function open(source: () => Promise<Source | null>, file?: File): Promise<void> {
@@ -35,29 +35,29 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     if (source === ownModel && workspace && ((await workspace.begun)?.kind ?? "model") !== "model") return;
     const given = await source();
     if (!given) {
-      if (!workspace) room.tell("Drop a .snapspace file here, or open one.", false, opener());
+      if (!workspace) shell.tell("Drop a .snapspace file here, or open one.", false, opener());
       return;
     }
     const arrived = performance.now();
     const model = readModel(given.bytes, given.name);
-    const module = await room.module;
-    const { stage } = room;
-    room.clear();
+    const module = await shell.module;
+    const { stage } = shell;
+    shell.clear();
     // the server knows its own model, as number 0, and no file that was dropped here
     const polish = server && source === ownModel ? polishAt(server, () => 0) : undefined;
     const choose = workspace && (() => (file ? void workspace.upload(file) : workspace.edit()));
     // the address is of the page's own model
     const hash = source === ownModel ? location.hash : "";
-    const options = { ...room.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
+    const options = { ...shell.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
     if (choose) Object.assign(options, { choose });
     const view =
       model.kind === "posing"
         ? await posingView(stage, module, model, options)
         : await blendingView(stage, module, model, options);
     const now = performance.now();
-    room.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
+    shell.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
   } catch (error) {
-    room.tell(readable(error), true, opener());
+    shell.tell(readable(error), true, opener());
   }
 }
 

@@ -8,7 +8,7 @@ export type Request = Unnumbered<PageMessage>;
 export type Answer<T extends ServerMessage["type"]> = Extract<ServerMessage, { type: T }>;
 
 /** An answer, and the bytes that came before it, if any. */
-export interface Answered<T extends ServerMessage["type"]> {
+export interface Response<T extends ServerMessage["type"]> {
   readonly message: Answer<T>;
   readonly bytes: ArrayBuffer | null;
 }
@@ -105,7 +105,7 @@ export class Server {
     message: Request,
     type: T,
     signal?: AbortSignal,
-  ): Promise<Answered<T>> {
+  ): Promise<Response<T>> {
     return new Promise((resolve, reject) => {
       const request = this.send(message);
       signal?.addEventListener("abort", () => {

@@ -3,7 +3,7 @@ import { h, mark } from "./dom.ts";
 import { MOST_CHOSEN, type PoseChoice } from "./pose_choice.ts";
 import { sliderEnds } from "./slider_ends.ts";
 
-export interface WeightActs {
+export interface WeightActions {
   /** A weight between the ends for the pose at a place of the choice. */
   weigh(place: number, weight: number): void;
   remove(pose: number): void;
@@ -18,7 +18,7 @@ export class WeightRows {
   readonly #rows: ReturnType<typeof weightRow>[];
   #choice: PoseChoice = { poses: [], weights: [] };
 
-  constructor(names: readonly string[], acts: WeightActs) {
+  constructor(names: readonly string[], acts: WeightActions) {
     this.#names = names;
     this.#rows = Array.from({ length: MOST_CHOSEN }, (_, place) =>
       weightRow(

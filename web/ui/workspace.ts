@@ -10,14 +10,14 @@ import { choosingView } from "./choosing_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
 import { polishAt } from "./polishing.ts";
 import { posingView, type PosingView } from "./posing_view.ts";
-import { readable, type Room } from "./room.ts";
+import { readable, type AppShell } from "./app_shell.ts";
 import type { Motions } from "./view.ts";
 import { Refused, type Server } from "./server.ts";
 import { ReadingBox } from "./workspace_reading.ts";
 
 /** Work with a server: a mesh, its handles, models that become better while they are posed. */
 export class Workspace {
-  readonly #room: Room;
+  readonly #shell: AppShell;
   readonly #server: Server;
   readonly #panel: ComputePanel;
   readonly #reading: ReadingBox;
@@ -44,10 +44,10 @@ export class Workspace {
   /** Workspaces and models are taken one after the other. */
   #queue: Promise<void> = Promise.resolve();
 
-  constructor(room: Room, server: Server) {
-    this.#room = room;
+  constructor(shell: AppShell, server: Server) {
+    this.#shell = shell;
     this.#server = server;
-    this.#reading = new ReadingBox(room, server);
+    this.#reading = new ReadingBox(shell, server);
     this.#panel = new ComputePanel({
       compute: () => void this.#try(() => this.#compute()),
       cancel: () => void this.#try(() => this.#cancel()),
@@ -124,14 +124,14 @@ export class Workspace {
   /** Without a mesh: asks for one, or waits for it. */
   #await(given: Given): void {
     [this.#mesh, this.#posing] = [null, null];
-    this.#room.empty();
+    this.#shell.empty();
     if (given.kind === "empty") this.#reading.ask(given);
     else this.#reading.wait(given);
   }
 
   /** The view in which handles are chosen. */
   #choosing(isNew = false): void {
-    const { stage } = this.#room;
+    const { stage } = this.#shell;
     const mesh = this.#mesh!;
     this.#leave();
     const { element } = this.#panel;
@@ -141,9 +141,9 @@ export class Workspace {
       this.#update();
       this.#keepSoon();
     };
-    const up = isNew ? this.#room.options(mesh.up).up : stage.up;
+    const up = isNew ? this.#shell.options(mesh.up).up : stage.up;
     const options = { up, forceCpu: true, keepView: !isNew };
-    this.#room.show(
+    this.#shell.show(
       choosingView(
         stage,
         mesh,
@@ -177,27 +177,27 @@ export class Workspace {
     if (!this.#mesh || !this.#sampling || !this.#server.isOpen) return;
     const { seed: _, ...sampling } = this.#sampling;
     const [handles, parts] = [listed(this.#choice.handles), partMessages(this.#choice.parts)];
-    this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#room.stage.up });
+    this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#shell.stage.up });
   }
 
   /** The view in which the newest model is posed. */
   async #pose(): Promise<void> {
-    const { stage, module } = this.#room;
+    const { stage, module } = this.#shell;
     const { content } = this.#model!;
     this.#leave();
     const polish = polishAt(this.#server, () => this.#model!.told.number);
     const motions = this.#motions;
-    const options = { ...this.#room.options(stage.up), up: stage.up, keepView: true, polish, motions };
+    const options = { ...this.#shell.options(stage.up), up: stage.up, keepView: true, polish, motions };
     const view = await posingView(stage, await module, content, options);
     this.#posing = view;
-    this.#room.show({ ...view, panel: [this.#panel.element, ...view.panel] }, content.name);
+    this.#shell.show({ ...view, panel: [this.#panel.element, ...view.panel] }, content.name);
     this.#update();
   }
 
   #leave(): void {
     if (this.#posing) this.#motions = this.#posing.motions;
     this.#posing = null;
-    this.#room.clear();
+    this.#shell.clear();
   }
 
   async #compute(): Promise<void> {
@@ -231,7 +231,7 @@ export class Workspace {
   async #save(): Promise<void> {
     if (this.#posing === null) await this.#tellChoice();
     const { message } = await this.#server.ask(
-      { type: "save", name: null, up: this.#room.stage.up },
+      { type: "save", name: null, up: this.#shell.stage.up },
       "saved",
     );
     this.#panel.saved(message, this.#given!.folder);
@@ -290,7 +290,7 @@ export class Workspace {
       await act();
     } catch (error) {
       if (error instanceof Refused) this.#panel.fault(error.message);
-      else this.#room.tell(readable(error), true);
+      else this.#shell.tell(readable(error), true);
     }
   }
 }

@@ -1,7 +1,7 @@
 import type { Progress, Workspace as Given } from "../engine/messages.ts";
 import { ProgressBar } from "./compute_panel.ts";
 import { filePicker, h } from "./dom.ts";
-import type { Room } from "./room.ts";
+import type { AppShell } from "./app_shell.ts";
 import type { Server } from "./server.ts";
 import { sendFile } from "./upload.ts";
 
@@ -11,7 +11,7 @@ const TETS = [".mesh", ".msh", ".vtk", ".vtu", ".veg"];
 
 /** The box before everything: asks for a mesh, sends it, and waits until the server has read and filled it. */
 export class ReadingBox {
-  readonly #room: Room;
+  readonly #shell: AppShell;
   readonly #server: Server;
   readonly #bar = new ProgressBar();
   readonly #elapsed = h("span", { className: "told" });
@@ -20,8 +20,8 @@ export class ReadingBox {
   #sending: AbortController | null = null;
   #isShown = false;
 
-  constructor(room: Room, server: Server) {
-    this.#room = room;
+  constructor(shell: AppShell, server: Server) {
+    this.#shell = shell;
     this.#server = server;
   }
 
@@ -35,7 +35,7 @@ export class ReadingBox {
       { className: "formats" },
       `A closed surface (${SURFACES.join(" ")}), which is filled with tets, or tets (${TETS.join(" ")}).`,
     );
-    this.#room.tell("Drop a mesh here", false, formats, this.#picker());
+    this.#shell.tell("Drop a mesh here", false, formats, this.#picker());
   }
 
   async upload(file: File, given: Given): Promise<void> {
@@ -89,7 +89,7 @@ export class ReadingBox {
   failed(message: string): void {
     this.#isShown = false;
     clearInterval(this.#clock);
-    this.#room.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
+    this.#shell.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
   }
 
   #show(text: string): void {
@@ -97,7 +97,7 @@ export class ReadingBox {
     this.#bar.element.hidden = true;
     this.#countFrom(performance.now());
     const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
-    this.#room.tell(text, false, this.#bar.element, this.#elapsed, cancel);
+    this.#shell.tell(text, false, this.#bar.element, this.#elapsed, cancel);
   }
 
   /** Tells how long it has taken, once that is worth telling. */

@@ -12,7 +12,7 @@ import {
   seenFrom,
   union,
   without,
-  type Place,
+  type ScreenPoint,
 } from "../selecting.ts";
 import { TriangleTree } from "../triangle_tree.ts";
 
@@ -101,8 +101,8 @@ test("a lasso is its polygon, whichever way round and however often", () => {
   const grid = Float32Array.from({ length: 2 * 21 * 21 }, (_, i) =>
     i % 2 ? Math.floor(i / 42) : (i >> 1) % 21,
   );
-  const isIn = (line: Place[]) => new Set(inLasso(grid, line));
-  const square: Place[] = [
+  const isIn = (line: ScreenPoint[]) => new Set(inLasso(grid, line));
+  const square: ScreenPoint[] = [
     [4.5, 3.5],
     [10.5, 3.5],
     [10.5, 8.5],
@@ -114,7 +114,7 @@ test("a lasso is its polygon, whichever way round and however often", () => {
   assert.deepEqual(isIn([...square].reverse()), box);
   assert.deepEqual(isIn([...square, ...square]), box, "a hand goes on after it has closed the line");
   assert.equal(isIn(square.slice(0, 2)).size, 0);
-  const circle = Array.from({ length: 200 }, (_, i): Place => {
+  const circle = Array.from({ length: 200 }, (_, i): ScreenPoint => {
     const angle = (2 * Math.PI * i) / 200;
     return [10 + 6.3 * Math.cos(angle), 10 + 6.3 * Math.sin(angle)];
   });

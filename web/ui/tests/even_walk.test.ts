@@ -1,14 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { EvenWalk, LEAST_STEP, type Way } from "../even_walk.ts";
+import { EvenWalk, LEAST_STEP, type ShapePath } from "../even_walk.ts";
 
 const MOST_SOLVES = 18;
 
 /** Walks to the end: shares, numbers of solves and motions of the steps, and the jumps. */
 function walked(curve: (share: number, from: number) => number, even: number, length: number) {
   let solves = 0;
-  const way: Way<number> = {
+  const way: ShapePath<number> = {
     solve: (share, from) => (solves++, curve(share, from)),
     motion: (from, to) => Math.abs(to - from),
   };

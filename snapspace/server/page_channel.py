@@ -1,4 +1,4 @@
-"""Outlet: what a workspace tells its page, and what a page that comes back must hear again."""
+"""PageChannel: what a workspace tells its page, and what a page that comes back must hear again."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .messages import Cancelled, Failed, Model, Progress, ServerMessage, Workspa
 Put = Callable[..., Any]
 
 
-class Outlet:
+class PageChannel:
     """Passes messages on to the page that is connected; from any thread.
 
     While no page is connected they are dropped, except the state that they leave behind: the

@@ -6,7 +6,7 @@ import { followTheme } from "./theme.ts";
 import type { View, ViewOptions } from "./view.ts";
 
 /** The page's places: the stage, the panel, and the message before them. One view is in it at a time. */
-export class Room {
+export class AppShell {
   readonly #place = document.getElementById("stage")!;
   readonly #panel = document.getElementById("panel")!;
   readonly #message = document.getElementById("message")!;

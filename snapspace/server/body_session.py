@@ -1,4 +1,4 @@
-"""Bench: handles, parts, models and files of one body, as a page makes them."""
+"""BodySession: handles, parts, models and files of one body, as a page makes them."""
 
 from __future__ import annotations
 
@@ -13,11 +13,12 @@ from ..reduction import PosingModel
 from . import messages
 from .body import Body
 from .computation import Computation, Publish
+from .computation_queue import ComputationQueue
 from .materials import chosen_material, shown_poisson
 from .models import Models
 from .parts import FloatArray, part_factors, with_factors
 from .reporter import Reporter
-from .saving import Savings
+from .saving import SavedFiles
 from .selection import (
     ANGLE,
     TRANSLATION_SHARE,
@@ -28,10 +29,9 @@ from .selection import (
 )
 from .solved_samples import SolvedSamples
 from .surface_regions import SurfaceRegions
-from .turns import Turns
 
 
-class Bench:
+class BodySession:
     """What a page does with one body.
 
     Parameters
@@ -45,7 +45,7 @@ class Bench:
         self.body = body
         self._models = models
         self._solved = SolvedSamples()
-        self._savings = Savings()
+        self._saved = SavedFiles()
         self._problem = body.problem
         self._given = DEFAULT_MATERIAL() if body.problem is None else body.problem.material
         self._material = self._given  # of the last computation, without parts
@@ -101,7 +101,12 @@ class Bench:
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
 
     def computation(
-        self, order: messages.Compute, *, turns: Turns, report: Reporter, publish: Publish
+        self,
+        order: messages.Compute,
+        *,
+        queue: ComputationQueue,
+        report: Reporter,
+        publish: Publish,
     ) -> Computation:
         """What `Compute` asks for, of handles and parts chosen last.
 
@@ -114,7 +119,7 @@ class Bench:
         computation = Computation(
             problem,
             order,
-            turns=turns,
+            queue=queue,
             solved=self._solved,
             report=report,
             start=self._models.start(problem),
@@ -140,7 +145,7 @@ class Bench:
     def save(self, order: messages.Save) -> messages.Saved:
         """Writes the problem of handles and parts chosen last, and the newest model.
 
-        ValueError if there are no handles, and as for `Savings.save`.
+        ValueError if there are no handles, and as for `SavedFiles.save`.
         """
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
@@ -150,7 +155,7 @@ class Bench:
         model = None if newest is None else newest.model
         if model is not None and order.up is not None:
             model = replace(model, provenance={**model.provenance, "up": order.up})
-        return self._savings.save(
+        return self._saved.save(
             self.body,
             problem,
             model,

@@ -1,4 +1,4 @@
-"""Turns: one computation at a time, in the order they came."""
+"""ComputationQueue: one computation at a time, in the order they came."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..interruptible import POLL_SECONDS
 from ..stopping import check_stop
 
 
-class Turns:
+class ComputationQueue:
     """A queue for what uses all of the machine.
 
     Two computations at once would both take twice the time, and twice the memory.

@@ -1,4 +1,4 @@
-"""Tries: the dimensions that are tried with the samples of a stage."""
+"""DimensionSearch: the dimensions that are tried with the samples of a stage."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FALL = 0.9
 MARGIN = 1.1
 
 
-class Tries:
+class DimensionSearch:
     """Chooses dimensions by the errors of projections, and by how far models are off beyond these.
 
     Parameters

@@ -11,9 +11,9 @@ LONGEST = 300
 
 
 def sources() -> list[Path]:
-    rooms = [ROOT / folder for folder in ("snapspace", "core", "tests", "tools")]
-    rooms += [ROOT / "web" / folder for folder in ("engine", "ui")]
-    files = [path for room in rooms for path in room.rglob("*.*")]
+    packages = [ROOT / folder for folder in ("snapspace", "core", "tests", "tools")]
+    packages += [ROOT / "web" / folder for folder in ("engine", "ui")]
+    files = [path for package in packages for path in package.rglob("*.*")]
     found = {path for path in files if path.suffix in {".py", ".h", ".cpp", ".ts", ".css"}}
     return sorted(found)
 

@@ -1,4 +1,4 @@
-"""Site: what all pages of a server share."""
+"""ServerSettings: what all pages of a server share."""
 
 from __future__ import annotations
 
@@ -6,16 +6,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..reduction import ReducedModel
+from .computation_queue import ComputationQueue
 from .shared_body import SharedBody
 from .surface_filling import SurfaceFilling
-from .turns import Turns
 
 #: 256 MB.
 UPLOAD_LIMIT = 256 * 2**20
 
 
 @dataclass(frozen=True, kw_only=True)
-class Patience:
+class PageTimeouts:
     """How long the workspace of a page that is gone is kept, in seconds.
 
     alone : a page that is loaded again is back in a second, a machine that wakes up in some more
@@ -27,7 +27,7 @@ class Patience:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Site:
+class ServerSettings:
     """What a server was started with.
 
     title : shown until a mesh has a name
@@ -39,7 +39,7 @@ class Site:
     model : to pose or blend, instead of a body; or None
     upload_limit : bytes
     filling : of surfaces that are dropped on a page
-    patience : with pages that are gone
+    timeouts : with pages that are gone
     """
 
     title: str
@@ -50,6 +50,6 @@ class Site:
     body: SharedBody | None = None
     model: ReducedModel | None = None
     upload_limit: int = UPLOAD_LIMIT
-    patience: Patience = field(default_factory=Patience)
+    timeouts: PageTimeouts = field(default_factory=PageTimeouts)
     filling: SurfaceFilling = field(default_factory=SurfaceFilling)
-    turns: Turns = field(default_factory=Turns)
+    queue: ComputationQueue = field(default_factory=ComputationQueue)

@@ -10,9 +10,9 @@ import pytest
 
 from snapspace.generators import bar
 from snapspace.server.body import Body
+from snapspace.server.computation_queue import ComputationQueue
 from snapspace.server.job import Job
 from snapspace.server.shared_body import SharedBody
-from snapspace.server.turns import Turns
 from snapspace.stopping import Stopped, stoppable
 
 PATIENCE = 20.0
@@ -26,13 +26,13 @@ def started(work: Callable[[], None], *, failed: Callable[[Exception], None] | N
 
 
 def test_turns_come_in_order_and_never_two_at_once() -> None:
-    turns, order, inside = Turns(), [], []
+    queue, order, inside = ComputationQueue(), [], []
     waiting = [threading.Event() for _ in range(4)]
     release = threading.Event()
 
     def work(number: int) -> Callable[[], None]:
         def run() -> None:
-            with turns.turn(lambda before: waiting[number].set()):
+            with queue.turn(lambda before: waiting[number].set()):
                 inside.append(number)
                 assert len(inside) == 1
                 if number == 0:
@@ -52,18 +52,18 @@ def test_turns_come_in_order_and_never_two_at_once() -> None:
 
 
 def test_who_waits_can_be_stopped_and_who_fails_lets_the_next_one_in() -> None:
-    turns = Turns()
+    queue = ComputationQueue()
     told: list[int] = []
     entered, release, waits = threading.Event(), threading.Event(), threading.Event()
 
     def first() -> None:
-        with turns.turn(told.append):
+        with queue.turn(told.append):
             entered.set()
             assert release.wait(PATIENCE)
             raise ValueError("broken")
 
     def second() -> None:
-        with turns.turn(lambda before: waits.set()):
+        with queue.turn(lambda before: waits.set()):
             raise AssertionError("it was stopped before")
 
     errors: list[Exception] = []
@@ -75,7 +75,7 @@ def test_who_waits_can_be_stopped_and_who_fails_lets_the_next_one_in() -> None:
     assert two.wait(PATIENCE)
     release.set()
     assert one.wait(PATIENCE) and str(errors[0]) == "broken"
-    with turns.turn(told.append):
+    with queue.turn(told.append):
         assert not told
 
 
