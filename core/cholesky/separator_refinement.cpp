@@ -168,7 +168,7 @@ double refine_separator(const WeightedGraph& graph, std::vector<Side>& sides) {
   Refinement refinement(graph, sides);
   const bool left_first = refinement.lighter() == MoveSide::left;
   const MoveSide turns[] = {left_first ? MoveSide::left : MoveSide::right,
-                           left_first ? MoveSide::right : MoveSide::left, MoveSide::either};
+                            left_first ? MoveSide::right : MoveSide::left, MoveSide::either};
   for (int pass = 0, in_vain = 0; pass < kMaxPasses && in_vain < 3; ++pass) {
     const double before = refinement.cost();
     refinement.run_pass(turns[pass % 3]);

@@ -53,8 +53,8 @@ struct Lane {
   /// @param trial_slope  gradient there . direction
   /// @param step_square  of the length of the step there; trial_square: of the displacement
   /// @param rounding     relative error of a value
-  TrialOutcome judge(double trial_value, double trial_slope, double step_square, double trial_square,
-                double rounding) {
+  TrialOutcome judge(double trial_value, double trial_slope, double step_square,
+                     double trial_square, double rounding) {
     if (!running()) return TrialOutcome::refused;
     ++evaluations;
     if (fresh) {

@@ -279,9 +279,9 @@ class LaneLbfgs {
   Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
   TrialOutcome verdicts_[kWidth];  // on the last trials
-  bool pending_ = false;      // the vectors are not told of these verdicts yet
-  Total scale_ = 1.0;         // A^-1 gradient = scale_ * single_gradient() in the last trials
-  Total steps_ = 0.0;         // that lead to the trials, as shares of the directions
+  bool pending_ = false;           // the vectors are not told of these verdicts yet
+  Total scale_ = 1.0;              // A^-1 gradient = scale_ * single_gradient() in the last trials
+  Total steps_ = 0.0;              // that lead to the trials, as shares of the directions
   StreamedVector<Real> trial_, gradient_;  // and the gradient there
   StreamedVector<Single> work_;            // of the gradients in double precision
 };

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, export_html
+from snapspace import PosingModel, calibrate, export_html
 
 from .pages import OpenPage, Page
 
