@@ -108,7 +108,7 @@ export interface Save {
 
 /** Page: improve a shape in the full space. A polish that runs is replaced, without an answer.
  *
- * Response by a binary frame, `request` as a 32-bit integer and the positions of the surface's
+ * Answered by a binary frame, `request` as a 32-bit integer and the positions of the surface's
  * vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
  *
  * model : number of the model
