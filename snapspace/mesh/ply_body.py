@@ -53,7 +53,7 @@ class PlyBody:
 
     def read(self, element: PlyElement) -> dict[str, PlyColumn]:
         """Read all rows of the next element; ValueError if they are not all there."""
-        if not element.count:
+        if not element.count or not element.properties:  # rows without bytes, however many
             nothing = PlyColumn(np.empty(0), np.empty(0, dtype=np.int64))
             return {item.name: nothing for item in element.properties}
         start = self._position

@@ -43,6 +43,11 @@ CASES = {
     "ply, infinite list": ("a.ply", ply(size="1e400"), "a list is announced with inf values"),
     "ply, half a list": ("a.ply", ply(size="3.5"), "a list is announced with 3.5 values"),
     "ply, long list": ("a.ply", ply(size="1e300"), "it is incomplete"),
+    "ply, faces without bytes": (
+        "a.ply",
+        PLY[: PLY.index("element face")] + f"element face {2**63}\nend_header\n" + "0 0 0\n" * 3,
+        "its faces have no vertex_indices",
+    ),
     "ply, coordinate": ("a.ply", ply(y="1e400"), "vertex 2 is not finite"),
     "mesh, 20 digits": ("a.mesh", MESH.format(HUGE), "tetrahedra: 1.23457e+19 is not a whole"),
     "mesh, infinite": ("a.mesh", MESH.format("1e400"), "tetrahedra: inf is not a whole"),
