@@ -15,7 +15,7 @@ from ..accurate import MOTIONS, check_budget, check_target
 from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path, load
 from ..problem import PosingProblem, read_problem, read_problem_surface
-from ..reduction import ENERGIES, Energy, PosingModel
+from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build_advice import tell_what_to_do
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
@@ -59,7 +59,7 @@ DIMENSION = 40
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
     "--energy",
-    type=click.Choice(ENERGIES),
+    type=click.Choice(STORED_ENERGIES),
     default="auto",
     show_default=True,
     help="Of the model. exact: a quartic, for St.Venant-Kirchhoff, up to about 60 modes. cubature: "

@@ -7,7 +7,14 @@ from typing import Any
 import numpy as np
 
 from ..problem import InterpolationProblem, Poses
-from ..reduction import BlendedCubature, InterpolationModel, PoseQuartics, coefficient_count
+from ..reduction import (
+    BlendedCubature,
+    FullBlends,
+    InterpolationModel,
+    PoseQuartics,
+    coefficient_count,
+    not_stored,
+)
 from ..subspace import AffineSubspace
 from . import basis, shown_surface, snapshot_energies
 from . import material as material_file
@@ -97,7 +104,9 @@ def interpolation_model(
     )
 
 
-def _blend_arrays(blends: PoseQuartics | BlendedCubature) -> Arrays:
+def _blend_arrays(blends: PoseQuartics | BlendedCubature | FullBlends) -> Arrays:
+    if isinstance(blends, FullBlends):
+        raise not_stored("save_model")
     if isinstance(blends, BlendedCubature):
         return {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
     return {"quartics": blends.coefficients}

@@ -8,7 +8,15 @@ import numpy as np
 
 from ..mesh import TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
-from ..reduction import Cubature, HandleQuadric, PosingModel, Quartic, coefficient_count
+from ..reduction import (
+    Cubature,
+    FullEnergy,
+    HandleQuadric,
+    PosingModel,
+    Quartic,
+    coefficient_count,
+    not_stored,
+)
 from ..subspace import AffineSubspace
 from . import basis, shown_surface, snapshot_energies
 from . import material as material_file
@@ -108,7 +116,9 @@ def posing_model(
     )
 
 
-def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
+def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
+    if isinstance(elastic, FullEnergy):
+        raise not_stored("save_model")
     if isinstance(elastic, Cubature):
         return {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
     return {"quartic": elastic.coefficients}

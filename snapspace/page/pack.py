@@ -14,11 +14,14 @@ from ..model_file.container import Arrays
 from ..reduction import (
     BlendedCubature,
     Cubature,
+    FullBlends,
+    FullEnergy,
     InterpolationModel,
     PoseQuartics,
     PosingModel,
     Quartic,
     ReducedModel,
+    not_stored,
 )
 from .estimator import estimator_arrays
 from .shape_space import quantised
@@ -137,7 +140,9 @@ def _posing_arrays(model: PosingModel) -> Arrays:
     }
 
 
-def _elastic_arrays(elastic: Quartic | Cubature) -> Arrays:
+def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
+    if isinstance(elastic, FullEnergy):
+        raise not_stored("packed")
     if isinstance(elastic, Cubature):
         return {
             "cubature_rows": elastic.rows,
@@ -160,7 +165,9 @@ def _interpolation_arrays(model: InterpolationModel) -> Arrays:
     }
 
 
-def _blend_arrays(blends: PoseQuartics | BlendedCubature) -> Arrays:
+def _blend_arrays(blends: PoseQuartics | BlendedCubature | FullBlends) -> Arrays:
+    if isinstance(blends, FullBlends):
+        raise not_stored("packed")
     if isinstance(blends, BlendedCubature):
         return {
             "cubature_rows": blends.rows,

@@ -9,11 +9,13 @@ from ..cubature import (
 )
 from .energy_choice import (
     ENERGIES,
+    STORED_ENERGIES,
     Energy,
     chosen_energy,
     fewest_snapshots,
     training_tolerance,
 )
+from .full_energy import FullBlends, FullEnergy, not_stored
 from .handle_quadric import HandleQuadric, handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
@@ -30,10 +32,13 @@ from .reduced_model import ReducedModel
 
 __all__ = [
     "ENERGIES",
+    "STORED_ENERGIES",
     "BlendedCubature",
     "Cubature",
     "CubatureErrors",
     "Energy",
+    "FullBlends",
+    "FullEnergy",
     "HandleQuadric",
     "InterpolationModel",
     "LongWorkNotice",
@@ -48,6 +53,7 @@ __all__ = [
     "exact_seconds",
     "fewest_snapshots",
     "handle_quadric",
+    "not_stored",
     "pose_quartics",
     "reduce",
     "reduced_quartic",

@@ -1,4 +1,4 @@
-"""Which reduced energy a problem gets: exact, or a cubature."""
+"""Which reduced energy a problem gets: exact, a cubature, or that of the full mesh."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import Literal
 from ..cubature import FEWEST_BLENDS, FEWEST_SNAPSHOTS, default_tets
 from ..problem import InterpolationProblem, PosingProblem
 
-Energy = Literal["auto", "exact", "cubature"]
-ENERGIES: tuple[Energy, ...] = ("auto", "exact", "cubature")
+Energy = Literal["auto", "exact", "cubature", "full"]
+#: Those that model files and pages hold, and all.
+STORED_ENERGIES: tuple[Energy, ...] = ("auto", "exact", "cubature")
+ENERGIES: tuple[Energy, ...] = (*STORED_ENERGIES, "full")
 
 #: How much more than a cubature an exact quartic may cost: it needs no tight snapshots, and has no
 #: error. On the Dragon, d = 40, a warm solve takes 0.17 ms with the quartic and 0.10 with 320 tets.
@@ -17,7 +19,7 @@ EXACTNESS = 2.0
 
 def chosen_energy(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
-) -> Literal["exact", "cubature"]:
+) -> Literal["exact", "cubature", "full"]:
     """The energy that `reduce` makes, see there.
 
     Parameters
@@ -25,7 +27,7 @@ def chosen_energy(
     problem : PosingProblem or InterpolationProblem
     dimension : int
         The dimension of the subspace.
-    energy : "auto", "exact" or "cubature"
+    energy : "auto", "exact", "cubature" or "full"
         As the user wants it.
 
     Raises
@@ -58,7 +60,7 @@ def fewest_snapshots(
 
     Ten for posing and two for blending, whose states are few and between known poses.
     """
-    if chosen_energy(problem, dimension, energy) == "exact":
+    if chosen_energy(problem, dimension, energy) != "cubature":
         return 0
     return FEWEST_BLENDS if isinstance(problem, InterpolationProblem) else FEWEST_SNAPSHOTS
 
@@ -70,7 +72,7 @@ def training_tolerance(
 
     See `posing_traits` for the reasons.
     """
-    if chosen_energy(problem, dimension, energy) == "exact":
+    if chosen_energy(problem, dimension, energy) != "cubature":
         return None
     return problem.solving.tolerance
 

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..cubature import BlendedCubature, WeightedCubature
 from ..problem import CertainRange, InterpolationProblem, certain_range
+from .full_energy import FullBlends, FullEnergy
 from .quartic import PoseQuartics, Quartic
 from .reduced_model import ReducedModel
 
@@ -25,7 +26,7 @@ class InterpolationModel(ReducedModel):
     """An interpolation problem restricted to a subspace attached to the mean shape.
 
     Fields as for `ReducedModel`, and
-    blends : PoseQuartics, exact, or BlendedCubature, a sum over few tets
+    blends : PoseQuartics, exact, BlendedCubature, a sum over few tets, or FullBlends, over all
 
     The subspace is M-orthogonal to the translations and infinitesimal rotations of the mean shape,
     because all its snapshots were registered there: the reduced problem has no rigid null
@@ -33,7 +34,7 @@ class InterpolationModel(ReducedModel):
     """
 
     problem: InterpolationProblem
-    blends: PoseQuartics | BlendedCubature
+    blends: PoseQuartics | BlendedCubature | FullBlends
 
     @property
     def cubature(self) -> BlendedCubature | None:
@@ -51,7 +52,7 @@ class InterpolationModel(ReducedModel):
             return None
         return certain_range(self.cubature.material, self.cubature.corners[:-1])
 
-    def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature:
+    def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
         """The reduced energy for weights (poses,)."""
         return self.blends.at(weights)
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..cubature import Cubature
 from ..problem import PosingProblem
+from .full_energy import FullEnergy
 from .handle_quadric import HandleQuadric
 from .quartic import Quartic
 from .reduced_model import ReducedModel
@@ -25,12 +26,12 @@ class PosingModel(ReducedModel):
     """A posing problem restricted to a subspace attached to the rest shape.
 
     Fields as for `ReducedModel`, and
-    elastic : Quartic, exact, or Cubature, a sum over few tets
+    elastic : Quartic, exact, Cubature, a sum over few tets, or FullEnergy, the sum over all
     handles : HandleQuadric
     """
 
     problem: PosingProblem
-    elastic: Quartic | Cubature
+    elastic: Quartic | Cubature | FullEnergy
     handles: HandleQuadric
 
     @property

@@ -12,6 +12,7 @@ from ..subspace import AffineSubspace
 from ..subspace.orthonormality import check_orthonormal
 from ..thread_count import checked_threads
 from .energy_choice import Energy, chosen_energy, fewest_snapshots
+from .full_energy import FullBlends, FullEnergy, full_blends, full_energy
 from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
@@ -79,10 +80,12 @@ def reduce(
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace
         Attached to the problem's tau.
-    energy : "auto", "exact" or "cubature", default "auto"
+    energy : "auto", "exact", "cubature" or "full", default "auto"
         exact: for St.Venant-Kirchhoff the reduced energy is a polynomial of degree four; its
         d^4 / 24 coefficients are computed from all tets. cubature: the energies of few tets with
         positive weights, for all materials; handles stay exact. It is trained on the snapshots.
+        full: the energy of all tets, at the cost of the mesh, for subspaces of hundreds of
+        dimensions; such models are for experiments, and are not saved or shown in pages.
         auto: exact where the material allows it and d is at most 48, else a cubature. There an
         evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with
         the default r, which the exact energy is worth.
@@ -128,18 +131,21 @@ def reduce(
     check_orthonormal(subspace, who="reduce")
     shown = surface_in(problem.mesh, surface, who="reduce")
     kind = chosen_energy(problem, subspace.dimension, energy)
-    if kind == "exact" and tets is not None:
-        raise ValueError("reduce: tets is for energy='cubature'; the exact energy takes all tets")
+    if kind != "cubature" and tets is not None:
+        raise ValueError(f"reduce: tets is for energy='cubature'; '{kind}' takes all tets")
     if kind == "exact":
         tell_of_long_quartics(problem, subspace.dimension)
     _check_snapshots(problem, subspace, energy, snapshots)
-    subspace = subspace.in_single_precision()
+    if kind != "full":  # full models are in no file
+        subspace = subspace.in_single_precision()
     parameters, coordinates = training(problem, subspace, snapshots)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
-        blends: PoseQuartics | BlendedCubature
+        blends: PoseQuartics | BlendedCubature | FullBlends
         if kind == "exact":
             blends = pose_quartics(problem, subspace, threads=threads)
+        elif kind == "full":
+            blends = full_blends(problem, subspace, threads=threads)
         else:
             blends, record["cubature"] = train_blended_cubature(
                 problem, subspace, coordinates, parameters, tets=tets, seed=seed, threads=threads
@@ -154,9 +160,11 @@ def reduce(
             provenance=record,
         )
     handles = handle_quadric(problem, subspace)
-    elastic: Quartic | Cubature
+    elastic: Quartic | Cubature | FullEnergy
     if kind == "exact":
         elastic = reduced_quartic(problem.energy, subspace, threads=threads)
+    elif kind == "full":
+        elastic = full_energy(problem, subspace, threads=threads)
     else:
         elastic, record["cubature"] = train_cubature(
             problem,

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
-from ..reduction import InterpolationModel, PoseQuartics
+from ..reduction import FullBlends, InterpolationModel, PoseQuartics
 from .display_shapes import Vertices
 from .frame_report import FrameReport
+from .full_loop import FullBlendingLoop
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
 from .session import Session
@@ -213,8 +215,10 @@ class BlendingSession(Session[InterpolationModel]):
     def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
         return BlendingProbe(self.model.problem, self.model.subspace, sample)
 
-    def _make_loop(self, *, single: bool) -> core.BlendingLoop | core.BlendedCubatureLoop:
+    def _make_loop(self, *, single: bool) -> Any:
         blends = self.model.blends
+        if isinstance(blends, FullBlends):
+            return FullBlendingLoop(self.model, single=single)
         if isinstance(blends, PoseQuartics):
             return core.BlendingLoop(blends.dimension, blends.coefficients, single=single)
         if single:

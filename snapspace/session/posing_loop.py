@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from .. import _core as core
-from ..reduction import Cubature, PosingModel
+from ..reduction import Cubature, FullEnergy, PosingModel
+from .full_loop import FullPosingLoop
 
 SINGLE_CUBATURE = (
     "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
 )
 
 
-def posing_loop(model: PosingModel, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
+def posing_loop(model: PosingModel, *, single: bool) -> Any:
     """The loop for the model's energy; ValueError for a cubature in single precision."""
     elastic, handles = model.elastic, model.handles
+    if isinstance(elastic, FullEnergy):
+        return FullPosingLoop(model, single=single)
     if not isinstance(elastic, Cubature):
         return core.PosingLoop(elastic.coefficients, handles.K, handles.L, handles.S, single=single)
     if single:

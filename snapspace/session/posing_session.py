@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _core as core
 from ..certificate import PosingProbe, ResidualSample
 from ..reduction import PosingModel
 from .display_shapes import Vertices
@@ -229,7 +229,7 @@ class PosingSession(Session[PosingModel]):
         """`pose`."""
         return self.pose(parameters)
 
-    def _make_loop(self, *, single: bool) -> core.PosingLoop | core.CubatureLoop:
+    def _make_loop(self, *, single: bool) -> Any:
         return posing_loop(self.model, single=single)
 
     def _state(self) -> FloatArray:

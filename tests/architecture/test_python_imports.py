@@ -94,6 +94,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "session": {
         "_core",
+        "blas",
         "certificate",
         "interruptible",
         "mesh",

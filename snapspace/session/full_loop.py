@@ -1,0 +1,208 @@
+"""FullLoop: solves a reduced problem with the energy of the full mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.linalg import LinAlgError, cho_factor, cho_solve
+
+from .. import _core as core
+from ..blas import single_threaded_blas
+from ..reduction import FullBlends, FullEnergy, InterpolationModel, PosingModel
+
+FloatArray = NDArray[np.float64]
+
+#: Sufficient decrease, and how often a step is halved (Nocedal & Wright, 3.1).
+DECREASE, HALVINGS = 1e-4, 30
+#: What a singular Hessian's diagonal is raised by, relative to its mean; times 16 until it helps.
+FIRST_SHIFT, SHIFT_GROWTH, MOST_SHIFTS = 1e-10, 16.0, 20
+_NO_SINGLE = "Session: precision 'single' is for exact quartics; a full energy is in double"
+
+
+@dataclass(frozen=True)
+class FullReport:
+    """How a solve ended; fields as for the core's reports."""
+
+    status: core.Status
+    iterations: int
+    evaluations: int
+    value: float
+    gradient_norm: float
+
+
+class FullLoop:
+    """Newton's method on the energy of all tets and the handles, from the last frame.
+
+    Where the Hessian is not positive definite, that of projected tets takes its place. The tests
+    of the end are those of the paper, sec. 6.2, as for the compiled loops. Only the method "newton"
+    is known.
+
+    Parameters
+    ----------
+    energy : FullEnergy
+    projection : of the tets' Hessians, as the problem has it
+    """
+
+    def __init__(self, energy: FullEnergy, projection: str) -> None:
+        self._whole = self._energy = energy
+        self._projection = getattr(core.Projection, projection)
+        self._q = np.zeros(energy.dimension)
+
+    @property
+    def q(self) -> FloatArray:
+        """Coordinates (d,) of the current shape."""
+        return self._q.copy()
+
+    @q.setter
+    def q(self, q: ArrayLike) -> None:
+        self._q = np.array(q, np.float64)
+
+    @property
+    def dimension(self) -> int:
+        """Number of coordinates that are solved for."""
+        return len(self._q)
+
+    @dimension.setter
+    def dimension(self, dimension: int) -> None:
+        kept = self._q[:dimension]
+        self._q = np.concatenate([kept, np.zeros(dimension - len(kept))])
+        self._energy = self._energy_now().leading(dimension)
+
+    def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
+        """Objective at q and its gradient (d,)."""
+        at = np.asarray(q, np.float64)
+        return self._with_handles(at, *self._energy.value_and_gradient(at))
+
+    def hessian(self, q: ArrayLike) -> FloatArray:
+        """Hessian of the objective at q, (d, d)."""
+        return self._energy.hessian(q) + self._handle_hessian()
+
+    def solve(
+        self,
+        *,
+        method: core.Method,
+        tolerance: float,
+        max_iterations: int,
+        max_evaluations: int,
+        value_scale: float,
+        coordinate_scale: float,
+    ) -> FullReport:
+        """Minimises from q, in place."""
+        if method != core.Method.newton:
+            raise ValueError("Session: a full energy is minimised by 'newton' only")
+        value, gradient = self.value_and_gradient(self._q)
+        iterations, evaluations, status = 0, 1, core.Status.max_iterations
+        if not np.isfinite(value):
+            status, max_iterations = core.Status.not_finite, 0
+        while iterations < max_iterations:
+            if evaluations >= max_evaluations:
+                status = core.Status.max_evaluations
+                break
+            direction = self._direction(gradient)
+            slope = float(gradient @ direction)
+            size = np.linalg.norm(self._q) / coordinate_scale
+            unit = 1.0 + abs(value) / value_scale
+            if (
+                -0.5 * slope / value_scale < tolerance * unit
+                and np.linalg.norm(direction) / coordinate_scale < tolerance**0.5 * (1.0 + size)
+                and np.linalg.norm(gradient) * coordinate_scale / value_scale
+                < tolerance ** (1.0 / 3.0) * unit
+            ):
+                status = core.Status.converged
+                break
+            length, tried, after, new_gradient = self._step(direction, value, slope)
+            evaluations += tried
+            if length == 0.0:
+                status = core.Status.line_search_failed
+                break
+            self._q += length * direction
+            value, gradient = after, new_gradient
+            iterations += 1
+        return FullReport(status, iterations, evaluations, value, float(np.linalg.norm(gradient)))
+
+    def _energy_now(self) -> FullEnergy:
+        """The energy in all dimensions that the frame is solved for."""
+        return self._whole
+
+    def _with_handles(
+        self, q: FloatArray, value: float, gradient: FloatArray
+    ) -> tuple[float, FloatArray]:
+        return value, gradient
+
+    def _handle_hessian(self) -> FloatArray | float:
+        return 0.0
+
+    @single_threaded_blas
+    def _direction(self, gradient: FloatArray) -> FloatArray:
+        hessian = self.hessian(self._q)
+        try:
+            return -np.asarray(cho_solve(cho_factor(hessian), gradient))
+        except LinAlgError:
+            projected = self._energy.hessian(self._q, projection=self._projection)
+        hessian = projected + self._handle_hessian()
+        shift = FIRST_SHIFT * float(np.trace(hessian)) / len(hessian)
+        for _ in range(MOST_SHIFTS):
+            try:
+                return -np.asarray(cho_solve(cho_factor(hessian), gradient))
+            except LinAlgError:
+                hessian += shift * np.eye(len(hessian))
+                shift *= SHIFT_GROWTH
+        return -gradient
+
+    def _step(
+        self, direction: FloatArray, value: float, slope: float
+    ) -> tuple[float, int, float, FloatArray]:
+        """Length of a step that decreases enough, zero if none does, evaluations, and the end."""
+        length = 1.0
+        for tried in range(1, HALVINGS + 1):
+            after, gradient = self.value_and_gradient(self._q + length * direction)
+            if after <= value + DECREASE * length * slope:
+                return length, tried, after, gradient
+            length *= 0.5
+        return 0.0, HALVINGS, value, np.zeros_like(direction)
+
+
+class FullPosingLoop(FullLoop):
+    """That of posing: set offsets, solve from the last frame."""
+
+    def __init__(self, model: PosingModel, *, single: bool) -> None:
+        if single:
+            raise ValueError(_NO_SINGLE)
+        assert isinstance(model.elastic, FullEnergy)
+        super().__init__(model.elastic, model.problem.solving.projection)
+        self._handles = model.handles
+        self.set_offsets(np.zeros((len(model.problem.handles), 3, 4)))
+
+    def set_offsets(self, offsets: FloatArray) -> None:
+        """Offsets (h, 3, 4) of the handles."""
+        self._offsets = np.array(offsets)
+
+    def _with_handles(
+        self, q: FloatArray, value: float, gradient: FloatArray
+    ) -> tuple[float, FloatArray]:
+        handles = self._handles.leading(len(q))
+        flat = self._offsets.reshape(len(self._offsets), 12)
+        pull = np.einsum("hik,hk->i", handles.L, flat)
+        return value + handles.value(q, self._offsets), gradient + 2.0 * (handles.K @ q - pull)
+
+    def _handle_hessian(self) -> FloatArray:
+        d = self.dimension
+        return 2.0 * self._handles.K[:d, :d]
+
+
+class FullBlendingLoop(FullLoop):
+    """That of blending: set weights, solve from the last frame."""
+
+    def __init__(self, model: InterpolationModel, *, single: bool) -> None:
+        if single:
+            raise ValueError(_NO_SINGLE)
+        assert isinstance(model.blends, FullBlends)
+        self._blends = model.blends
+        super().__init__(model.blends.energies, model.problem.solving.projection)
+
+    def set_weights(self, weights: FloatArray) -> None:
+        """Weights (poses,)."""
+        self._whole = self._blends.at(weights)
+        self._energy = self._whole.leading(self.dimension)
