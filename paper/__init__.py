@@ -1,0 +1,1 @@
+"""The paper's experiments as programs, with rival subspaces and rival evaluations."""

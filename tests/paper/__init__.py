@@ -1,0 +1,1 @@
+"""Tests of the paper's experiments and of the rivals in them."""
