@@ -1,0 +1,56 @@
+"""Result: the rows of a table, printed, and written as JSON."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+from rich.table import Table
+
+FOLDER = Path(__file__).parent / "results"
+
+
+@dataclass
+class Result:
+    """Rows of figures under one title.
+
+    name : of the file
+    title : for people
+    rows : mappings with the same keys
+    """
+
+    name: str
+    title: str
+    rows: list[dict[str, Any]] = field(default_factory=list)
+
+    def add(self, **row: Any) -> None:
+        """Adds a row, and says so on standard error."""
+        self.rows.append(row)
+        print(self.name, *(_text(value) for value in row.values()), file=sys.stderr, flush=True)
+
+    def print(self) -> None:
+        """Prints the table."""
+        table = Table(*self.rows[0], title=self.title)
+        for row in self.rows:
+            table.add_row(*(_text(value) for value in row.values()))
+        Console(width=150).print(table)
+
+    def save(self, folder: Path = FOLDER) -> Path:
+        """Writes NAME.json; the path."""
+        folder.mkdir(parents=True, exist_ok=True)
+        path = folder / f"{self.name}.json"
+        temporary = path.with_suffix(".json.part")
+        content = {"title": self.title, "rows": self.rows}
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+        temporary.replace(path)
+        return path
+
+
+def _text(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:.3g}" if isinstance(value, float) else str(value)

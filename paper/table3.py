@@ -1,0 +1,103 @@
+"""Table 3: objective and gradient in the unreduced space, of reduced solutions.
+
+The paper shows the poses (Fig. 7 and 8) and gives no numbers of them. Here it is one unseen motion
+of each problem. Dimensions are the paper's; Newton's method begins at the projection of the full
+solution, with a tolerance of 1e-7.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import snapspace as ss
+from snapspace.validation.unseen import reference_options, unseen_parameters
+
+from . import rivals
+from .cached import cached_snapshots
+from .cases import read
+from .minimisers import minimisers
+from .result import Result
+
+MATERIALS = ("stvk", "stable-neo-hookean")
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the paper's table: (objective, gradient) of the full solution, ours, BC, RBF."""
+
+    name: str
+    samples: int
+    ours: int
+    dimensions: tuple[int, ...]
+    full: tuple[float, float]
+    our_paper: tuple[float, float]
+    biharmonic: tuple[tuple[float, float], ...]
+    radial: tuple[tuple[float, float], ...]
+
+
+DRAGON = Column(
+    "dragon",
+    300,
+    40,
+    (69, 114, 204, 384, 744),
+    (4.37e-1, 8.51e-3),
+    (1.03, 1.24),
+    ((1.43e2, 5.87e2), (6.15e1, 1.31e2), (5.99e1, 7.85e1), (6.12, 1.06e1), (1.33, 4.40)),
+    ((2.46e3, 8.15e3), (7.49e2, 3.73e3), (1.94e2, 9.18e2), (1.83e1, 2.43e2), (2.22, 3.72e1)),
+)
+ARMADILLO = Column(
+    "armadillo",
+    300,
+    60,
+    (138, 228, 408, 768),
+    (1.42e3, 3.48e1),
+    (9.12e3, 9.03e3),
+    ((2.33e6, 5.02e5), (4.44e4, 8.24e4), (1.09e4, 3.27e3), (8.54e3, 7.59e2)),
+    ((1.29e6, 9.42e5), (3.75e5, 1.58e5), (5.11e4, 4.40e4), (9.89e3, 8.00e3)),
+)
+#: How many of the dimensions the generated shapes take.
+QUICK = 2
+
+
+def run(*, quick: bool = False) -> Result:
+    """Both columns, for the paper's material and for stable neo-Hookean."""
+    result = Result("table3", "Table 3: objective and gradient norm in the unreduced space")
+    for kind in MATERIALS:
+        for column in (DRAGON,) if quick else (DRAGON, ARMADILLO):
+            _add(result, column, kind, quick=quick)
+    return result
+
+
+def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
+    case = read(column.name, kind, quick=quick)
+    problem = case.problem
+    assert isinstance(problem, ss.PosingProblem)
+    samples, ours = (60, 20) if quick else (column.samples, column.ours)
+    dimensions = column.dimensions[:QUICK] if quick else column.dimensions
+    training = cached_snapshots(problem, ss.sample(problem.domain, samples, method="sobol"))
+    unseen = unseen_parameters(problem.domain, 1, seed=1)
+    reference = cached_snapshots(problem, unseen, reference_options(problem))
+    parameters, full = unseen[0], reference.shapes[:, 0]
+
+    def add(name: str, d: int | None, x: np.ndarray, paper: tuple[float, float]) -> None:
+        value, gradient = problem.value_and_gradient(x, parameters)
+        known = paper if kind == "stvk" else (None, None)
+        result.add(
+            shape=case.shape,
+            material=kind,
+            subspace=name,
+            d=d,
+            **{"paper F": known[0], "F": value},
+            **{"paper |grad F|": known[1], "|grad F|": float(np.linalg.norm(gradient))},
+        )
+
+    add("full", None, full, column.full)
+    wanted = [("ours", ss.snapshot_pca(training, dimension=ours), column.our_paper)]
+    for d, paper in zip(dimensions, column.biharmonic, strict=False):
+        wanted.append(("biharmonic", rivals.biharmonic_subspace(problem, d), paper))
+    for d, paper in zip(dimensions, column.radial, strict=False):
+        wanted.append(("radial basis", rivals.radial_basis_subspace(problem, d), paper))
+    for name, subspace, paper in wanted:
+        add(name, subspace.dimension, next(minimisers(subspace, reference)), paper)
