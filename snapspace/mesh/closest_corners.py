@@ -13,7 +13,7 @@ from .tet_search import closest_faces
 def closest_corners(
     vertices: FloatArray, faces: IndexArray, points: FloatArray
 ) -> NDArray[np.intp]:
-    """For each point, the corner of its closest triangle that is nearest to its foot there.
+    """The corner of each point's closest triangle that is nearest to the closest point on it.
 
     Unlike the closest vertex, it never belongs to another limb where triangles are large.
 

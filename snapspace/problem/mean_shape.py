@@ -23,7 +23,7 @@ def mean_displacement(
 ) -> FloatArray:
     """Displacement (3n,) of the minimum of the mean energy of all poses.
 
-    The first 80 iterations start from every pose at once, with a factor adapted to each of them.
+    The first 80 iterations start from every pose at once, with one factor adapted to all of them.
     Then only the shape with the lowest energy continues, and the factor is adapted to it every 80
     iterations.
 
@@ -60,10 +60,10 @@ def mean_displacement(
 
 
 def _first_weights(poses: int) -> FloatArray:
-    """Weights (k, k) for the factors of the first stage: half each for a pose and the next one.
+    """Weights (k, k) for the factor of the first stage: half each for a pose and the next one.
 
-    Weights of all poses would need k^2 Hessians: five seconds for ten poses of the Lion, and no
-    fewer iterations.
+    Weights of all poses would need k^2 Hessians: five seconds for ten poses of the Lion, and as
+    many iterations.
     """
     return (np.eye(poses) + np.roll(np.eye(poses), 1, axis=1)) / 2.0
 

@@ -148,7 +148,7 @@ def test_meshes_that_do_not_correspond_are_refused() -> None:
         Poses.of([BAR, other], names=NAMES)
     with pytest.raises(ValueError, match="Poses: pose 1: has 4 vertices, but pose 0 has 36"):
         Poses.of([BAR, one_tet()])
-    with pytest.raises(ValueError, match="Poses: got 1 pose, but two are needed"):
+    with pytest.raises(ValueError, match="Poses: got 1 pose, but at least two are needed"):
         Poses.of([BAR])
     with pytest.raises(ValueError, match="Poses: got 1 names for 2 poses"):
         Poses.of([BAR, BAR], names=["stand"])
