@@ -28,7 +28,7 @@ def test_a_table_of_tets_in_a_cubature(cubature: Path, tmp_path: Path) -> None:
     arrays, header = read_container(cubature)
     arrays["cubature_tets"] = arrays["cubature_tets"][None]
     write_container(tmp_path / "b.snapspace", arrays, header)
-    with pytest.raises(ValueError, match=r"'cubature_tets' has shape \(1, \d+\) and not \(\d+,\)"):
+    with pytest.raises(ValueError, match=r"'cubature_tets' has shape \(1, \d+\), not \(\d+,\)"):
         load(tmp_path / "b.snapspace")
 
 
