@@ -14,7 +14,7 @@ Own = TypeVar("Own", bound="LameMaterial")
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class LameMaterial(Material):
-    """A density of the Lame parameters.
+    """A density whose moduli are the Lame parameters.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ class LameMaterial(Material):
     Raises
     ------
     ValueError
-        If a parameter is not finite or outside of its range.
+        If a parameter is not finite or outside its range.
     """
 
     lam: Modulus = 1.0
@@ -33,4 +33,4 @@ class LameMaterial(Material):
     @classmethod
     def from_lame(cls: type[Own], *, lam: ArrayLike, mu: ArrayLike) -> Own:
         """The material with these parameters."""
-        return cls(lam=lam, mu=mu)  # type: ignore[arg-type]  # checked there
+        return cls(lam=lam, mu=mu)  # type: ignore[arg-type]  # __init__ checks

@@ -21,9 +21,9 @@ Own = TypeVar("Own", bound="Material")
 
 
 class Material(ABC):
-    """An isotropic hyperelastic density, by its moduli.
+    """An isotropic hyperelastic density with its moduli.
 
-    A subclass is a frozen dataclass. Its fields are the moduli, in the order of the density's in
+    A subclass is a frozen dataclass. Its fields are the moduli, in the same order as in
     core/material; each is a number, or an array (m,) with one number per tet. Moduli are energies
     per rest volume, and the density is linear in them.
 
@@ -54,7 +54,7 @@ class Material(ABC):
         if len(sizes) > 1:
             raise ValueError(
                 f"{type(self).__name__}: moduli of {' and '.join(map(str, sorted(sizes)))} tets do "
-                "not go together; give one number, or one per tet of the mesh"
+                "not match; give one number, or one per tet of the mesh"
             )
 
     @classmethod
@@ -65,7 +65,7 @@ class Material(ABC):
     @classmethod
     @abstractmethod
     def from_lame(cls: type[Own], *, lam: ArrayLike, mu: ArrayLike) -> Own:
-        """The material that answers small strains as these Lame parameters say.
+        """The material that has these Lame parameters at small strains.
 
         A density without a volume term ignores `lam`.
         """
@@ -103,12 +103,12 @@ class Material(ABC):
 
     @cached_property
     def core(self) -> _core.Material:
-        """The same for the compiled core."""
+        """This material in the compiled core."""
         return _core.Material(self.kind, self.moduli)
 
     @cached_property
     def key(self) -> list[str]:
-        """All that solutions depend on: the kind, and a hash of the moduli."""
+        """Everything that solutions depend on: the kind, and a hash of the moduli."""
         return [self.kind, hashlib.sha256(self.moduli.astype("<f8").tobytes()).hexdigest()]
 
     def check_tets(self, count: int, who: str) -> None:
@@ -140,9 +140,9 @@ class Material(ABC):
         return hash(tuple(self.key))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # the caches stay behind: the compiled material does not travel
-        return _made, (type(self), {name: getattr(self, name) for name in self.names()})
+        # cached properties are left out: the compiled material cannot be pickled
+        return _restore, (type(self), {name: getattr(self, name) for name in self.names()})
 
 
-def _made(kind: type[Own], moduli: dict[str, Any]) -> Own:
+def _restore(kind: type[Own], moduli: dict[str, Any]) -> Own:
     return kind(**moduli)

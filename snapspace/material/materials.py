@@ -1,4 +1,4 @@
-"""The materials by name: the one place in Python that knows them."""
+"""The materials by name: the only place in Python that lists them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ DEFAULT_MATERIAL = StableNeoHookean
 
 
 def material_class(kind: str) -> type[Material]:
-    """The class of a kind; ValueError, with the known ones, for another name."""
+    """The class of a kind; ValueError, which lists the known kinds, for any other name."""
     if kind not in MATERIALS:
         raise ValueError(f"unknown material '{kind}'; known are {', '.join(sorted(MATERIALS))}")
     return MATERIALS[kind]
@@ -32,11 +32,11 @@ def material_class(kind: str) -> type[Material]:
 def checked_material(material: Any, count: int, who: str) -> Material:
     """The material; ValueError of `who` unless it is one of `MATERIALS` for `count` tets.
 
-    A subclass with another density is none: the core would compute that of its `kind`.
+    A subclass with its own density is refused: the core would use the density of its `kind`.
     """
     if isinstance(material, type) and issubclass(material, Material):
         raise ValueError(
-            f"{who}: material is the class {material.__name__}; give one with moduli, such as "
+            f"{who}: material is the class {material.__name__}; give an instance, such as "
             f"{material.__name__}.from_lame(lam=1, mu=1)"
         )
     if type(material) not in MATERIALS.values():

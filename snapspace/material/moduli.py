@@ -1,4 +1,4 @@
-"""Moduli of materials: checked, and made from Young's modulus and Poisson's ratio."""
+"""Moduli of materials: checks, and conversion from Young's modulus and Poisson's ratio."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ FloatArray = NDArray[np.float64]
 
 
 def checked_modulus(value: ArrayLike, who: str, name: str) -> float | FloatArray:
-    """A float, or a read-only array (m,).
+    """The modulus as a float, or as a read-only array (m,).
 
     Raises
     ------
     ValueError
-        For another shape, a value that is not finite or negative, or a `mu` of zero.
+        For another shape, a value that is negative or not finite, or a `mu` of zero.
     """
     array = _numbers(value, who, name)
     wrong = ~(np.isfinite(array) & (array >= 0))
@@ -35,7 +35,7 @@ def checked_modulus(value: ArrayLike, who: str, name: str) -> float | FloatArray
 def lame_of_young(
     youngs_modulus: ArrayLike, poisson_ratio: ArrayLike, who: str
 ) -> tuple[FloatArray, FloatArray]:
-    """lam and mu of Young's modulus > 0 and Poisson's ratio in [0, 0.5); ValueError otherwise."""
+    """lam and mu from Young's modulus > 0 and Poisson's ratio in [0, 0.5); ValueError otherwise."""
     young = _numbers(youngs_modulus, who, "youngs_modulus")
     poisson = _numbers(poisson_ratio, who, "poisson_ratio")
     wrong = ~(np.isfinite(young) & (young > 0))
@@ -47,7 +47,7 @@ def lame_of_young(
         where, first = _first(poisson, wrong)
         raise ValueError(
             f"{who}: poisson_ratio{where} is {first}, but it must be in [0, 0.5); take 0.49 for "
-            "material that keeps its volume"
+            "a material that keeps its volume"
         )
     mu = young / (2 * (1 + poisson))
     return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu

@@ -15,18 +15,18 @@ from .material import Material, Modulus
 class MooneyRivlin(Material):
     """Mooney-Rivlin: mu1/2 (|F|^2 - 3) + mu2/2 (|cof F|^2 - 3), and terms of J.
 
-    The latter are -(mu1 + 2 mu2) (J - 1) + (lam + mu1)/2 (J - 1)^2. With mu2 = 0 it is stable
+    The terms of J are -(mu1 + 2 mu2) (J - 1) + (lam + mu1)/2 (J - 1)^2. With mu2 = 0 it is stable
     neo-Hookean.
 
     Parameters
     ----------
     lam, mu1, mu2 : float or array (m,), default 1, 0.5 and 0.5
-        In energy per rest volume, none negative; the shear modulus mu = mu1 + mu2 is positive.
+        In energy per rest volume, all >= 0; the shear modulus mu = mu1 + mu2 is > 0.
 
     Raises
     ------
     ValueError
-        If a parameter is not finite or outside of its range.
+        If a parameter is not finite or outside its range.
     """
 
     kind: ClassVar[str] = "mooney-rivlin"
@@ -53,4 +53,4 @@ class MooneyRivlin(Material):
     def from_lame(cls, *, lam: ArrayLike, mu: ArrayLike) -> MooneyRivlin:
         """The material with these Lame parameters and mu1 = mu2."""
         half = 0.5 * np.asarray(mu, np.float64)
-        return cls(lam=lam, mu1=half, mu2=half)  # type: ignore[arg-type]  # checked there
+        return cls(lam=lam, mu1=half, mu2=half)  # type: ignore[arg-type]  # __init__ checks

@@ -1,4 +1,4 @@
-"""Materials of a shear modulus alone."""
+"""Materials whose only modulus is the shear modulus."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ShearMaterial(Material):
     Raises
     ------
     ValueError
-        If it is not finite or not positive.
+        If `mu` is not finite or not positive.
     """
 
     mu: Modulus = 1.0
@@ -37,4 +37,4 @@ class ShearMaterial(Material):
     @classmethod
     def from_lame(cls: type[Own], *, lam: ArrayLike, mu: ArrayLike) -> Own:
         """The material with this shear modulus; `lam` is ignored."""
-        return cls(mu=mu)  # type: ignore[arg-type]  # checked there
+        return cls(mu=mu)  # type: ignore[arg-type]  # __init__ checks

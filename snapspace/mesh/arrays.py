@@ -1,4 +1,4 @@
-"""The two array types of the mesh room and their conversion at the door."""
+"""The two array types of this package, and the conversion of input to them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LARGEST_INDEX = int(np.iinfo(np.int32).max)
 
 
 def as_points(values: ArrayLike, *, who: str, what: str = "vertices") -> FloatArray:
-    """A fresh C-contiguous float64 copy of n points, (n, 3); ValueError for anything else."""
+    """A new C-contiguous float64 array of n points, (n, 3); ValueError for any other input."""
     array = _as_array(values, who=who, what=what)
     if array.ndim != 2 or array.shape[1] != 3:
         raise InputError(who, f"{what} must have shape (n, 3), got {array.shape}")
@@ -24,7 +24,7 @@ def as_points(values: ArrayLike, *, who: str, what: str = "vertices") -> FloatAr
 
 
 def as_indices(values: ArrayLike, *, corners: int, who: str, what: str) -> IndexArray:
-    """A fresh C-contiguous int32 copy of m index rows, shape (m, corners); ValueError otherwise.
+    """A new C-contiguous int32 array of m index rows, (m, corners); ValueError for other input.
 
     Floating-point indices are refused rather than truncated.
     """

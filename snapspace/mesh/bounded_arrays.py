@@ -1,7 +1,7 @@
-"""Arrays of bounded size for meshio, whose readers make as large ones as a file's numbers say.
+"""Arrays of bounded size for meshio, whose readers allocate any size that a file asks for.
 
-A Gmsh file of a few bytes with the node number 2^31 would fill 16 GB, a VTK file with huge
-dimensions any memory.
+A Gmsh file of a few bytes with the node number 2^31 would take 16 GB, and a VTK file with huge
+dimensions would exhaust any memory.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-#: Entries of an array. A mesh of more vertices is far beyond what can be solved.
+#: Most entries of an array. A mesh with more vertices is far too large to be solved.
 MOST_ENTRIES = 1 << 26
 
 
 class BoundedArrays:
-    """NumPy, except that what makes arrays of a given size refuses huge ones by ValueError."""
+    """NumPy, except that functions that allocate a given size raise ValueError for huge ones."""
 
     def __getattr__(self, name: str) -> Any:
         return getattr(np, name)
@@ -36,7 +36,7 @@ class BoundedArrays:
 
 
 def bound_arrays(*modules: ModuleType) -> None:
-    """Gives modules of meshio these functions in place of NumPy's."""
+    """Make modules of meshio use these functions in place of NumPy's."""
     for module in modules:
         module.np = BoundedArrays()  # type: ignore[attr-defined]
 

@@ -1,4 +1,4 @@
-"""BoxTree: which of many boxes are near which of many points."""
+"""BoxTree: finds the boxes that are near each of many points."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class BoxTree:
     Notes
     -----
     Karras, "Maximizing Parallelism in the Construction of BVHs, Octrees, and k-d Trees", 2012,
-    orders boxes like this. The tree is stored level by level, so that a query takes a few array
+    orders boxes in this way. The tree is stored level by level, so that a query takes a few array
     operations per level for all points together.
     """
 
     def __init__(self, low: FloatArray, high: FloatArray) -> None:
         self._order = np.argsort(morton_codes((low + high) / 2.0), kind="stable")
         depth = max(0, len(low) - 1).bit_length()
-        # empty boxes fill the last level up: they are infinitely far from everything
+        # empty boxes fill up the last level: they are infinitely far from everything
         lows, highs = np.full((2**depth, 3), np.inf), np.full((2**depth, 3), -np.inf)
         lows[: len(low)], highs[: len(low)] = low[self._order], high[self._order]
         self._levels = [(lows, highs)]
@@ -40,18 +40,19 @@ class BoxTree:
         self._levels.reverse()
 
     def within(self, points: FloatArray, distances: FloatArray) -> Pairs:
-        """Pairs of a point and a box not farther from it than the point's distance.
+        """All pairs of a point and a box that is no farther from it than its given distance.
 
         Parameters
         ----------
         points : ndarray, (k, 3)
         distances : ndarray, (k,)
-            Zero for boxes that contain the point, boundary included.
+            Largest distance for each point; zero finds the boxes that contain it, boundary
+            included.
 
         Returns
         -------
         points, boxes : ndarray of int
-            Indices, one of each per pair, by point.
+            Indices, one of each per pair, sorted by point.
         """
         squared = distances**2
         point, node = np.arange(len(points)), np.zeros(len(points), np.intp)

@@ -9,19 +9,19 @@ from .arrays import FloatArray, IndexArray
 
 
 def check_closed(faces: IndexArray, *, who: str) -> None:
-    """Raise ValueError unless the faces are closed and oriented alike.
+    """Raise ValueError unless the faces form a closed surface and are oriented alike.
 
     Parameters
     ----------
     faces : ndarray of int, (f, 3)
     who : str
-        Begins the message.
+        The start of the message.
 
     Raises
     ------
     ValueError
         If there are no faces, or a directed edge does not occur as often as its reverse: at a
-        boundary edge, or between two faces of opposite orientation. The message has the number of
+        boundary edge, or between two faces of opposite orientation. The message gives the number of
         such edges and the first one.
     """
     if not len(faces):
@@ -34,7 +34,7 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
             who,
             f"the surface is not closed, it has {boundary.size} boundary edges (the first "
             f"between vertices {first} and {second}): fill its holes, and merge vertices that "
-            "are one point",
+            "coincide",
         )
     turned = np.flatnonzero(balance)
     if turned.size:
@@ -47,7 +47,7 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
 
 
 def _edge_balance(faces: IndexArray) -> tuple[IndexArray, IndexArray, IndexArray]:
-    """Undirected edges (e, 2), how much more often each runs upward than downward, its faces."""
+    """Undirected edges (e, 2), their upward less their downward uses (e,), and all uses (e,)."""
     directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     edges, edge = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True)
     upward = np.where(directed[:, 0] < directed[:, 1], 1, -1)
@@ -59,7 +59,7 @@ def _edge_balance(faces: IndexArray) -> tuple[IndexArray, IndexArray, IndexArray
 
 
 def enclosed_volume(vertices: FloatArray, faces: IndexArray) -> float:
-    """Volume inside of a closed surface by the divergence theorem.
+    """Volume inside a closed surface by the divergence theorem.
 
     Parameters
     ----------
@@ -70,8 +70,8 @@ def enclosed_volume(vertices: FloatArray, faces: IndexArray) -> float:
     Returns
     -------
     float
-        Positive if the faces are outward, negative if they are inward; parts that the surface
-        encloses several times count as often.
+        Positive if the faces are outward, negative if they are inward; a part that the surface
+        encloses several times counts that many times.
     """
     a, b, c = np.moveaxis(vertices[faces] - vertices[faces[0, 0]], 1, 0)
     return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)

@@ -1,4 +1,4 @@
-"""Which vertex of a surface each point is closest to, along the surface."""
+"""The vertex of a surface that is closest to each point, as seen along the surface."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from .tet_search import closest_faces
 def closest_corners(
     vertices: FloatArray, faces: IndexArray, points: FloatArray
 ) -> NDArray[np.intp]:
-    """The corner of the closest triangle that is closest to each point's foot there.
+    """The corner of each point's closest triangle that is nearest to the closest point on it.
 
-    Other than the closest vertex, it is never one of another limb where triangles are large.
+    Unlike the closest vertex, it never belongs to another limb where triangles are large.
 
     Parameters
     ----------

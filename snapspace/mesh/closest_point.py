@@ -8,7 +8,7 @@ from .arrays import FloatArray
 
 
 def closest_on_triangles(points: FloatArray, triangles: FloatArray) -> FloatArray:
-    """The point of each triangle that is closest to a point.
+    """The point of each triangle that is closest to the point of the same row.
 
     Parameters
     ----------
@@ -19,8 +19,8 @@ def closest_on_triangles(points: FloatArray, triangles: FloatArray) -> FloatArra
     Returns
     -------
     ndarray, (k, 3)
-        The foot of the perpendicular if it falls inside of the triangle, else the closest point
-        of the three edges.
+        The foot of the perpendicular if it falls inside the triangle, else the closest point
+        on the three edges.
     """
     closest = np.zeros_like(points)
     best = np.full(len(points), np.inf)

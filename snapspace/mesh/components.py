@@ -1,4 +1,4 @@
-"""Connected components of a tet mesh: tets hang together where they share a vertex."""
+"""Connected components of a tet mesh: tets that share a vertex are connected."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def tet_components(tets: IndexArray, vertex_count: int) -> IndexArray:
     Returns
     -------
     ndarray of int32, (m,)
-        Component of each tet: 0 is the component with the most tets; ties in the order of the tets.
+        Component of each tet: 0 is the component with the most tets; ties keep the order of tets.
     """
     if not len(tets):
         return np.zeros(0, dtype=np.int32)

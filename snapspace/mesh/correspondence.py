@@ -27,9 +27,9 @@ def check_same_faces(
     Raises
     ------
     ValueError
-        For different vertex counts, face counts or faces, in this order; the message names the
-        first surface that differs from the first one and, for faces, the first that does, with its
-        vertices in both. The same triangle that begins at another corner counts as different.
+        For different vertex counts, face counts or faces, in this order. The message names the
+        first surface that differs and, for faces, the first face that does, with its vertices in
+        both surfaces. The same triangle beginning at another corner counts as different.
     """
     _check_same_cells(surfaces, names, singular="face")
 

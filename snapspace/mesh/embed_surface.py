@@ -1,4 +1,4 @@
-"""Embedding a surface in the tets that were filled into it."""
+"""Embedding a surface in the tets that fill it."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .tet_mesh import TetMesh
 from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
 from .validation import check_indices, check_points
 
-#: `farthest` for a surface that the mesh was filled into: all of it is carried along, also a crumb
-#: that filling has lost, and a surface in another unit is refused.
+#: `farthest` for a surface that the mesh fills: the tets carry all of it along, even a small part
+#: that filling lost. A surface in another unit is still refused.
 WHOLE_DIAGONAL = 1.0
-_SAME = 1e-9  # points closer than this share of the diagonal are one
+_SAME = 1e-9  # points closer than this share of the diagonal coincide
 
 
 def embed_surface(
@@ -29,26 +29,26 @@ def embed_surface(
         The surface at rest, in the unit and frame of the mesh.
     faces : array_like of int, (f, 3)
     mesh : TetMesh
-        Filled into the surface. A tetrahedraliser may keep the surface only within an envelope.
+        Fills the surface. A tetrahedraliser may keep the surface only within an envelope.
     farthest : float, default 0.02
-        How far outside of the tets a vertex may lie, as a share of the mesh's diagonal. Quick tets
-        cut sharp edges off within an edge length.
+        How far outside the tets a vertex may lie, as a share of the mesh's diagonal. Quick tets
+        cut off sharp edges within an edge length.
 
     Returns
     -------
     EmbeddedSurface
         With the surface's own vertices, in their order, and its faces; `vertices(mesh.vertices)`
         are the given vertices up to rounding. If the first s vertices of the mesh are those of the
-        surface, it is exact. Else a vertex that coincides with a tet vertex (1e-9 of the diagonal)
-        follows only that, one inside of the mesh has the barycentric coordinates of its tet, and
-        one outside those of a tet at the closest boundary face, extrapolated: of all tets that
-        share a vertex with that face, the one with the smallest weights.
+        surface, it is exact. Otherwise a vertex that coincides with a tet vertex (1e-9 of the
+        diagonal) follows only that, and a vertex inside the mesh has the barycentric coordinates of
+        its tet. A vertex outside has the extrapolated coordinates of a tet at the closest boundary
+        face: the one with the smallest weights among all tets that share a vertex with that face.
 
     Raises
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, or a
-        vertex that lies farther outside of the mesh than is allowed.
+        vertex that lies farther outside the mesh than is allowed.
 
     Notes
     -----
@@ -67,7 +67,7 @@ def embed_surface(
     tets, weights = containing_tets(mesh, points)
     _extrapolate_outside(mesh, points, tets, weights, farthest)
     corners = mesh.tets[tets]
-    # the nearest tet vertex may be of a tet that was not chosen: rounding decides at a vertex
+    # the nearest tet vertex may belong to a tet that was not chosen: rounding decides at a vertex
     distance, nearest = cKDTree(mesh.vertices).query(points, distance_upper_bound=same)
     coincides = np.flatnonzero(np.asarray(distance) <= same)
     corners[coincides] = np.asarray(nearest)[coincides, None]
@@ -82,7 +82,7 @@ def _extrapolate_outside(
     weights: FloatArray,
     farthest: float,
 ) -> None:
-    """Fill in what `containing_tets` left open."""
+    """Fill in tets and weights of the points that are outside all tets."""
     outside = np.flatnonzero(tets < 0)
     if not outside.size:
         return
@@ -91,10 +91,10 @@ def _extrapolate_outside(
     if far.size:
         _, distance = closest_boundary_faces(mesh, points[far[:1]], limit=np.inf)
         raise ValueError(
-            f"embed_surface: vertex {far[0]} lies {distance[0]:.4g} outside of the tets, "
+            f"embed_surface: vertex {far[0]} lies {distance[0]:.4g} outside the tets, "
             f"{distance[0] / mesh.diagonal:.3g} of the mesh's diagonal and more than "
             f"{farthest:g}; {far.size} of {len(points)} vertices affected: give the surface that "
-            "the mesh was filled into, in the same unit and frame, or fill it with "
+            "the mesh fills, in the same unit and frame, or fill it with "
             "snapspace.fill_surface(vertices, faces)"
         )
     tets[outside], weights[outside] = least_extrapolated(mesh, points[outside], faces)

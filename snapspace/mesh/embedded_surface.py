@@ -29,18 +29,18 @@ class EmbeddedSurface:
     corners : array_like of int, (s, 4)
         Tet vertices that each surface vertex follows.
     weights : array_like, (s, 4)
-        Their weights. Rows sum to one; a vertex outside of its tet has negative weights.
+        Their weights. Rows sum to one; a vertex outside its tet has negative weights.
 
     Raises
     ------
     ValueError
-        For wrong shapes or types, indices out of range, weights that are not finite or that do not
+        For wrong shapes or types, indices out of range, or weights that are not finite or do not
         sum to one.
 
     Notes
     -----
     Because the rows sum to one, an affine motion of the tets is the same motion of the surface.
-    Arrays are copied and read-only. Made by `embed_surface` and `boundary_surface`.
+    Arrays are copied and read-only. `embed_surface` and `boundary_surface` make these surfaces.
     """
 
     faces: IndexArray
@@ -89,7 +89,7 @@ class EmbeddedSurface:
 
     @cached_property
     def nearest(self) -> IndexArray:
-        """The tet vertex that each surface vertex follows most, (s,): of its largest weight."""
+        """The tet vertex that each surface vertex follows most, by its largest weight, (s,)."""
         largest = self.weights.argmax(axis=1)
         nearest: IndexArray = self.corners[np.arange(len(largest)), largest]
         nearest.setflags(write=False)
@@ -119,7 +119,7 @@ class EmbeddedSurface:
         Returns
         -------
         ndarray, (s, 3)
-            A fresh array. Vertices with a single weight 1 are copied without rounding.
+            A new array. Vertices with a single weight 1 are copied without rounding.
 
         Raises
         ------
@@ -158,7 +158,7 @@ class EmbeddedSurface:
 
     @cached_property
     def _map(self) -> csr_array:
-        """The matrix without the columns behind the last corner; four times faster than gathers."""
+        """The matrix without columns after the last corner; four times faster than gathers."""
         row, k = np.nonzero(self.weights)
         entries = (self.weights[row, k], (row, self.corners[row, k]))
         matrix = csr_array(coo_array(entries, shape=(len(self.corners), self._needed)))
@@ -182,7 +182,7 @@ def single_vertices(faces: IndexArray, vertices: IndexArray) -> EmbeddedSurface:
     """The exact embedding of a surface whose vertex i is tet vertex `vertices[i]`, (s,)."""
     weights = np.zeros((len(vertices), 4))
     weights[:, 0] = 1.0
-    # the same corner four times: then a vertex depends on nothing else, be it nan
+    # the same corner four times: a vertex then depends on no other, even if another is nan
     return EmbeddedSurface(faces, np.repeat(vertices[:, None], 4, axis=1), weights)
 
 

@@ -1,4 +1,4 @@
-"""Rows that begin with a number of their own, below a header that counts them.
+"""Rows that begin with their own number, below a header that counts them.
 
 VegaFEM and TetGen files are made of these.
 """
@@ -19,7 +19,7 @@ def parse_labelled_rows(lines: list[str], *, columns: int, what: str) -> NDArray
     lines : list of str
         Without comments and blank lines.
     columns : int
-        How many numbers of a row are wanted, the label among them; further ones (attributes,
+        How many numbers of each row are wanted, including the label; further ones (attributes,
         markers) are left out.
     what : str
         What the rows are, for messages.
@@ -51,9 +51,9 @@ def parse_labelled_rows(lines: list[str], *, columns: int, what: str) -> NDArray
 
 
 def first_label(rows: NDArray[np.float64], *, what: str) -> int:
-    """0 or 1, where the labels in the first column begin; ValueError unless they count up by 1."""
+    """The first label, 0 or 1; ValueError unless the labels in the first column count up by 1."""
     labels = as_integers(rows[:, 0], what=what)
     first = int(labels[0]) if labels.size else 0
     if first not in (0, 1) or not np.array_equal(labels, first + np.arange(len(labels))):
-        raise ValueError(f"its {what} are not numbered one after the other from 0 or 1")
+        raise ValueError(f"its {what} are not numbered consecutively from 0 or 1")
     return first

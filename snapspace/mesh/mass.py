@@ -60,7 +60,7 @@ def apply_mass(mass: csr_array, shapes: FloatArray) -> FloatArray:
     Returns
     -------
     ndarray
-        Of the shape of `shapes`.
+        The product, with the shape of `shapes`.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def apply_mass(mass: csr_array, shapes: FloatArray) -> FloatArray:
 def mass_inner(mass: csr_array, a: FloatArray, b: FloatArray) -> float:
     """Inner product a^T (M kron I3) b of two shape vectors, both (3n,).
 
-    Raises ValueError for blocks of shapes: `mass_gram` is for those.
+    Raises ValueError for blocks of shapes, which `mass_gram` takes.
     """
     _check_vector(a, who="mass_inner", block="mass_gram")
     _check_vector(b, who="mass_inner", block="mass_gram")
@@ -93,7 +93,7 @@ def mass_gram(mass: csr_array, a: FloatArray, b: FloatArray) -> FloatArray:
     """Inner products A^T (M kron I3) B of all columns of (3n, k) and (3n, l): (k, l)."""
     if np.ndim(a) != 2 or np.ndim(b) != 2:
         raise ValueError(
-            f"mass_gram: needs two blocks with a shape per column, got {np.shape(a)} and "
+            f"mass_gram: needs two blocks with one shape per column, got {np.shape(a)} and "
             f"{np.shape(b)}; mass_inner is for two vectors"
         )
     return np.asarray(np.asarray(a).T @ apply_mass(mass, b), dtype=np.float64)
@@ -102,7 +102,7 @@ def mass_gram(mass: csr_array, a: FloatArray, b: FloatArray) -> FloatArray:
 def mass_norm(mass: csr_array, a: FloatArray) -> float:
     """Norm sqrt(a^T (M kron I3) a) of a shape vector (3n,): for a displacement, its L2 norm.
 
-    Raises ValueError for a block of shapes: `mass_norms` is for those.
+    Raises ValueError for a block of shapes, which `mass_norms` takes.
     """
     _check_vector(a, who="mass_norm", block="mass_norms")
     return float(np.sqrt(np.dot(a, apply_mass(mass, a))))
@@ -112,7 +112,7 @@ def mass_norms(mass: csr_array, a: FloatArray) -> FloatArray:
     """Norms of the columns of a (3n, k) block of shapes, (k,)."""
     if np.ndim(a) != 2:
         raise ValueError(
-            f"mass_norms: needs a block with a shape per column, got {np.shape(a)}; mass_norm is "
+            f"mass_norms: needs a block with one shape per column, got {np.shape(a)}; mass_norm is "
             "for a vector"
         )
     return np.asarray(np.sqrt(np.einsum("ij,ij->j", a, apply_mass(mass, a))), dtype=np.float64)
@@ -121,6 +121,6 @@ def mass_norms(mass: csr_array, a: FloatArray) -> FloatArray:
 def _check_vector(shape: FloatArray, *, who: str, block: str) -> None:
     if np.ndim(shape) != 1:
         raise ValueError(
-            f"{who}: needs shape vectors (3n,), got {np.shape(shape)}; {block} takes a shape per "
+            f"{who}: needs shape vectors (3n,), got {np.shape(shape)}; {block} takes one shape per "
             "column"
         )

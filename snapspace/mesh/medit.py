@@ -1,6 +1,6 @@
 """MEDIT ASCII files (.mesh).
 
-Own reader, because meshio rounds the coordinates of `MeshVersionFormatted 1` files to single
+We do not use meshio's reader: it rounds the coordinates of `MeshVersionFormatted 1` files to single
 precision, which can invert slivers (fTetWild and libigl write full precision under that header).
 Format: P. Frey, MEDIT: an interactive mesh visualization software, INRIA RT-0253.
 """

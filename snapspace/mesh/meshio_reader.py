@@ -1,4 +1,4 @@
-"""Reading through meshio, with its prints, exits and many exceptions turned into ValueError."""
+"""Reading with meshio: its messages are silenced, and all its failures become ValueError."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .file_content import CellArray, FileContent
 
 bound_arrays(_gmsh22, _gmsh40, _gmsh41, _vtk_42, _vtk_51)
 
-# The readers of the formats, not meshio.read: that one prints and calls sys.exit on bad files.
+# The readers of the formats, not meshio.read, which prints and calls sys.exit on bad files.
 _READERS: dict[str, Callable[[str], Any]] = {
     "MEDIT": meshio.medit.read,
     "Gmsh": meshio.gmsh.read,
@@ -45,10 +45,10 @@ def read_with_meshio(path: Path, file_format: str) -> FileContent:
             mesh = _READERS[file_format](str(path))
             points = np.asarray(mesh.points, dtype=np.float64)
             if points.ndim != 2:
-                raise ValueError("its vertices are no table")
+                raise ValueError("its vertices are not a table")
             return FileContent(points, _cells_by_type(mesh.cells))
     except (Exception, SystemExit) as error:
-        # meshio has no family of exceptions: bad files give KeyError, IndexError, struct.error, ...
+        # meshio has no common exception: bad files give KeyError, IndexError, struct.error, ...
         reason = f" ({' '.join(str(error).split())[:160]})" if str(error) else ""
         raise ValueError(f"it is not a {file_format} file, or it is incomplete{reason}") from None
 
@@ -58,6 +58,6 @@ def _cells_by_type(blocks: list[Any]) -> dict[str, CellArray]:
     for block in blocks:
         rows = np.asarray(block.data, dtype=np.int64)
         if rows.ndim != 2:
-            raise ValueError(f"its {block.type} cells are no table")
+            raise ValueError(f"its {block.type} cells are not a table")
         by_type.setdefault(block.type, []).append(rows)
     return {kind: np.concatenate(parts) for kind, parts in by_type.items()}

@@ -21,8 +21,8 @@ def morton_codes(points: FloatArray) -> NDArray[np.uint32]:
     Returns
     -------
     ndarray of uint32, (k,)
-        Bits of the three coordinates interleaved, x highest, in 1024 steps of the longest side of
-        the bounding box. Points of the same step share a code.
+        Interleaved bits of the three coordinates, x highest, in 1024 steps of the longest side of
+        the bounding box. Points in the same cell of this grid share a code.
     """
     lower, size = points.min(axis=0), float(np.ptp(points, axis=0).max())
     scale = (2**_BITS - 1) / size if size > 0.0 else 0.0
@@ -32,7 +32,7 @@ def morton_codes(points: FloatArray) -> NDArray[np.uint32]:
 
 
 def _spread(value: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    """Move bit i of a 10-bit number to bit 3 i."""
+    """Move each bit i of a 10-bit number to bit 3 i."""
     for shift, mask in ((16, 0x030000FF), (8, 0x0300F00F), (4, 0x030C30C3), (2, 0x09249249)):
         value = (value | value << np.uint32(shift)) & np.uint32(mask)
     return value

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 
 def parse_numbers(text: str, *, what: str) -> NDArray[np.float64]:
-    """All numbers of a text that consists of nothing else, (k,); ValueError names what is wrong."""
+    """The numbers in a text, (k,); ValueError names the first word that is not a number."""
     with warnings.catch_warnings():
         # NumPy before 2.3 warns and returns what it has read so far; later versions raise
         warnings.simplefilter("error", DeprecationWarning)

@@ -12,7 +12,7 @@ from .polygons import corner_array, fan_triangles
 
 
 def read_obj(path: Path) -> FileContent:
-    """Read vertices and faces; polygons become fans, the order of the vertices is kept.
+    """Read vertices and faces. Polygons become fans, and the order of the vertices is kept.
 
     Faces may have the forms `i`, `i/t`, `i/t/n`, `i//n`, with negative (relative) indices.
     """
@@ -40,7 +40,7 @@ def read_obj(path: Path) -> FileContent:
 
 
 def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
-    """Write vertices with all their digits (reading gives the same numbers) and triangles."""
+    """Write triangles, and vertices with all digits: reading gives the same numbers."""
     lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")

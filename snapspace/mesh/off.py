@@ -15,7 +15,7 @@ _HEADERS = ("OFF", "COFF", "NOFF", "CNOFF", "STOFF")
 
 
 def read_off(path: Path) -> FileContent:
-    """Read vertices and faces; polygons become fans, colours and normals are skipped."""
+    """Read vertices and faces. Polygons become fans; colours and normals are skipped."""
     text = path.read_text(encoding="utf-8", errors="replace")
     lines = [line for raw in text.splitlines() if (line := raw.partition("#")[0].strip())]
     header = lines[0].split() if lines else []
@@ -40,7 +40,7 @@ def read_off(path: Path) -> FileContent:
 
 
 def write_off(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
-    """Write vertices with all their digits and triangles."""
+    """Write triangles, and vertices with all digits."""
     lines = ["OFF", f"{len(vertices)} {len(faces)} 0"]
     lines += [f"{x!r} {y!r} {z!r}" for x, y, z in vertices.tolist()]
     lines += [f"3 {a} {b} {c}" for a, b, c in faces.tolist()]

@@ -1,7 +1,7 @@
-"""Stanford polygon files (.ply): ASCII and binary of both byte orders read, binary written.
+"""Stanford polygon files (.ply): reads ASCII and binary in both byte orders, writes binary.
 
-Own reader, because meshio's knows neither `vertex_index` (a common name of the faces' property) nor
-16-bit types nor elements besides vertices and faces.
+We do not use meshio's reader: it knows neither `vertex_index` (a common name of the faces'
+property) nor 16-bit types nor elements other than vertices and faces.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _TYPES = {
 
 
 def read_ply(path: Path) -> FileContent:
-    """Read vertices and faces; polygons become fans, the order of the vertices is kept."""
+    """Read vertices and faces. Polygons become fans, and the order of the vertices is kept."""
     data = path.read_bytes()
     encoding, elements, start = _header(data)
     body = PlyBody(data[start:], encoding)
@@ -85,7 +85,7 @@ def _header(data: bytes) -> tuple[str, list[PlyElement], int]:
 
 
 def _indices(values: NDArray[Any]) -> NDArray[np.int64]:
-    """Vertex indices; those of text come as doubles, and may be no whole numbers."""
+    """Vertex indices. Indices from text are doubles, and may not be whole numbers."""
     if values.dtype.kind == "f":
         return as_integers(values.astype(np.float64), what="vertex_indices")
     return values.astype(np.int64)

@@ -25,7 +25,7 @@ class PlyProperty:
 
 @dataclass(frozen=True)
 class PlyElement:
-    """One kind of row: how many and of what."""
+    """One kind of row: the number of rows and their properties."""
 
     name: str
     count: int
@@ -34,14 +34,14 @@ class PlyElement:
 
 @dataclass(frozen=True)
 class PlyColumn:
-    """Values of a property; for lists all values in one row and the size of each list."""
+    """Values of a property; for lists, all values one after the other and the size of each."""
 
     values: NDArray[Any]
     sizes: NDArray[np.int64]
 
 
 class PlyBody:
-    """A cursor over the rows; text is parsed into doubles first and then read as binary is."""
+    """A cursor over the rows. Text is first parsed into doubles and then read like binary data."""
 
     def __init__(self, data: bytes, encoding: str) -> None:
         self._text = encoding == "ascii"
@@ -54,8 +54,8 @@ class PlyBody:
     def read(self, element: PlyElement) -> dict[str, PlyColumn]:
         """Read all rows of the next element; ValueError if they are not all there."""
         if not element.count or not element.properties:  # rows without bytes, however many
-            nothing = PlyColumn(np.empty(0), np.empty(0, dtype=np.int64))
-            return {item.name: nothing for item in element.properties}
+            empty = PlyColumn(np.empty(0), np.empty(0, dtype=np.int64))
+            return {item.name: empty for item in element.properties}
         start = self._position
         sizes = [size for size, _ in self._row(element)]
         self._position = start
@@ -114,7 +114,7 @@ class PlyBody:
 
 
 def _whole(count: Any) -> int:
-    """The length of a list; ValueError for one that is not finite or no whole number."""
+    """The length of a list; ValueError if it is not finite or not a whole number."""
     if not np.isfinite(count) or count != np.floor(count):
         raise ValueError(f"a list is announced with {count:g} values")
     return int(count)

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 def corner_array(corners: list[int]) -> NDArray[np.int64]:
-    """Vertex indices as an array, (k,); ValueError names one that does not fit in 64 bits."""
+    """Vertex indices as an array, (k,); ValueError if one does not fit in 64 bits."""
     try:
         return np.array(corners, dtype=np.int64)
     except OverflowError:

@@ -28,7 +28,7 @@ _SOLID_CELLS = ("hexahedron", "wedge", "pyramid", "polyhedron", "voxel")
 
 
 class MeshNotice(Notice):
-    """Something about a mesh file that the user should know, but that was dealt with."""
+    """A fault in a mesh file that was repaired and that the user should know about."""
 
 
 def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
@@ -40,7 +40,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
         MEDIT .mesh or .meshb; Gmsh .msh (versions 2 and 4, ASCII or binary); .vtk; .vtu; TetGen
         .node or .ele (the other one is found beside it); VegaFEM .veg.
     repair : bool, default False
-        Mend what can be mended (see `repair_tets`) and warn with a `MeshNotice` for each mending.
+        Repair what can be repaired (see `repair_tets`), with a `MeshNotice` for each repair.
 
     Returns
     -------
@@ -52,8 +52,8 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
     ------
     ValueError
         If the file is missing, has an unknown extension, cannot be read, holds no tets, holds
-        other solid cells or quadratic tets, or its mesh is not valid (see `TetMesh`). One line
-        that begins with the path.
+        other solid cells or quadratic tets, or its mesh is not valid (see `TetMesh`). The
+        message is one line that begins with the path.
     """
     file = existing_file(path, known=_READERS)
     with located(file):
@@ -70,10 +70,10 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
 
 
 def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
-    """Vertices (n, 3) and tets (m, 4) of a file as they are, inverted tets too.
+    """Vertices (n, 3) and tets (m, 4) of a file as they are, including inverted tets.
 
-    For poses, in which a tet may be inverted that is not in the reference. Raises ValueError as
-    `read_tets` for the file, for coordinates that are not finite and for indices out of range.
+    For poses, whose tets may be inverted. Raises ValueError as `read_tets` does for the file, and
+    for coordinates that are not finite and indices out of range.
     """
     file = existing_file(path, known=_READERS)
     with located(file):
@@ -86,7 +86,7 @@ def read_tet_arrays(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArra
 
 
 def _linear_tets(content: FileContent) -> CellArray:
-    """The tets of a file, (m, 4); ValueError if there are none or something else counts too."""
+    """The tets of a file, (m, 4); ValueError if there are none, or other solid cells as well."""
     quadratic = [kind for kind in content.cells if kind.startswith("tetra") and kind != "tetra"]
     if quadratic:
         raise ValueError(

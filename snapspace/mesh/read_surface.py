@@ -29,9 +29,9 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     Returns
     -------
     vertices : ndarray, (n, 3) float64
-        In the order of the file, vertices without faces included, so that vertex i of several poses
-        corresponds. (An .stl file has no shared vertices: equal points are merged, in the order in
-        which they first occur.)
+        In the order of the file, including vertices without faces, so that vertex i corresponds
+        between poses. (An .stl file has no shared vertices: equal points are merged, in the order
+        in which they first occur.)
     faces : ndarray of int32, (f, 3)
         Polygons are triangulated as fans; order and orientation as in the file.
 
@@ -39,7 +39,8 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     ------
     ValueError
         If the file is missing, has an unknown extension, cannot be read, has no faces, coordinates
-        that are not finite, or an index out of range. One line that begins with the path.
+        that are not finite, or an index out of range. The message is one line that begins with
+        the path.
     """
     file = existing_file(path, known=_READERS)
     with located(file):

@@ -1,4 +1,4 @@
-"""Make a valid mesh of tets that have curable faults."""
+"""Making a valid mesh from tets that have curable faults."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from .validation import check_values, duplicate_tets, repeated_vertex
 
 
 def repair_tets(vertices: ArrayLike, tets: ArrayLike) -> tuple[TetMesh, list[str]]:
-    """Mend what `TetMesh` refuses and what can be mended without guessing at the shape.
+    """Repair the faults that `TetMesh` refuses, where no guess about the shape is needed.
 
-    In this order: drops tets that repeat a vertex, that repeat another tet, or that have no volume;
+    In this order, it drops tets that repeat a vertex, repeat another tet or have no volume;
     reorients inverted tets by swapping two of their vertices; keeps the component with the most
-    tets; drops vertices that belong to no tet.
+    tets; and drops vertices that belong to no tet.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def repair_tets(vertices: ArrayLike, tets: ArrayLike) -> tuple[TetMesh, list[str
     Returns
     -------
     mesh : TetMesh
-        What remains keeps its order; a valid mesh is returned as it came.
+        What remains keeps its order; a valid mesh is returned unchanged.
     notes : list of str
         What was done, one sentence per kind of fault; empty if nothing was.
 

@@ -1,4 +1,4 @@
-"""SignedDistance: how far points are from a closed surface, negative inside."""
+"""SignedDistance: distances of points from a closed surface, negative inside."""
 
 from __future__ import annotations
 
@@ -51,10 +51,11 @@ class SignedDistance:
         distances = np.empty(len(points))
         for start in range(0, len(points), _BLOCK):
             block = slice(start, start + _BLOCK)
-            distances[block] = self._of(points[block], reach[block])
+            distances[block] = self._block_distances(points[block], reach[block])
         return distances
 
-    def _of(self, points: FloatArray, reach: FloatArray) -> FloatArray:
+    def _block_distances(self, points: FloatArray, reach: FloatArray) -> FloatArray:
+        """Distances (k,) of points whose closest face is within `reach` (k,)."""
         point, face = self._tree.within(points, reach)
         closest = closest_on_triangles(points[point], self._corners[face])
         squared = ((closest - points[point]) ** 2).sum(axis=1)
@@ -67,12 +68,12 @@ class SignedDistance:
         return distances
 
     def _normals(self, face: NDArray[np.intp], closest: FloatArray) -> FloatArray:
-        """Of the face, edge or vertex that each closest point is on."""
+        """Normals (k, 3) of the face, edge or vertex that each closest point is on."""
         on = _barycentric(self._corners[face], closest) > _EDGE
         normals = self._face_normals[face]
         count = on.sum(axis=1)
         for corner in range(3):
-            edge = (count == 2) & ~on[:, corner]  # the edge across from a corner
+            edge = (count == 2) & ~on[:, corner]  # the edge opposite to the corner
             normals[edge] = self._edge_normals[face[edge], corner]
             vertex = (count <= 1) & on[:, corner]
             normals[vertex] = self._vertex_normals[self._faces[face[vertex], corner]]
@@ -80,7 +81,7 @@ class SignedDistance:
 
 
 def _barycentric(corners: FloatArray, points: FloatArray) -> FloatArray:
-    """Of points in the planes of triangles; thirds for triangles without an area."""
+    """Barycentric coordinates (k, 3) of points in the planes of triangles; thirds without area."""
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     offset = points - corners[:, 0]
     aa, ab, bb, pa, pb = (
@@ -102,7 +103,7 @@ def _barycentric(corners: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def _edge_normals(faces: IndexArray, face_normals: FloatArray) -> FloatArray:
-    """Sums of the normals of the faces at each edge, (f, 3, 3): by face and the corner across."""
+    """Sums of the normals of the faces at each edge, (f, 3, 3): by face and opposite corner."""
     edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]], axis=2).reshape(-1, 2)
     _, edge = np.unique(edges, axis=0, return_inverse=True)
     edge = edge.ravel()

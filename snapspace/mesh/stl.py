@@ -1,7 +1,7 @@
-"""Binary STL surfaces, written.
+"""Writing binary STL surfaces.
 
-Own writer, because meshio's does not notice that the disk is full: NumPy's `tofile` drops the error
-of its last bytes.
+We do not use meshio's writer: it does not notice a full disk, because NumPy's `tofile` drops the
+error of its last bytes.
 """
 
 from __future__ import annotations

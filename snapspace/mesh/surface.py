@@ -8,7 +8,7 @@ from .arrays import FloatArray, IndexArray
 
 # Faces of a positive tet, counter-clockwise seen from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
-# Three indices below it make one number of 64 bits, which is sorted three times as fast.
+# Three indices below this fit into one 64-bit number, which is sorted three times as fast.
 _MOST_IN_A_KEY = 1 << 21
 
 

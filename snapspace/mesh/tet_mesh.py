@@ -31,13 +31,13 @@ class TetMesh:
     ValueError
         For wrong shapes or types, no tets, coordinates that are not finite, an index out of range,
         a tet that repeats a vertex or another tet, a tet without volume, an inverted tet, a vertex
-        that belongs to no tet, more than one component. The message names the first offender,
+        that belongs to no tet, or more than one component. The message names the first offender,
         the count and the cure (mostly `repair_tets`).
 
     Notes
     -----
-    The arrays are copied, so that what was validated cannot change later. Two meshes are the same
-    if their `fingerprint` is.
+    The arrays are copied, so that validated values cannot change later. Two meshes are the same
+    if their fingerprints are.
     """
 
     def __init__(self, vertices: ArrayLike, tets: ArrayLike) -> None:
@@ -108,7 +108,7 @@ class TetMesh:
         return digest.hexdigest()
 
     def __reduce__(self) -> tuple[type[TetMesh], tuple[FloatArray, IndexArray]]:
-        # unpickling runs the constructor again: arrays come back validated and read-only
+        # unpickling runs the constructor again, which validates arrays and makes them read-only
         return TetMesh, (self._vertices, self._tets)
 
     def __repr__(self) -> str:

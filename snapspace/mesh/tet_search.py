@@ -1,4 +1,4 @@
-"""Where points lie in a tet mesh: the tet around each, or the nearest place on its boundary."""
+"""Where points lie in a tet mesh: the tet around each, or the nearest boundary face."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .tet_mesh import TetMesh
 Integers = NDArray[np.intp]
 
 _BLOCK = 4096  # points at a time: their candidates fit into the cache
-# Containing tets may be missed by this share of the diagonal, which is rounding.
+# Rounding may put a point outside its tet by this share of the diagonal.
 _ROUNDING = 1e-12
 
 
@@ -55,7 +55,7 @@ def containing_tets(mesh: TetMesh, points: FloatArray) -> tuple[Integers, FloatA
     Returns
     -------
     tets : ndarray of int, (k,)
-        -1 for points outside of all tets; the first tet if a point is on a common face.
+        -1 for points outside all tets; the first tet if a point is on a common face.
     weights : ndarray, (k, 4)
         Barycentric coordinates, at least zero up to rounding; nan outside.
     """
@@ -91,7 +91,7 @@ def closest_boundary_faces(
     faces : ndarray of int, (k,)
         Rows of `mesh.surface`; -1 if no face is within the limit; the first face at a common edge.
     distances : ndarray, (k,)
-        To the face; inf if there is none.
+        Distance to the face; inf if there is none.
     """
     return closest_faces(*compact_surface(mesh.vertices, mesh.surface), points, limit=limit)
 
@@ -99,12 +99,12 @@ def closest_boundary_faces(
 def closest_faces(
     vertices: FloatArray, faces: IndexArray, points: FloatArray, *, limit: float
 ) -> tuple[Integers, FloatArray]:
-    """The face of a surface closest to each point, as `closest_boundary_faces`.
+    """The face of a surface closest to each point; returns as `closest_boundary_faces`.
 
     Parameters
     ----------
     vertices : ndarray, (s, 3)
-        All of faces.
+        Each belongs to a face.
     faces : ndarray of int, (f, 3)
     points : ndarray, (k, 3)
     limit : float
@@ -130,23 +130,23 @@ def closest_faces(
 def least_extrapolated(
     mesh: TetMesh, points: FloatArray, faces: Integers
 ) -> tuple[Integers, FloatArray]:
-    """Of the tets around a boundary face, the one that needs the smallest weights for a point.
+    """The tet around a boundary face that needs the smallest weights for a point.
 
     Parameters
     ----------
     mesh : TetMesh
     points : ndarray, (k, 3)
-        Outside of the mesh.
+        Outside the mesh.
     faces : ndarray of int, (k,)
         Rows of `mesh.surface`, the face closest to each point.
 
     Returns
     -------
     tets : ndarray of int, (k,)
-        Among all that share a vertex with the face: the tet behind the face may be a sliver, whose
-        coordinates explode off its plane. No tet elsewhere: it may belong to another limb.
+        Chosen among all that share a vertex with the face: the tet behind the face may be a sliver,
+        whose coordinates explode off its plane. Tets elsewhere may belong to another limb.
     weights : ndarray, (k, 4)
-        Barycentric coordinates, of the smallest sum of sizes.
+        Barycentric coordinates, with the smallest sum of absolute values.
     """
     order = np.argsort(mesh.tets.ravel(), kind="stable")
     begin = np.searchsorted(mesh.tets.ravel()[order], np.arange(len(mesh.vertices) + 1))
@@ -169,7 +169,7 @@ def _blocks(count: int) -> Iterator[Integers]:
 
 
 def _first_of_each(group: Integers, cost: FloatArray, index: Integers) -> Integers:
-    """Position of the least cost, then the least index, in each group."""
+    """Position of the least cost in each group; ties go to the least index."""
     order = np.lexsort((index, cost, group))
     first = np.ones(len(order), np.bool_)
     first[1:] = group[order[1:]] != group[order[:-1]]

@@ -1,7 +1,7 @@
 """TetGen's pairs of text files (.node, .ele).
 
-Own reader, because meshio's never returns from an empty or cut-off file. Format: H. Si, TetGen
-user's manual, section 5.2.
+We do not use meshio's reader: it hangs on an empty or truncated file. Format: H. Si, TetGen user's
+manual, section 5.2.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ _KINDS = {4: "tetra", 10: "tetra10"}
 
 
 def read_tetgen(path: Path) -> FileContent:
-    """Read a pair of which either file is given; ValueError if it is not one.
+    """Read a pair of files, given either one; ValueError if it is not such a pair.
 
-    Numbering starts at 0 or 1, as the first vertex says.
+    Numbering starts at 0 or 1, like that of the vertices.
     """
     sibling = path.with_suffix(".ele" if path.suffix.lower() == ".node" else ".node")
     if not sibling.is_file():

@@ -1,4 +1,4 @@
-"""What a tet mesh must satisfy; each check names the first offender, the count and the cure."""
+"""Checks of a tet mesh; each message names the first offender, the count and the cure."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def check_mesh(vertices: FloatArray, tets: IndexArray, *, who: str) -> FloatArra
 
 
 def check_values(vertices: FloatArray, tets: IndexArray, *, who: str) -> None:
-    """Raise ValueError for what no repair can mend: no tets, not finite, index out of range."""
+    """Raise ValueError for what cannot be repaired: no tets, not finite, index out of range."""
     if not len(tets):
         raise InputError(who, "there are no tets; at least one is needed")
     check_points(vertices, who=who)
@@ -41,8 +41,8 @@ def check_points(vertices: FloatArray, *, who: str) -> None:
         raise InputError(
             who,
             f"vertex {bad[0]} is not finite ({x:g}, {y:g}, {z:g}); "
-            f"{_number(bad.size, 'vertex', 'vertices')} of {len(vertices)} affected: mend the "
-            "coordinates where they come from",
+            f"{_number(bad.size, 'vertex', 'vertices')} of {len(vertices)} affected: correct the "
+            "coordinates at their source",
         )
 
 
@@ -123,8 +123,8 @@ def _check_volumes(
     if bad.size == len(tets):
         raise InputError(
             who,
-            f"every tet ({len(tets)}) is inverted (negative volume), the file or program "
-            f"they come from orders them the other way: flip with tets[:, [0, 2, 1, 3]] or {_CURE}",
+            f"every tet ({len(tets)}) is inverted (negative volume): their source orders "
+            f"vertices the other way; flip with tets[:, [0, 2, 1, 3]] or {_CURE}",
         )
     if bad.size:
         raise InputError(

@@ -22,7 +22,7 @@ _DEEPEST_INCLUDE = 8
 def read_veg(path: Path) -> FileContent:
     """Read vertices and elements of a VegaFEM file; ValueError if it is not one.
 
-    Numbering starts at 0 or 1, as the first vertex says.
+    Numbering starts at 0 or 1, like that of the vertices.
     """
     sections = _sections(path)
     if "VERTICES" not in sections or "ELEMENTS" not in sections:
@@ -56,13 +56,13 @@ def _sections(path: Path) -> dict[str, list[str]]:
 def _lines(path: Path, *, depth: int) -> Iterator[str]:
     """Lines without comments and blanks; included files are spliced in."""
     if depth > _DEEPEST_INCLUDE:
-        raise ValueError(f"*INCLUDE goes more than {_DEEPEST_INCLUDE} files deep: {path.name}")
+        raise ValueError(f"*INCLUDE is nested more than {_DEEPEST_INCLUDE} files deep: {path.name}")
     for raw in path.read_text(encoding="utf-8", errors="replace").splitlines():
         line = raw.partition("#")[0].strip()
         if line[:8].upper() == "*INCLUDE":
             included = path.parent / line[8:].strip()
             if not included.is_file():
-                raise ValueError(f"it includes {included.name}, which is not there")
+                raise ValueError(f"it includes {included.name}, which does not exist")
             yield from _lines(included, depth=depth + 1)
         elif line:
             yield line

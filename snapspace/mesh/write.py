@@ -58,7 +58,7 @@ def write_tets(
     ------
     ValueError
         For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
-        or values that are not finite. A file that existed at `path` is then untouched.
+        or values that are not finite. An existing file at `path` then stays as it was.
     """
     file = writable_path(path, known=_TET_FORMATS)
     points = _shape_to_write(mesh, vertices)
@@ -97,8 +97,8 @@ def write_surface(path: str | os.PathLike[str], vertices: ArrayLike, faces: Arra
     ------
     ValueError
         For an unknown extension, a folder that does not exist or cannot be written, wrong shapes,
-        coordinates that are not finite, an index out of range, no faces. A file that existed at
-        `path` is then untouched.
+        coordinates that are not finite, an index out of range, or no faces. An existing file at
+        `path` then stays as it was.
     """
     file = writable_path(path, known=_SURFACE_WRITERS)
     points = as_points(vertices, who="write_surface")
@@ -118,7 +118,7 @@ def _shape_to_write(mesh: TetMesh, vertices: ArrayLike | None) -> FloatArray:
     points = as_points(vertices, who="write_tets")
     if points.shape != mesh.vertices.shape:
         raise ValueError(
-            f"write_tets: vertices must have shape {mesh.vertices.shape} as the mesh's own, "
+            f"write_tets: vertices must have shape {mesh.vertices.shape}, like the mesh's own, "
             f"got {points.shape}"
         )
     check_points(points, who="write_tets")
@@ -164,5 +164,5 @@ _SURFACE_WRITERS: dict[str, Callable[[Path, FloatArray, IndexArray], None]] = {
     ".stl": write_stl,
 }
 
-#: Extensions of `write_tets` and `write_surface`.
+#: Extensions that `write_tets` and `write_surface` know.
 TET_OUTPUTS, SURFACE_OUTPUTS = tuple(_TET_FORMATS), tuple(_SURFACE_WRITERS)

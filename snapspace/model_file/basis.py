@@ -1,4 +1,4 @@
-"""The basis of a model in a file: most of its bytes."""
+"""The basis of a model in a file; it takes most of the bytes."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 
-#: In single precision where that loses nothing, as in all models that `reduce` makes since files of
-#: version 3.
+#: Single precision where that loses nothing, as in all models that `reduce` has made since version
+#: 3 of the files.
 DTYPES = (np.float32, np.float64)
 
 
 def stored_basis(subspace: AffineSubspace) -> NDArray[np.floating]:
-    """The modes (d, 3n): a mode is contiguous, and fewer modes are a prefix."""
+    """The modes (d, 3n): each mode is contiguous, and the first d' modes are a prefix."""
     modes = subspace.basis.T
     short = modes.astype(np.float32)
     return short if np.array_equal(short, modes) else modes

@@ -17,12 +17,12 @@ from ..disk.safetensors_bytes import safetensors_bytes
 from . import timings
 
 Arrays = dict[str, NDArray[Any]]
-#: The type of an array, or those that it may have.
+#: The type of an array, or the types that it may have.
 Types = type | tuple[type, ...]
 
 
 def write_container(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
-    """Writes arrays and header with their checksum; the file is complete or not there."""
+    """Writes arrays and header with their checksum: the whole file, or none."""
     arrays = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
     header = {**header, "checksum": checksum(arrays, header)}
     content = safetensors_bytes(arrays, header)
@@ -73,15 +73,15 @@ def parsed(header: dict[str, str], key: str) -> dict[str, Any]:
     Raises
     ------
     KeyError, ValueError
-        If there is none, or it is no object, is nested too deeply, or has an integer of more
-        than 20 digits.
+        If there is no such entry, or it is not an object, is nested too deeply, or has an integer
+        of more than 20 digits.
     """
     try:
         content = json.loads(header[key], parse_int=_integer)
     except RecursionError:
         raise ValueError(f"'{key}' is nested too deeply") from None
     if not isinstance(content, dict):
-        raise ValueError(f"'{key}' is no JSON object")
+        raise ValueError(f"'{key}' is not a JSON object")
     return content
 
 
@@ -92,17 +92,17 @@ def _integer(digits: str) -> int:
 
 
 def check_shapes(arrays: Arrays, shapes: Mapping[str, tuple[int, ...]]) -> None:
-    """ValueError, to which the caller adds the path, unless every array has its shape."""
+    """ValueError unless every array has its shape; the caller adds the path to the message."""
     for name, shape in shapes.items():
         if arrays[name].shape != shape:
-            raise ValueError(f"'{name}' has shape {arrays[name].shape} and not {shape}")
+            raise ValueError(f"'{name}' has shape {arrays[name].shape}, not {shape}")
 
 
 def checksum(arrays: Arrays, header: dict[str, str]) -> str:
     """SHA-256 of arrays and header, 64 hex digits.
 
-    The same for models of identical runs: the seconds that they took are not in it, they have a
-    checksum of their own.
+    It is the same for models of identical runs, because it leaves out their timings, which have
+    their own checksum.
     """
     digest = hashlib.sha256()
     for key in sorted(header):

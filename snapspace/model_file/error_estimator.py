@@ -1,4 +1,4 @@
-"""Error estimators as arrays; a model without one has none of them."""
+"""Error estimators as arrays; a model without an estimator has none of these arrays."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DTYPES: dict[str, type] = {
     "estimator_coordinates": np.float64,
     "estimator_residual_ratios": np.float64,
 }
-#: Only of estimators that give thorough certificates.
+#: Only in estimators that give thorough certificates.
 MOVEMENT = "estimator_movement_ratios"
 
 
@@ -42,7 +42,7 @@ def dtypes(arrays: Arrays) -> dict[str, type]:
 
 
 def estimator(arrays: Arrays) -> ErrorEstimator | None:
-    """The estimator of a file's arrays, if there is one; ValueError if they do not fit."""
+    """The estimator in a file's arrays, or None; ValueError if the arrays do not match."""
     if not dtypes(arrays):
         return None
     return ErrorEstimator(

@@ -30,7 +30,7 @@ _COMMON: dict[str, Types] = {
     "training_coordinates": np.float64,
 }
 DTYPES = {**_COMMON, "quartics": np.float64}
-#: With few tets instead of the quartics; their rows are made of the basis again.
+#: With few tets in place of the quartics; their rows are computed from the basis on loading.
 CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
 
 
@@ -52,7 +52,7 @@ def interpolation_arrays(model: InterpolationModel) -> Arrays:
 
 
 def interpolation_content(model: InterpolationModel) -> dict[str, Any]:
-    """What of the problem is not an array, as JSON."""
+    """All entries of the problem that are not arrays, as JSON."""
     problem = model.problem
     return {
         "material": material_file.material_content(problem.material),
@@ -66,7 +66,7 @@ def interpolation_content(model: InterpolationModel) -> dict[str, Any]:
 def interpolation_model(
     arrays: Arrays, content: dict[str, Any], provenance: dict[str, Any]
 ) -> InterpolationModel:
-    """The model of arrays and content; KeyError, TypeError or ValueError if they do not fit."""
+    """The model of arrays and content; KeyError, TypeError or ValueError if they do not match."""
     poses = Poses(
         arrays["poses"],
         arrays["tets"],

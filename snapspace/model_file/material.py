@@ -1,4 +1,4 @@
-"""The material in model files: its name and numbers as JSON, moduli of single tets as an array."""
+"""The material in model files: its name and numbers as JSON, moduli per tet as an array."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class UnknownMaterialError(ValueError):
 
 
 def material_arrays(material: Material) -> Arrays:
-    """The array of moduli that differ from tet to tet, if they do."""
+    """The array of moduli, if they differ from tet to tet."""
     return {} if material.uniform else {MODULI: material.moduli}
 
 
@@ -35,7 +35,7 @@ def dtypes(arrays: Arrays) -> dict[str, type]:
 
 
 def material(arrays: Arrays, content: dict[str, Any], tets: int) -> Material:
-    """The material of a body of so many tets.
+    """The material of a body with this number of tets.
 
     `content` is the entry that `material_content` makes.
 
@@ -44,11 +44,11 @@ def material(arrays: Arrays, content: dict[str, Any], tets: int) -> Material:
     UnknownMaterialError
         For a model that this version does not know.
     KeyError, TypeError, ValueError
-        If array and entry do not fit together, or a modulus is out of range.
+        If array and entry do not match, or a modulus is out of range.
     """
     if content["model"] not in MATERIALS:
         raise UnknownMaterialError(
-            f"a model of material '{content['model']}', this snapspace knows "
+            f"the material is '{content['model']}', but this snapspace knows "
             f"{', '.join(sorted(MATERIALS))}"
         )
     kind = MATERIALS[content["model"]]

@@ -28,9 +28,8 @@ from .container import (
 
 FORMAT = "snapspace-model"
 VERSION = 4
-#: Those that `load` reads. In the first one the material was always St.Venant-Kirchhoff, and up to
-#: the second one bases were in double precision; up to the third one the checksum was of the
-#: record with its seconds.
+#: Versions that `load` reads. In version 1 the material was always St.Venant-Kirchhoff. Up to
+#: version 2 bases were in double precision, and up to version 3 the checksum included the timings.
 READABLE = (1, 2, 3, 4)
 SUFFIX = ".snapspace"
 POSING, CUBATURE = "posing", "posing-cubature"
@@ -44,10 +43,10 @@ _DTYPES = {
 
 
 def save_model(model: ReducedModel, path: str | Path) -> Path:
-    """Writes a model; a file that is there is replaced only when the new one is complete.
+    """Writes a model; an existing file is replaced only when the new one is complete.
 
-    Identical runs write identical files, except for the seconds of their record and the checksum of
-    these. The checksum of everything else, the header's entry `checksum`, is the same.
+    Identical runs write identical files, except for timings and the checksum of timings. The
+    checksum of everything else, the header's entry `checksum`, is the same.
 
     Raises
     ------
@@ -100,14 +99,14 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     version = header.get("version", "none")
     if version not in {str(readable) for readable in READABLE}:
         raise ValueError(
-            f"{path}: model version {one_line(version[:40])}, this snapspace reads versions "
+            f"{path}: the version is {one_line(version[:40])}, but this snapspace reads versions "
             f"{', '.join(map(str, READABLE))}; install the snapspace that wrote it, or build "
             "the model again"
         )
-    kind = header.get("kind", POSING)  # the first files had only one
+    kind = header.get("kind", POSING)  # the first files had only this kind
     if kind not in _DTYPES:
         raise ValueError(
-            f"{path}: a model of kind {kind[:40]!r}, this snapspace knows {', '.join(_DTYPES)}; "
+            f"{path}: the kind is {kind[:40]!r}, but this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
     for part in (error_estimator, shown_surface, material, snapshot_energies):
@@ -115,7 +114,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
     check_dtypes(path, arrays, _DTYPES[kind])
     if header.get("checksum") != checksum(arrays, header) or not timings.is_unaltered(header):
         raise ValueError(
-            f"{path}: the checksum does not match, the file was altered; build it again"
+            f"{path}: the checksum does not match: the file was altered; build it again"
         )
     check_finite(path, arrays)
     blends = kind in (INTERPOLATION, BLENDED_CUBATURE)
@@ -132,13 +131,11 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
         ) from None
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError) as error:
         reason = f"no entry {error}" if isinstance(error, KeyError) else one_line(str(error))
-        raise ValueError(
-            f"{path}: the model does not fit together ({reason}); build it again"
-        ) from None
+        raise ValueError(f"{path}: the model is inconsistent ({reason}); build it again") from None
 
 
 def check_model_path(path: Path) -> None:
-    """Refuses a name that does not end in .snapspace, or a folder that does not exist."""
+    """ValueError for a name that does not end in .snapspace, or a folder that does not exist."""
     if path.suffix != SUFFIX:
         raise ValueError(f"{path}: a model file ends in {SUFFIX}")
     if not path.parent.is_dir():

@@ -35,14 +35,14 @@ _COMMON: dict[str, Types] = {
     "training_coordinates": np.float64,
 }
 DTYPES = {**_COMMON, "quartic": np.float64}
-#: With few tets instead of the quartic; the rows are made of the basis again.
+#: With few tets in place of the quartic; their rows are computed from the basis on loading.
 CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
 
 
 def posing_arrays(model: PosingModel) -> Arrays:
     """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES.
 
-    And those of a surface, unless it is that of the tets.
+    The arrays of a surface are left out if it is the boundary of the tets.
     """
     problem = model.problem
     is_own = not model.surface.is_boundary(problem.mesh)
@@ -66,10 +66,10 @@ def posing_arrays(model: PosingModel) -> Arrays:
 
 
 def posing_content(model: PosingModel) -> dict[str, Any]:
-    """What of the problem is not an array, as JSON."""
+    """All entries of the problem that are not arrays, as JSON."""
     problem = model.problem
     domain = problem.domain
-    # one row where bounds are common, as before handles could have their own
+    # one row where bounds are common, as in files from before handles could have their own
     bounds = domain.bounds if domain.common is not domain else domain.bounds[0]
     return {
         "material": material_file.material_content(problem.material),
@@ -86,7 +86,7 @@ def posing_content(model: PosingModel) -> dict[str, Any]:
 def posing_model(
     arrays: Arrays, content: dict[str, Any], provenance: dict[str, Any]
 ) -> PosingModel:
-    """The model of arrays and content; KeyError, TypeError or ValueError if they do not fit."""
+    """The model of arrays and content; KeyError, TypeError or ValueError if they do not match."""
     problem = _problem(arrays, content)
     n, h = len(problem.mesh.vertices), len(problem.handles)
     d, k = len(arrays["basis"]), len(arrays["training_parameters"])

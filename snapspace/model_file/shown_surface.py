@@ -29,7 +29,7 @@ def dtypes(arrays: Arrays) -> dict[str, type]:
 
 
 def surface(arrays: Arrays, mesh: TetMesh) -> EmbeddedSurface:
-    """The surface of a file's arrays, or that of its tets; ValueError if the arrays do not fit."""
+    """The surface in a file's arrays, or the boundary of its tets; ValueError for bad arrays."""
     if not dtypes(arrays):
         return boundary_surface(mesh)
     s = len(arrays["surface_corners"])

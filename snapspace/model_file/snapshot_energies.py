@@ -1,4 +1,4 @@
-"""The snapshot energies of a subspace as an array; one that is not from snapshots has none."""
+"""The snapshot energies of a subspace as an array; only subspaces from snapshots have them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from ..subspace import AffineSubspace
 from .container import Arrays
 
-_NAME = "eigenvalues"  # since those of a PCA in the mass are
+_NAME = "eigenvalues"  # which they are for a PCA in the M-norm
 
 
 def energy_arrays(subspace: AffineSubspace) -> Arrays:

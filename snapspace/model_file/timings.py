@@ -1,4 +1,4 @@
-"""Seconds of a model's record, kept apart from what two identical runs have in common."""
+"""Timings in a model's record, kept apart from what identical runs have in common."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any
 
 #: Entries of a record that hold seconds, at any depth.
 NAMES = ("seconds", "pose_seconds")
-#: In the header of a file: the entries with their places, and their checksum.
+#: Entries in the header of a file: the timings with their places, and their checksum.
 TIMINGS, CHECKSUM = "timings", "timings_checksum"
 
 
 def split(record: Any) -> tuple[Any, list[list[Any]]]:
-    """A record without its seconds, and these as [place, value], a place being keys and indices."""
+    """A record without its seconds, and the seconds as [place, value]: a place lists its keys."""
     if isinstance(record, list):
         parts = list(enumerate(record))
     elif isinstance(record, dict):
@@ -31,7 +31,7 @@ def split(record: Any) -> tuple[Any, list[list[Any]]]:
 
 
 def merged(record: dict[str, Any], timings: Any) -> dict[str, Any]:
-    """The record with its seconds again; it is changed.
+    """Puts the seconds back into a record, in place, and returns it.
 
     Raises
     ------
@@ -49,13 +49,13 @@ def merged(record: dict[str, Any], timings: Any) -> dict[str, Any]:
 
 
 def timing_header(timings: list[list[Any]]) -> dict[str, str]:
-    """The entries of a file's header."""
+    """The entries of a file's header that hold the timings."""
     text = json.dumps({"entries": timings}, sort_keys=True)
     return {TIMINGS: text, CHECKSUM: _checksum(text)}
 
 
 def is_unaltered(header: dict[str, str]) -> bool:
-    """Whether the seconds in a header are those that were written, none included."""
+    """Whether the seconds in a header match their checksum; true if the header has neither."""
     if TIMINGS not in header:
         return CHECKSUM not in header
     return header.get(CHECKSUM) == _checksum(header[TIMINGS])

@@ -14,7 +14,7 @@ def load_posing(path: str | Path) -> PosingModel:
     Raises
     ------
     ValueError
-        As `load`, and for a model of several poses.
+        As for `load`, and for a model that blends poses.
     """
     model = load(path)
     if not isinstance(model, PosingModel):
@@ -30,7 +30,7 @@ def load_blending(path: str | Path) -> InterpolationModel:
     Raises
     ------
     ValueError
-        As `load`, and for a model with handles.
+        As for `load`, and for a model with handles.
     """
     model = load(path)
     if not isinstance(model, InterpolationModel):

@@ -1,4 +1,4 @@
-"""Still pictures of surfaces, made in NumPy: no display, no GPU."""
+"""Pictures and films of surfaces, and charts, drawn in NumPy: no display, no GPU."""
 
 from __future__ import annotations
 

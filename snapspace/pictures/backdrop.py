@@ -1,4 +1,4 @@
-"""What is behind the shape, and how light becomes bytes."""
+"""The background behind the shape, and the conversion of light to bytes."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ def backdrop(
 
 def tone(light: NDArray[np.floating]) -> NDArray[np.floating]:
     """Compress highlights into 0..1: the identity below a shoulder, smooth beyond it."""
-    room = 1.0 - _SHOULDER
+    headroom = 1.0 - _SHOULDER
     return np.where(
         light <= _SHOULDER,
         light,
-        1.0 - room * np.exp(-(np.maximum(light, _SHOULDER) - _SHOULDER) / room),
+        1.0 - headroom * np.exp(-(np.maximum(light, _SHOULDER) - _SHOULDER) / headroom),
     )
 
 

@@ -45,7 +45,7 @@ class Camera:
         Parameters
         ----------
         points : ndarray, (n, 3)
-            For a series of pictures of one scale: the points of all of them.
+            For a series of pictures at one scale, the points of all of them.
         width, height : int
             Frame in pixels.
         azimuth, elevation : float
@@ -92,7 +92,7 @@ class Camera:
     def project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Screen points (n, 3): x right, y down in pixels, and depth -1 / distance.
 
-        That depth is affine on the screen: triangles stay flat. Distance is along the view axis.
+        This depth is affine on the screen, so triangles stay flat. Distance is along the view axis.
 
         Raises
         ------

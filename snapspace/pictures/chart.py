@@ -13,13 +13,13 @@ from ..extras import need_extra
 
 _INK, _GRID, _PAPER = (58, 56, 54), (226, 224, 220), (255, 255, 255)
 _COLORS = ((31, 95, 168), (200, 82, 36), (44, 132, 78), (120, 80, 150))
-#: Drawn so many times as large, and averaged: smooth lines.
+#: Charts are drawn this many times larger and averaged, so that lines are smooth.
 _FINER = 3
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Points (k,) of a curve, all positive, with its name, and a note beside each if any."""
+    """Name and points of a curve: x and y (k,), all positive, and optional notes beside points."""
 
     name: str
     x: Sequence[float]
@@ -40,7 +40,8 @@ def chart(
     Parameters
     ----------
     curves : one to four Curves
-    title, x_name, y_name : with units, where there are any
+    title, x_name, y_name : str
+        Heading, and names of the axes with their units.
     size : (int, int), default (560, 420)
         Width and height in pixels.
 
@@ -52,10 +53,10 @@ def chart(
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extra `snapspace[pictures]`.
+        A ValueError, if the extra `snapspace[pictures]` is not installed.
     ValueError
-        Without a curve or with more than four, for points that are not positive and finite, or
-        another number of x than of y.
+        For no curve or more than four, points that are not positive and finite, or different
+        numbers of x and y.
     """
     _check(curves)
     need_extra("pictures", who="chart")
@@ -80,9 +81,9 @@ class _Paper:
         self._pen = ImageDraw.Draw(self.image)
         self._text = round(0.03 * height)
         self._font = ImageFont.load_default(size=self._text)
-        room = 3.2 * self._text
-        self._left, self._right = 1.9 * room, width - 0.7 * room
-        self._top, self._bottom = room, height - 1.3 * room
+        border = 3.2 * self._text
+        self._left, self._right = 1.9 * border, width - 0.7 * border
+        self._top, self._bottom = border, height - 1.3 * border
         self._x = _range([value for curve in curves for value in curve.x])
         self._y = _range([value for curve in curves for value in curve.y])
 
@@ -139,14 +140,14 @@ def _from_below(names: Sequence[str]) -> list[tuple[str, tuple[int, int, int]]]:
 
 
 def _range(values: Sequence[float]) -> tuple[float, float]:
-    """Decimal logarithms that the values lie well between."""
+    """Decimal logarithms of the ends of an axis, which encloses the values with a margin."""
     lower, upper = log10(min(values)), log10(max(values))
     margin = max(0.08 * (upper - lower), 0.1)
     return lower - margin, upper + margin
 
 
 def _ticks(lower: float, upper: float) -> list[float]:
-    """1, 2 and 5 times powers of ten between two decimal logarithms; over many decades fewer."""
+    """1, 2 and 5 times powers of ten between two decimal logarithms; fewer over many decades."""
     factors = (1.0, 2.0, 5.0) if upper - lower < 2.5 else (1.0,)
     powers = range(floor(lower), ceil(upper) + 1)
     ticks = [float(f"{factor:g}e{power}") for power in powers for factor in factors]
@@ -160,11 +161,11 @@ def _check(curves: Sequence[Curve]) -> None:
         values = np.array([*curve.x, *curve.y], np.float64)
         if len(curve.x) != len(curve.y) or not len(curve.x):
             raise ValueError(
-                f"chart: '{curve.name}' has {len(curve.x)} x and {len(curve.y)} y; give as many of "
-                "each, one or more"
+                f"chart: '{curve.name}' has {len(curve.x)} x and {len(curve.y)} y; give the same "
+                "number of each, one or more"
             )
         if not (np.isfinite(values) & (values > 0)).all():
             raise ValueError(
-                f"chart: '{curve.name}' has a value that is not positive and finite, which has no "
+                f"chart: '{curve.name}' has a value that is not positive and finite, so it has no "
                 "place on a logarithmic axis"
             )

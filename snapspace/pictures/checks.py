@@ -1,4 +1,4 @@
-"""The door of the room: meshes, colours and sizes are checked once, here."""
+"""Checks of input: meshes, colours and sizes are checked once, here."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def checked_faces(faces: Any, vertex_count: int, *, who: str) -> NDArray[np.int3
 
 
 def checked_vertices(vertices: Any, *, who: str) -> NDArray[np.float64]:
-    """Vertices as (n, 3) float64, or ValueError; numbers are checked once faces are known."""
+    """Vertices as (n, 3) float64, or ValueError; `check_finite` follows once faces are known."""
     try:
         array = np.asarray(vertices, dtype=np.float64)
     except (TypeError, ValueError) as error:
@@ -41,7 +41,7 @@ def checked_vertices(vertices: Any, *, who: str) -> NDArray[np.float64]:
 
 
 def check_finite(vertices: NDArray[np.float64], used: NDArray[np.intp], *, who: str) -> None:
-    """ValueError if a vertex of a face is not finite; other vertices are not looked at."""
+    """ValueError if a vertex of a face is not finite; other vertices are not checked."""
     wrong = used[~np.isfinite(vertices[used]).all(axis=1)]
     if wrong.size:
         raise ValueError(

@@ -50,7 +50,7 @@ def from_oklab(lab: Any) -> NDArray[np.float64]:
 
 
 def checked_color(color: Sequence[float] | NDArray[Any], *, who: str) -> NDArray[np.float64]:
-    """One sRGB colour as (3,) floats, or ValueError in the name of `who`."""
+    """One sRGB colour as (3,) floats, or ValueError whose message begins with `who`."""
     try:
         value = np.asarray(color, dtype=np.float64)
     except (TypeError, ValueError):

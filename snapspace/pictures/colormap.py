@@ -53,8 +53,8 @@ def colormap(
     palette : {"terracotta", "teal", "diverging"}
         "diverging" is lightest in the middle of the limits.
     limits : (low, high), optional
-        Values of the two ends; beyond them colours stay. By default the least and the greatest
-        value, and for "diverging" plus and minus the greatest magnitude.
+        Values at the two ends; beyond them colours are constant. By default the least and the
+        greatest value, and for "diverging" minus and plus the greatest magnitude.
 
     Returns
     -------

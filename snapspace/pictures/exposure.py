@@ -17,7 +17,7 @@ from .surface import seen_surface
 
 @dataclass(frozen=True)
 class Exposure:
-    """A shape's light, and what it and its shadow leave of the background's."""
+    """A shape's light, and how much of the background the shape and its shadow leave visible."""
 
     light: NDArray[np.float64]  # (h, w, 3) linear, of the covered part of each pixel
     uncovered: NDArray[np.float64]  # (h, w) part of each pixel that the shape leaves free
@@ -50,10 +50,10 @@ def expose(
     *,
     samples: int,
 ) -> Exposure:
-    """Light of a mesh whose vertices are all used and within a unit or so of the origin.
+    """Light of a mesh whose vertices are all used and lie within about a unit of the origin.
 
-    Highlights are compressed before the samples of a pixel are averaged: the border of a bright
-    part stays as smooth as any other.
+    Highlights are compressed before the samples of a pixel are averaged, so that the border of a
+    bright part stays as smooth as any other.
     """
     seen = seen_surface(vertices, faces, albedo, camera, samples=samples)
     longer = max(camera.width, camera.height)

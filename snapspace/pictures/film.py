@@ -38,17 +38,18 @@ def save_film(
 ) -> Path:
     """Draws shapes of one mesh as `render` does, and writes them as a film that repeats.
 
-    The camera stands still, and frames all shapes together. The file is complete or not there.
+    The camera stands still and frames all shapes together. The file is written completely or not
+    at all.
 
     Parameters
     ----------
     path : path
-        Ends in .gif, or in .mp4 (H.264), which takes `pip install "snapspace[video]"`.
+        Ends in .gif, or in .mp4 (H.264), which needs `pip install "snapspace[video]"`.
     shapes : sequence of (n, 3)
-        A frame for each.
+        One shape per frame.
     faces : array_like of int, (f, 3)
     frames_per_second : float, default 30
-        From 1 to 100. GIF knows hundredths of a second alone: 30 becomes 33.
+        From 1 to 100. GIF rounds the time of a frame to hundredths of a second: 30 becomes 33.
     size : (int, int), default (640, 480)
         In pixels; both even for .mp4.
     azimuth, elevation, up, colors, ground, background, field_of_view, margin, samples
@@ -62,10 +63,11 @@ def save_film(
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extras `snapspace[pictures]` or, for .mp4, `snapspace[video]`.
+        A ValueError, if the extra `snapspace[pictures]` or, for .mp4, `snapspace[video]` is not
+        installed.
     ValueError
-        As `render`; for no shapes, another extension, a folder that does not exist, a rate out of
-        range, or a size that is not even.
+        As for `render`, and for no shapes, another extension, a folder that does not exist, a rate
+        out of range, or a size that is not even.
     """
     target = _checked_path(path)
     width, height = checked_size(size, who="save_film")
@@ -103,7 +105,7 @@ def save_film(
 def _write_gif(path: Path, frames: Iterator[NDArray[np.uint8]], rate: float) -> None:
     from PIL import Image
 
-    # without dithering what stands still stays still, and files are small
+    # without dithering, parts that stand still do not flicker, and files are small
     none, cut = Image.Dither.NONE, Image.Quantize.MEDIANCUT
     images = (Image.fromarray(frame).quantize(256, method=cut, dither=none) for frame in frames)
     first = next(images)

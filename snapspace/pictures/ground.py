@@ -12,8 +12,8 @@ from .camera import Camera, horizontal_axes
 
 Floats = NDArray[np.float32]
 
-# Paper lets some light through and neighbours return more: its shadows are not as deep as the
-# direct light says.
+# Paper lets some light through and its surroundings return more, so shadows are less deep than
+# direct light alone would make them.
 SHADOW_STRENGTH = 0.86
 
 
@@ -23,7 +23,7 @@ class Ground:
 
     axes: NDArray[np.float64]  # (3, 3) rows e1, e2, up
     level: float
-    corner: NDArray[np.float64]  # (2,) of the square, along e1 and e2
+    corner: NDArray[np.float64]  # (2,) lower corner of the square, along e1 and e2
     spacing: float  # between the nodes of its grid
     brightness: Floats  # (nodes, nodes) 1 is open ground, 1 at the border
 
@@ -34,7 +34,7 @@ class Ground:
 
     @classmethod
     def below(cls, vertices: NDArray[np.float64], *, up: str, level: float, nodes: int) -> Ground:
-        """Unshadowed ground that reaches beyond the shadows of the mesh that matter."""
+        """Unshadowed ground that reaches beyond all relevant shadows of the mesh."""
         axes = horizontal_axes(up)
         footprint = vertices @ axes[:2].T
         low, high = footprint.min(axis=0), footprint.max(axis=0)
@@ -44,7 +44,7 @@ class Ground:
         return cls(axes, level, corner, side / (nodes - 1), np.ones((nodes, nodes), np.float32))
 
     def node_positions(self) -> Floats:
-        """(3, nodes**2), the second axis running fastest."""
+        """Positions (3, nodes**2) of the nodes, the second axis running fastest."""
         ticks = np.arange(self.nodes) * self.spacing
         first, second = np.meshgrid(self.corner[0] + ticks, self.corner[1] + ticks, indexing="ij")
         local = np.stack([first.ravel(), second.ravel(), np.full(first.size, self.level)])
@@ -52,7 +52,7 @@ class Ground:
         return positions
 
     def lit_by(self, light: Floats) -> Ground:
-        """The same ground with direct light (nodes**2,), 1 being open; open at the border."""
+        """This ground with direct light (nodes**2,), where 1 is open; the border stays open."""
         ramp = np.minimum(np.arange(self.nodes), np.arange(self.nodes)[::-1]) / (0.3 * self.nodes)
         ramp = np.clip(ramp, 0.0, 1.0)
         ramp = ramp * ramp * (3.0 - 2.0 * ramp)
@@ -61,7 +61,7 @@ class Ground:
         return replace(self, brightness=image.astype(np.float32))
 
     def brightness_towards(self, position: Floats, towards: NDArray[np.float64]) -> Floats:
-        """Relative brightness (k,) of the ground seen from points (3, k) in a direction down."""
+        """Relative brightness (k,) of the ground as seen downwards from points (3, k)."""
         x, y, z = self.axes[2].astype(np.float32)
         reach = x * position[0] + y * position[1] + z * position[2] - np.float32(self.level)
         np.clip(reach, 0.0, None, out=reach)
@@ -107,7 +107,7 @@ class Ground:
 
 
 def smoothed(light: Floats, *, passes: int) -> Floats:
-    """Light (k**2,) of a square grid blurred by sqrt(passes / 2) nodes; even light stays even."""
+    """Light (k**2,) of a square grid, blurred by sqrt(passes / 2) nodes; uniform light stays so."""
     side = math.isqrt(len(light))
     image = light.reshape(side, side)
     for _ in range(passes):

@@ -102,7 +102,7 @@ def barycentric(
 ) -> NDArray[np.float64]:
     """Barycentric coordinates (k, 3), affine on the screen, of (x, y) in the given triangles.
 
-    They are non-negative and sum to one: what rounding puts outside is moved to the border.
+    They are non-negative and sum to one: points that rounding puts outside move to the border.
     """
     a, b, c = (points[faces[triangle, corner], :2].T for corner in range(3))
     area = _cross(b - a, c - a)
@@ -159,7 +159,7 @@ def _spans(
 def _crossing_centers(
     points: NDArray[np.float64], faces: NDArray[np.int32], width: int, height: int
 ) -> NDArray[np.int64]:
-    """Triangles whose bounding box holds a pixel centre: few of a fine mesh in a small frame."""
+    """Triangles whose bounding box holds a pixel centre: few of a fine mesh on a small image."""
     held = np.ones(len(faces), dtype=bool)
     for axis, size in ((0, width), (1, height)):
         a, b, c = points[faces[:, 0], axis], points[faces[:, 1], axis], points[faces[:, 2], axis]
@@ -187,7 +187,7 @@ def _depth_along(
     corner = top[:, triangle]
     start = corner[2] + per_x[triangle] * (x - corner[0]) + per_y[triangle] * (y - corner[1])
     end = start + per_x[triangle] * (count - 1)
-    # The plane of a sliver is steep and ill-conditioned: its depth must not leave its corners'.
+    # The plane of a sliver is steep and ill-conditioned: depth must stay between the corners'.
     low = np.minimum(np.minimum(top[2], middle[2]), bottom[2])[triangle]
     high = np.maximum(np.maximum(top[2], middle[2]), bottom[2])[triangle]
     start, end = np.clip(start, low, high), np.clip(end, low, high)

@@ -50,7 +50,7 @@ def render(
     ground : bool
         Whether a ground at the lowest vertex catches the shadow and returns light.
     background : (3,), optional
-        One sRGB colour in 0..1, for instance white for a paper. Default: a light studio gradient.
+        One sRGB colour in 0..1, for instance white for print. Default: a light studio gradient.
     field_of_view : float
         Angle of the shorter side in degrees.
     margin : float
@@ -66,7 +66,7 @@ def render(
     Raises
     ------
     ValueError
-        If the mesh is empty, flat as a point, not finite or has indices out of range, or an
+        If the mesh is empty, is a single point, is not finite or has indices out of range, or an
         option is out of range.
 
     Cost: about 5 s for 50k triangles at the default size on one core, most of it in the soft

@@ -14,7 +14,7 @@ from .checks import checked_samples, checked_size
 from .exposure import Exposure
 from .scene import Scene
 
-# How far shadows reach beyond their cell, as parts of its width and height; they fade out there.
+# How far shadows reach beyond their cell, as shares of its width and height; they fade out there.
 SPILL = (0.6, 0.25)
 
 
@@ -38,15 +38,15 @@ def render_row(
 ) -> NDArray[np.uint8]:
     """Picture of several shapes of one mesh side by side on one seamless background.
 
-    All cells have the camera that frames all shapes together, the same light and the same ground
-    level: what looks larger, higher or further left is. Same input, same bytes.
+    All cells have the same camera, which frames all shapes together, the same light and the same
+    ground level: what looks larger, higher or further left really is. Same input, same bytes.
 
     Parameters
     ----------
     shapes : sequence of (n, 3)
         One or more shapes, for instance rest and posed.
     faces : array_like of int, (f, 3)
-        Triangles, outward, of every shape.
+        Triangles of every shape, outward.
     labels : sequence of str, optional
         A caption under each shape; an empty one leaves its place blank.
     columns : int, optional
@@ -67,8 +67,8 @@ def render_row(
     Raises
     ------
     ValueError
-        As `render`; or if there is no shape, shapes differ in their number of vertices, or
-        labels are not as many as shapes.
+        As for `render`, and if there is no shape, shapes differ in their number of vertices, or
+        there is another number of labels than of shapes.
     """
     width, height = checked_size(size, who="render_row")
     count = len(shapes)
@@ -112,7 +112,7 @@ def _corner(number: int, columns: int, count: int, width: int, height: int) -> t
 
 
 def _cast(sheet: NDArray[np.float64], corner: tuple[int, int], exposure: Exposure) -> None:
-    """Darken the sheet by a shadow that may reach into the cells around its own."""
+    """Darken the sheet by a shadow, which may reach into neighbouring cells."""
     beside = round(SPILL[0] * exposure.camera.width)
     beyond = round(SPILL[1] * exposure.camera.height)
     shadow = exposure.shadow(around=(beside, beyond))
@@ -134,7 +134,7 @@ def _ramp(length: int, border: int) -> NDArray[np.float64]:
 
 
 def _color_list(colors: Any, count: int) -> list[Any]:
-    """One entry per shape: a list of `count` arrays is taken apart, all else is shared."""
+    """One entry per shape: a list of `count` arrays is split, anything else is shared."""
     if isinstance(colors, list | tuple) and len(colors) == count:
         if all(np.ndim(color) >= 1 or color is None for color in colors):
             return list(colors)

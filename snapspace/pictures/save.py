@@ -1,4 +1,4 @@
-"""Pictures as files."""
+"""Writing pictures to files."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from ..extras import need_extra
 def save_png(path: str | os.PathLike[str], image: Any) -> Path:
     """Write an image as PNG: completely, or not at all.
 
-    The bytes go to a temporary file in the same folder that is renamed at the end, so whatever
-    stood at `path` stays until the new picture is complete.
+    The bytes go to a temporary file in the same folder, which is renamed at the end. An existing
+    file at `path` stays until the new picture is complete.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def save_png(path: str | os.PathLike[str], image: Any) -> Path:
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extra `snapspace[pictures]`.
+        A ValueError, if the extra `snapspace[pictures]` is not installed.
     ValueError
         If the extension is not ``.png``, the folder does not exist, `image` is not an image, or the
         file cannot be written.

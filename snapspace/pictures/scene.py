@@ -27,7 +27,7 @@ class Scene:
 
     @classmethod
     def of(cls, shapes: Sequence[Any], faces: Any, colors: Sequence[Any], *, who: str) -> Scene:
-        """Checks everything about meshes and colours; `colors` has one entry per shape."""
+        """The scene of some shapes, checked with their colours: one entry of `colors` per shape."""
         given = [checked_vertices(shape, who=who) for shape in shapes]
         count = len(given[0])
         for number, shape in enumerate(given):

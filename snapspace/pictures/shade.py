@@ -12,19 +12,19 @@ from .surface import ShadingPoints
 
 Floats = NDArray[np.float32]
 
-# Most texels over the mesh; a small picture needs one for two pixels, not more. A lamp is many
-# directions: each shadow edge should be no sharper than their distance, or the penumbra shows
+# Most texels across the mesh; a small picture needs no more than one per two pixels. A lamp has
+# many directions: a shadow edge should be no sharper than their spacing, or the penumbra shows
 # steps.
 LAMP_TEXELS = 288
 SKY_TEXELS = 160
 COARSEST_TEXELS = 48
-# A point of a plane stays out of its own shadow, at any slope, if it is lifted along the normal
-# by the diagonal of a texel.
+# A point of a plane stays out of its own shadow at any slope if it is lifted along the normal by
+# the diagonal of a texel.
 LIFT_TEXELS = 1.6
 # Passes over the nodes of the ground, where the few directions of a light leave faint streaks.
 SKY_SMOOTHING = 16
 LAMP_SMOOTHING = 4
-# Part of the surface's own light that its hidden parts return: they are darker than average.
+# Share of the surface's own light that its hidden parts return: they are darker than average.
 BOUNCED = 0.6
 ROUGHNESS = 0.54
 REFLECTANCE = 0.04  # at normal incidence, of a dielectric
@@ -43,9 +43,9 @@ def shade(
 
     Every direction of every lamp and of the sky has its own shadow map, so soft shadows, the
     darkening of crevices and the contact with the ground come from one mechanism and agree.
-    Light between parts of the surface is the series of equal bounces: what hides a part of the
-    sky is surface of about the same albedo and light. `pixels`, the longer side of the picture,
-    bounds the resolution of the maps.
+    Light between parts of the surface is a series of equal bounces: where a part of the sky is
+    hidden, surface of about the same albedo and light is seen. `pixels`, the longer side of the
+    picture, bounds the resolution of the maps.
     """
     caster = ShadowCaster(vertices, faces)
     finest = max(pixels // 2, COARSEST_TEXELS)
@@ -73,8 +73,9 @@ def _shadowed(
     sky, lamps = np.zeros((2, nodes.shape[1]), dtype=np.float32)
     total = 0.0
 
-    # Lines through the ground miss the mesh upwards if they miss it at all: directions below
-    # the horizon serve as their opposites, which doubles the directions of the sky.
+    # The whole mesh is above the ground, so a line through the ground misses it upwards if it
+    # misses it at all: directions below the horizon count as their opposites, which doubles the
+    # directions of the sky.
     for shadow in sky_maps:
         height = abs(float(shadow.light @ studio.up))
         strength = 2.0 / len(sky_maps) * height * float(studio.sky_at(height).mean())

@@ -1,4 +1,4 @@
-"""Who is in the shadow of a mesh, for light from one direction: a depth map seen by the light."""
+"""Shadows of a mesh in light from one direction: a depth map as seen from the light."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Floats = NDArray[np.float32]
 
 
 class ShadowCaster:
-    """A mesh that throws shadows; vertices (n, 3), faces (f, 3) outward."""
+    """A mesh that casts shadows; vertices (n, 3), faces (f, 3) outward."""
 
     def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int32]) -> None:
         self._vertices = vertices
@@ -27,7 +27,7 @@ class ShadowCaster:
     def _map(self, towards: NDArray[np.float64], resolution: int) -> ShadowMap:
         faces = self._faces
         if self._closed:
-            # Light enters a closed surface through a face turned to it: the others never win.
+            # Light enters a closed surface through a face turned to it: no other is ever nearest.
             facing = faces[_along(towards, self._normals.T.astype(np.float32)) > 0.0]
             faces = facing if len(facing) else faces
         return ShadowMap(self._vertices, faces, towards, resolution=resolution)
@@ -39,7 +39,7 @@ class ShadowMap:
     Parameters
     ----------
     vertices, faces
-        The mesh that throws the shadow.
+        The mesh that casts the shadow: (n, 3) and (f, 3).
     towards_light : ndarray, (3,)
         Unit vector.
     resolution : int

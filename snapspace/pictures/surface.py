@@ -26,7 +26,7 @@ class ShadingPoints:
 
 @dataclass(frozen=True)
 class SeenSurface:
-    """Shading points and how much of which pixel each of them fills."""
+    """Shading points, with the pixel that each one belongs to and its share of that pixel."""
 
     points: ShadingPoints
     pixel: NDArray[np.int64]  # (k,) of the camera's image
@@ -79,7 +79,7 @@ def seen_surface(
 def _pieces(
     raster: Raster, flat: NDArray[np.float64], samples: int
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pixel of each sample, and the sample that leads its piece of surface within that pixel."""
+    """Pixel of each sample, and the sample that stands for its piece of surface in that pixel."""
     row, column = np.divmod(raster.pixel, raster.width)
     pixel = (row // samples) * (raster.width // samples) + column // samples
     count = int(pixel.max()) + 1 if len(pixel) else 0

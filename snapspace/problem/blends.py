@@ -1,4 +1,4 @@
-"""Blends of two and three corners of a simplex, then of all: an order for many poses."""
+"""Blends of two, three and all corners of a simplex, in an order that suits many poses."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from .corner_sets import pairs_in_rounds, triples_in_circles
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-# Shares of pairs, triples and the inside, until every pair had its first point, and from then on.
-# They were chosen on three generated sets of poses and judged on others, see
+# Shares of pairs, triples and interior points: until every pair has had a point, and afterwards.
+# They were chosen on three generated sets of poses and tested on others, see
 # docs/notes/sampling.md.
 _FIRST_SWEEP = (0.9, 0.0, 0.1)
 _AFTERWARDS = (0.2, 0.3, 0.5)
@@ -19,22 +19,23 @@ _PAIR, _TRIPLE, _INSIDE = range(3)
 
 
 def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> FloatArray:
-    """Weights in an order in which every beginning is a sensible set of samples.
+    """Weights in an order in which the first samples, however many, are a sensible set.
 
-    First the middles of all pairs, with one of ten samples inside. Then two of ten are further
-    points of pairs, three are points of triples, five are inside. A pair gets its next point after
-    all others had theirs, and so do triples: pairs at 1/2, 1/4, 3/4, 1/8, ... (van der Corput
-    1935), triples at the middle, nearer to each corner, ... (Basu & Owen 2015).
+    First come the middles of all pairs, with one interior point in ten samples. Then two in ten
+    are further points of pairs, three are points of triples, and five are interior points. A pair
+    gets its next point after all other pairs had theirs, and so do triples: pairs at 1/2, 1/4, 3/4,
+    1/8, ... (van der Corput 1935), triples at the middle, nearer to each corner, ... (Basu & Owen
+    2015).
 
     Parameters
     ----------
     inside : ndarray, (k, corners)
-        Points of the whole domain; as many of them as are needed come in their order.
+        Points of the whole domain; the interior points are the first of these.
     lowest : float
         Least weight of the domain, zero or negative. Pairs and triples are enlarged so that their
         weights go down to it, while all others stay zero.
     order : ndarray of int, (corners,)
-        A permutation of the corners: which are paired first.
+        A permutation of the corners, which decides which are paired first.
 
     Returns
     -------
@@ -50,7 +51,7 @@ def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> Floa
         if kind == _INSIDE:
             row[:] = inside[number]
             continue
-        # a part of the triples is as long as the samples, so that there is one sweep of it at most
+        # if the triples were cut off, they are as many as the samples: one sweep at most
         sweep, place = divmod(number, len(sets[kind]))
         chosen = sets[kind][place]
         row[chosen] = lowest + (1.0 - len(chosen) * lowest) * points[kind](sweep)
@@ -58,7 +59,7 @@ def blend_weights(inside: FloatArray, *, lowest: float, order: IntArray) -> Floa
 
 
 def _kinds(count: int, corners: int) -> list[tuple[int, int]]:
-    """For each sample its kind, and how many of the kind came before it."""
+    """For each sample, its kind and how many of that kind came before it."""
     pairs = corners * (corners - 1) // 2
     before, kinds = [0, 0, 0], []
     shares, since = np.array(_FIRST_SWEEP), np.zeros(3)

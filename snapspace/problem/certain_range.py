@@ -1,4 +1,4 @@
-"""CertainRange: weights for which a blended energy has a minimum without doubt."""
+"""CertainRange: weights for which a blended energy certainly has a minimum."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ class CertainRange:
     The blended energy of a collapsing density (stable neo-Hookean) is, in each tet,
     tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const, and M and alpha are linear in the weights
     (docs/materials.md). With M positive definite and alpha > 0 in all tets it grows in every
-    direction, and so the sum has a minimum. Such weights are a convex set with the whole simplex
-    in it. The test suffices and is not necessary: one bad tet ends the range, while the sum over
-    all tets may have a minimum farther out. Nor does it say that there is one minimum only.
+    direction, and so the sum has a minimum. Such weights form a convex set that contains the whole
+    simplex. The condition is sufficient, not necessary: one bad tet ends the range, while the sum
+    over all tets may have a minimum farther out. Nor does it imply that the minimum is unique.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class CertainRange:
     -----
     With the edges E_k and volume v_k of a tet in pose k, and A_k = E_0 E_k^-1, M is
     mu sum_k w_k v_k A_k A_k^T and alpha is (lam + mu) v_0^2 sum_k w_k / v_k: moduli are common
-    factors, and the range is one of the poses alone.
+    factors, so the range depends only on the poses.
     """
 
     def __init__(self, corners: ArrayLike) -> None:
@@ -53,43 +53,47 @@ class CertainRange:
         return self._domain.corners
 
     def margin(self, weights: ArrayLike) -> float:
-        """The least of all tets' eigenvalues of M and of their alphas.
+        """The least eigenvalue of M or alpha over all tets, for weights (poses,).
 
-        Relative to those of equal weights: one there, zero on the bound of the range, negative
+        It is relative to equal weights: one there, zero on the boundary of the range, negative
         beyond, and concave in the weights.
 
         Raises
         ------
         ValueError
-            As `Simplex.check`, for weights (poses,) that are none; negative ones are taken.
+            As for `Simplex.check`, except that negative weights are accepted.
         """
         w = self._checked_weights(weights)
-        size = max(np.abs(w).max(), 1.0)  # sums of weights as large as numbers can be stay finite
+        size = max(np.abs(w).max(), 1.0)  # keeps sums of huge weights finite
         return float(size * self._least(w / size))
 
     def holds(self, weights: ArrayLike) -> bool:
-        """Whether weights (poses,) are in the range, without its bound; errors as for `margin`."""
+        """Whether weights (poses,) are inside the range; False on its boundary.
+
+        Raises ValueError as `margin`.
+        """
         return self.margin(weights) > 0.0
 
     def reach(self, toward: ArrayLike, *, start: ArrayLike | None = None) -> float:
-        """How far the way from some weights to others stays in the range.
+        """How far the line from some weights to others stays in the range.
 
         Parameters
         ----------
         toward : array_like, (poses,)
+            Weights that the line leads to.
         start : array_like, (poses,), optional
-            Default: equal weights.
+            Weights that it begins at. Default: equal weights.
 
         Returns
         -------
         float
             The largest t >= 0 with start + t (toward - start) in the closed range: above one if
-            `toward` is in the range; infinite if all the ray is; zero if the start is not in it.
+            `toward` is in the range; infinite if the whole ray is; zero if the start is not.
 
         Raises
         ------
         ValueError
-            As `margin`, for either of them.
+            As for `margin`, for either weights.
         """
         begin = self._domain.center if start is None else self._checked_weights(start)
         step = self._checked_weights(toward) - begin
@@ -103,7 +107,7 @@ class CertainRange:
         moved = factors @ _sum(step / length, self._squares) @ factors.swapaxes(-1, -2)
         alphas = _sum(step / length, self._alphas) / _sum(begin, self._alphas)
         steepest = min(_least_eigenvalue(moved), float(alphas.min()))
-        # what rounding leaves where nothing changes is no slope
+        # smaller slopes are rounding, where nothing changes along the line
         return -1.0 / steepest / length if steepest < -1e-12 else np.inf
 
     def limits(self) -> FloatArray:
@@ -112,14 +116,14 @@ class CertainRange:
         Returns
         -------
         ndarray, (poses, 2) float64
-            Negative and above one; infinite where the range does not end.
+            The least is negative and the greatest above one; infinite where the range does not end.
         """
         center, limits = self._domain.center, np.empty((self.poses, 2))
         for pose, alone in enumerate(np.eye(self.poses)):
-            way = alone - center
+            step = alone - center
             limits[pose] = (
-                center[pose] - self.reach(center - way) * way[pose],
-                center[pose] + self.reach(alone) * way[pose],
+                center[pose] - self.reach(center - step) * step[pose],
+                center[pose] + self.reach(alone) * step[pose],
             )
         return limits
 
@@ -132,16 +136,16 @@ class CertainRange:
 
 
 def certain_range(material: Material, corners: ArrayLike) -> CertainRange | None:
-    """The range of a material's blends, or None.
+    """The range of a material's blends, or None if no test is known.
 
-    Densities that do not collapse have no cheap test. Weights that are not negative are fine for
-    all of them: a sum of energies with minima.
+    Densities that do not collapse have no cheap test. Weights that are not negative are safe for
+    all materials: the blend is a sum of energies that have minima.
 
     Parameters
     ----------
     material : Material
     corners : (poses, tets, 4, 3) float64
-        As for `CertainRange`, with its errors.
+        As for `CertainRange`, which also lists the errors.
     """
     return CertainRange(corners) if material.collapses else None
 

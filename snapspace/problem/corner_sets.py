@@ -13,9 +13,9 @@ IntArray = NDArray[np.int64]
 def pairs_in_rounds(corners: int) -> IntArray:
     """All pairs of 0 ... corners - 1, (corners (corners - 1) / 2, 2), round by round.
 
-    A round is what a tournament plays at a time (circle method: Kirkman 1847): disjoint pairs of
-    all corners, or of all except one where their number is odd. So the first k pairs, for any k,
-    hold each corner nearly equally often, and each corner comes first in half of its pairs.
+    A round is like that of a tournament (circle method: Kirkman 1847): disjoint pairs of all
+    corners, or of all except one if their number is odd. So the first k pairs, for any k, contain
+    each corner nearly equally often, and each corner comes first in half of its pairs.
     """
     seats = corners + corners % 2
     ring, pairs = list(range(seats)), []
@@ -31,9 +31,9 @@ def pairs_in_rounds(corners: int) -> IntArray:
 def triples_in_circles(corners: int, *, at_most: int) -> IntArray:
     """The first triples of 0 ... corners - 1, (k, 3), circle by circle, k <= C(corners, 3).
 
-    A circle turns one triple on the corners as on a clock, through all hours: each corner is in it
-    equally often. Wide triples come first, those whose corners are spread around the clock. All of
-    them would be many: a thousand corners have 166 million.
+    A circle turns one triple through all hours of a clock whose hours are the corners, so that it
+    contains each corner equally often. Wide triples, whose corners are spread around the clock,
+    come first. There can be very many triples: a thousand corners have 166 million.
     """
     gaps = {
         min((a, b, c), (b, c, a), (c, a, b))
@@ -41,7 +41,7 @@ def triples_in_circles(corners: int, *, at_most: int) -> IntArray:
         for b in range(1, corners - a)
         for c in [corners - a - b]
     }
-    # hours in a golden order, so that a part of a circle is spread too
+    # hours in an order of golden steps, so that a part of a circle is spread as well
     step = next(
         s for s in range(math.ceil(0.618 * corners), 2 * corners) if math.gcd(s, corners) == 1
     )

@@ -33,8 +33,8 @@ def handle_box(common: Any, handles: Sequence[dict[str, Any]]) -> HandleBox:
     """
     if handles and "domain" in handles[0]:
         raise ValueError(
-            "handles[0].domain: the first handle is held at rest; leave it out, or put the handle "
-            "behind another one"
+            "handles[0].domain: the first handle is held at rest; leave it out, or put another "
+            "handle first"
         )
     bounds = _bounds(common, "domain")
     for key in (_TRANSLATION, _ANGLE):

@@ -50,7 +50,7 @@ class HandleBox:
         for name in ("translation", "angle"):
             bounds = _numbers(getattr(self, name), name)
             if isinstance(getattr(self, name), np.ndarray) or bounds.ndim == 2:
-                object.__setattr__(self, name, _as_tuples(bounds))  # so that boxes compare
+                object.__setattr__(self, name, _as_tuples(bounds))  # for comparisons
             if not np.isfinite(bounds).all() or (bounds < 0).any():
                 raise ValueError(
                     f"HandleBox: {name} is {getattr(self, name)}, but a bound must be zero or "
@@ -63,7 +63,7 @@ class HandleBox:
             )
         if self.moving < 1:
             raise ValueError(
-                f"HandleBox: moving is {self.moving}, but one handle at least must move"
+                f"HandleBox: moving is {self.moving}, but at least one handle must move"
             )
         for name in ("translation", "angle"):
             shape = np.shape(getattr(self, name))
@@ -93,25 +93,25 @@ class HandleBox:
 
     @property
     def common(self) -> HandleBox:
-        """The smallest box with the same bounds for all handles that holds this one."""
+        """The smallest box with the same bounds for all handles that contains this one."""
         if np.ndim(self.translation) < 2 and np.ndim(self.angle) < 2:
             return self
         largest = self.bounds.max(axis=0)
         return replace(self, translation=largest[:3], angle=largest[3:])
 
     def renamed(self, old: Sequence[str], new: Sequence[str]) -> HandleBox:
-        """The box for other moving handles: each keeps the bounds of its name.
+        """The box for other moving handles: a handle keeps the bounds that belong to its name.
 
         Parameters
         ----------
         old, new : sequence of str
-            Names of the moving handles of this box, and of the other one. Those that are new get
-            the bounds of `common`.
+            Names of the moving handles of this box and of the new one. New names get the bounds of
+            `common`.
 
         Raises
         ------
         ValueError
-            If only handles are left whose bounds are zero.
+            If all remaining bounds are zero.
         """
         common = self.common
         if common is self:
@@ -132,7 +132,7 @@ class HandleBox:
         return (2.0 * points - 1.0) * self.half_widths
 
     def to_unit(self, parameters: FloatArray) -> FloatArray:
-        """Inverse of `from_unit`; a parameter without width becomes 0.5."""
+        """Inverse of `from_unit`; a parameter whose bound is zero becomes 0.5."""
         widths = self.half_widths
         scaled = np.divide(
             parameters, widths, out=np.zeros_like(parameters, dtype=np.float64), where=widths > 0
@@ -156,7 +156,7 @@ class HandleBox:
         return self.from_unit(points.reshape(-1, self.dimension))
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
-        """Coordinates in which distances between parameters compare: those of the unit cube."""
+        """Coordinates in which distances of parameters are comparable: those of the unit cube."""
         return self.to_unit(parameters)
 
 

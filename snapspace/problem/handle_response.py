@@ -1,4 +1,4 @@
-"""HandleResponse: shapes near the solutions for moved handles, made without solving."""
+"""HandleResponse: guesses near the solutions for moved handles, made without solving."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FloatArray = NDArray[np.float64]
 
 
 class HandleResponse:
-    """What a problem's rest shape answers to small translations and turns of its handles.
+    """Linear responses of a problem's rest shape to small motions of its handles.
 
-    Those of them whose bounds are zero are taken to be at rest.
+    Handles whose bounds are zero are taken to be at rest.
     """
 
     def __init__(self, problem: PosingProblem) -> None:
@@ -35,14 +35,14 @@ class HandleResponse:
         system, inputs = problem.system, np.concatenate(asked)
         self._response = run_abandonable(lambda: core.LinearResponse(system, inputs))
 
-    # The problem is no attribute: it keeps this response, and a cycle would keep both in memory.
+    # The problem is not an attribute: it has this response, and a cycle would keep both in memory.
     def guesses(self, problem: PosingProblem, parameters: FloatArray) -> FloatArray:
-        """Displacements near the solutions: the linear response, with finite turns.
+        """Displacements near the solutions: the linear response, with finite rotations.
 
         Parameters
         ----------
         problem : PosingProblem
-            The one that this is the response of.
+            The problem that this response was made for.
         parameters : (k, p)
 
         Returns
@@ -50,8 +50,8 @@ class HandleResponse:
         ndarray, (k, 3n)
             In rotation-strain coordinates (Huang et al. 2011): the gradient of the response to t
             and the logarithm of R is taken for the logarithm of a rotation and a strain in every
-            tet, and these are integrated. Exact where all handles move alike, and off by the square
-            of small motions, but for what responses are solved to.
+            tet, and these are integrated. Up to the tolerance of the responses, it is exact where
+            all handles move alike, and its error is quadratic for small motions.
         """
         offsets = problem.offsets_of_all(parameters)[:, self._moving]
         rotations = (offsets[..., :3] + np.eye(3)).reshape(-1, 3, 3)

@@ -1,4 +1,4 @@
-"""How stiff handles are by default, and how far solutions miss them."""
+"""The default stiffness of handles, and how far solutions miss them."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-#: Over the shear modulus and the squared diagonal: holds handles to about a ten-thousandth of the
-#: diagonal. Problems made by hand have 1.6e5 to 4e5.
+#: In units of the shear modulus over the squared diagonal: holds handles to about a ten-thousandth
+#: of the diagonal. Problems made by hand have 1.6e5 to 4e5.
 RELATIVE_STIFFNESS = 2e5
 
 
@@ -33,14 +33,15 @@ def usual_stiffness(mesh: TetMesh, material: Material) -> float:
 def handle_misses(
     problem: PosingProblem, parameters: FloatArray, displacements: Iterable[FloatArray]
 ) -> FloatArray:
-    """How far solutions miss what their handles ask for, as a share of the motion, (k,).
+    """How far solutions miss the targets of their handles, as shares of the motions, (k,).
 
     Root mean squares over the vertices of all handles, weighted by mass; zero where nothing moves.
 
     Parameters
     ----------
+    problem : PosingProblem
     parameters : (k, p)
-    displacements : k of (3n,), from rest
+    displacements : k displacements (3n,) from rest
     """
     masses = problem.mesh.vertex_masses[problem.pinned]
     misses = []

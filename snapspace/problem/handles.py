@@ -31,7 +31,7 @@ class Handles:
     Parameters
     ----------
     vertices : sequence of array_like
-        For each handle vertex indices, or a boolean mask over all vertices.
+        For each handle, vertex indices or a boolean mask over all vertices.
     names : sequence of str, optional
         One per handle, unique. Default: handle_0, handle_1, ...
 
@@ -85,21 +85,21 @@ class Handles:
         return Handles([*(handle.vertices for handle in self), vertices], names=[*self.names, name])
 
     def replacing(self, name: str, vertices: ArrayLike) -> Handles:
-        """The same with other vertices for one of them; ValueError if there is no such handle."""
+        """These handles with other vertices for one; ValueError if there is no such handle."""
         chosen: list[ArrayLike] = [handle.vertices for handle in self]
         chosen[self.index(name)] = vertices
         return Handles(chosen, names=self.names)
 
     def without(self, name: str) -> Handles:
-        """All but one; ValueError if there is no such handle, or only one would be left.
+        """All handles except one; ValueError if there is no such one, or one would be left.
 
-        Without the first the next one is fixed while sampling.
+        If it is the first, the next one is fixed while sampling.
         """
         self.index(name)
         return _handles([handle for handle in self if handle.name != name])
 
     def fixing(self, name: str) -> Handles:
-        """The same with one of them as the first, which is fixed while sampling.
+        """These handles with one of them moved to the front, where it is fixed while sampling.
 
         ValueError if there is no such handle.
         """
@@ -119,7 +119,7 @@ class Handles:
         return f"Handles({sizes})"
 
     def __reduce__(self) -> tuple[Callable[[Sequence[Handle]], Handles], tuple[tuple[Handle, ...]]]:
-        # checked again, with arrays that are read-only again
+        # unpickling checks the handles and makes their arrays read-only
         return _handles, (self._handles,)
 
     def _check_disjoint(self) -> None:

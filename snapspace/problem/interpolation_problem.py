@@ -37,20 +37,21 @@ class InterpolationProblem:
     Parameters
     ----------
     poses : Poses, or a sequence of TetMesh
-        Two or more; each may be in a frame of its own.
+        Two or more; each may be in its own frame.
     material : Material, default StableNeoHookean(lam=1, mu=1)
         Any of `MATERIALS`. Moduli are numbers, or arrays with one number per tet.
     extrapolation : float, default 0
-        Samples also come from outside of the simplex, which is enlarged by this share about its
-        centre. Negative weights may have no minimum; such samples are reported as not converged.
+        Samples also come from outside the simplex, which is enlarged by this share about its
+        centre. F may have no minimum for negative weights; such samples are reported as not
+        converged.
     mean_shape : array_like, (3n,), optional
-        Where it is known, as from a model file. Default: solved for when it is first needed.
+        If it is known, as from a model file. Default: solved for when it is first needed.
 
     Raises
     ------
     ValueError
-        As `Poses.of`, for moduli for another number of tets, a negative extrapolation, or a mean
-        shape of another size.
+        As for `Poses.of`, and for moduli for another number of tets, a negative extrapolation, or
+        a mean shape of another size.
 
     Notes
     -----
@@ -78,8 +79,8 @@ class InterpolationProblem:
 
     @property
     def solving(self) -> SolverTraits:
-        """What it asks of the solvers."""
-        # made anew each time: kept here, it and the problem would keep each other in memory
+        """What this problem needs of the solvers."""
+        # made anew each time: a stored one and the problem would keep each other in memory
         return interpolation_traits(self.material, system_near=self._system_near)
 
     @property
@@ -100,7 +101,7 @@ class InterpolationProblem:
 
     @cached_property
     def system(self) -> core.InterpolationSystem:
-        """The compiled problem, its scalar factor made for shapes near the mean."""
+        """The compiled problem, with a scalar factor for shapes near the mean."""
         return self._system_near(self.mean_shape - self.base)
 
     @cached_property
@@ -117,7 +118,7 @@ class InterpolationProblem:
         return self._solved_mean_shape(threads=0)
 
     def solve_mean_shape(self, *, threads: int | None = None) -> None:
-        """Solves for `mean_shape` now, on so many threads (default: all), unless it is known."""
+        """Solves for `mean_shape` now, unless it is known; `threads` is the number, default all."""
         if "mean_shape" not in self.__dict__:
             self.mean_shape = self._solved_mean_shape(threads=threads or 0)
 
@@ -137,13 +138,13 @@ class InterpolationProblem:
     def certain_range(self) -> CertainRange | None:
         """Weights for which F certainly has a minimum, tested in all tets; None: no test is known.
 
-        A reduced model has one of its own, for its energy: it is larger, since that has fewer tets.
+        A reduced model has its own range, which is larger because its energy has fewer tets.
         """
         return certain_range(self.material, self.poses.shapes[:, self.poses.tets])
 
     @cached_property
     def fingerprint(self) -> str:
-        """SHA-256 of all that solutions depend on, 64 hex digits."""
+        """SHA-256 of everything that solutions depend on, 64 hex digits."""
         content = {
             "kind": "interpolation",
             "mesh": self.mesh.fingerprint,
@@ -155,7 +156,7 @@ class InterpolationProblem:
         return digest.hexdigest()
 
     def mass(self, *, lumped: bool = False) -> csr_array:
-        """Mass matrix (n, n) of the mean shape; a tet that is inverted there counts as it is."""
+        """Mass matrix (n, n) of the mean shape; an inverted tet counts with its absolute volume."""
         return self._mass_of(self.tau, lumped=True) if lumped else self._mean_mass
 
     def check(self, parameters: FloatArray) -> None:
@@ -186,7 +187,7 @@ class InterpolationProblem:
         return moved
 
     def guesses(self, parameters: FloatArray) -> None:
-        """None: blends of the poses' deformations are not made."""
+        """None: there are no guesses for blends."""
 
     def value_and_gradient(self, x: ArrayLike, weights: ArrayLike) -> tuple[float, FloatArray]:
         """F(x, w) at positions x (3n,) for any weights (p,), and its gradient (3n,) by x."""
@@ -206,7 +207,7 @@ class InterpolationProblem:
         return core.ElasticEnergy(rest, self.poses.tets, self.material.core)
 
     def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
-        """Vertices (n, 3) of sum_k w_k pose_k, the straight path, of the registered poses."""
+        """Vertices (n, 3) of sum_k w_k pose_k, the linear blend of the registered poses."""
         w = self.weights(weights, extrapolate=extrapolate)
         blend: FloatArray = np.einsum("k,ki->i", w, self.pose_shapes).reshape(-1, 3)
         return blend
@@ -227,12 +228,14 @@ class InterpolationProblem:
                 f"have {self.base.size}"
             )
         if not np.isfinite(x).all():
-            raise ValueError("InterpolationProblem: the mean shape has a coordinate not finite")
+            raise ValueError(
+                "InterpolationProblem: the mean shape has a coordinate that is not finite"
+            )
         return x
 
     @cached_property
     def _rest_system(self) -> core.InterpolationSystem:
-        # energies do not depend on the poses' frames, but far apart the differences lose digits
+        # energies do not depend on the poses' frames, but differences lose digits in distant ones
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
         tets, material = self.poses.tets, self.material
         return run_abandonable(lambda: core.InterpolationSystem(shapes, tets, material.core))
@@ -260,7 +263,7 @@ class InterpolationProblem:
         return mass_of_tets(tets, volumes, lumped=lumped)
 
     def __reduce__(self) -> tuple[Callable[..., InterpolationProblem], tuple[Any, ...]]:
-        # what defines it travels, with the mean shape if it is known: that one takes long to find.
+        # pickles the definition, and the mean shape if it is known because it takes long to find.
         # The compiled system and other caches are made again where needed
         poses = self.poses
         inverted = bool(poses.inverted_tets.any())
@@ -281,7 +284,7 @@ def _interpolation_problem(
     extrapolation: float,
     mean_shape: FloatArray | None,
 ) -> InterpolationProblem:
-    """The problem out of a pickle, checked again and with read-only arrays."""
+    """The problem from a pickle, checked again and with read-only arrays."""
     poses = Poses(shapes, tets, names=names, accept_inverted=accept_inverted)
     return InterpolationProblem(
         poses, material=material, extrapolation=extrapolation, mean_shape=mean_shape

@@ -1,4 +1,4 @@
-"""Values out of JSON content: each function returns the value, or says what came instead."""
+"""Values from JSON content: each function returns the value, or says what came instead."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def as_object(value: Any, what: str, *, known: set[str] | None = None) -> dict[s
 
 
 def as_list(value: Any, what: str, *, items: tuple[str, ...] = ()) -> list[Any]:
-    """`value` if it is a list, of exactly the given items if any; ValueError otherwise."""
+    """`value` if it is a list, of exactly these items if any are given; ValueError otherwise."""
     if not isinstance(value, list):
         raise ValueError(f"{what} must be a list, got {_shown(value)}")
     if items and len(value) != len(items):

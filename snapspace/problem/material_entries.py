@@ -1,4 +1,4 @@
-"""The material of a problem file: its model, its moduli, and regions with other ones."""
+"""The material of a problem file: its model, its moduli, and regions with other moduli."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def material_from(value: Any, mesh: TetMesh) -> Material:
     ----------
     value : object
         {"model": kind, moduli by name} or {"model": kind, "young", "poisson"}, and "regions", see
-        `with_regions`. Values are numbers, or lists with one number per tet; moduli that are not
-        there have the default of the class. Without "model" it is the default material, but
-        St.Venant-Kirchhoff where nothing but "lam" and "mu" is there: files are older than names.
+        `with_regions`. Values are numbers, or lists with one number per tet; missing moduli have
+        the default of the class. Without "model" it is the default material. But if "lam" or "mu"
+        is there and nothing else, it is St.Venant-Kirchhoff: old files named no model.
     mesh : TetMesh
 
     Raises
@@ -45,7 +45,7 @@ def material_from(value: Any, mesh: TetMesh) -> Material:
 
 
 def material_content(material: Material) -> dict[str, Any]:
-    """The entry "material" that `material_from` makes the same material of.
+    """The entry "material" from which `material_from` makes the same material.
 
     Moduli that differ from tet to tet become regions where they have few different values, and
     otherwise lists.

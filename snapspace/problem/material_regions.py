@@ -16,7 +16,7 @@ from .place_entries import Mask, in_places, listed
 
 FloatArray = NDArray[np.float64]
 
-#: Bodies with more different sets of moduli are written as lists of moduli.
+#: For more different sets of moduli, lists of moduli are written instead of regions.
 MOST_REGIONS = 16
 #: Corners among the vertices of a region that make a tet a part of it.
 _CORNERS = 3
@@ -63,9 +63,9 @@ def with_regions(material: Material, regions: Sequence[Any], mesh: TetMesh) -> M
 def regions_content(
     rows: FloatArray, names: Sequence[str]
 ) -> tuple[FloatArray | None, list[dict[str, Any]]]:
-    """Moduli (m, k) as those of most tets (k,), and regions with the others; see `with_regions`.
+    """Moduli (m, k) as the set (k,) of most tets, and regions with the others; see `with_regions`.
 
-    The first is None if there are too many different ones.
+    The former is None if there are too many different sets.
     """
     different, which, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
     if len(different) > MOST_REGIONS:
@@ -86,7 +86,7 @@ def _tets_in(region: dict[str, Any], mesh: TetMesh) -> Mask:
     vertices = listed(region, "vertices", "a vertex", count=len(mesh.vertices))
     inside |= vertices[mesh.tets].sum(axis=1) >= _CORNERS
     if not inside.any():
-        raise ValueError("there is no tet in it; widen its boxes or spheres")
+        raise ValueError("it contains no tet; widen its boxes or spheres")
     return inside
 
 
@@ -95,7 +95,7 @@ def _moduli_of(
 ) -> dict[str, Value]:
     """The new moduli of a region, numbers or one per tet inside."""
     if not entries:
-        raise ValueError(f"nothing is new in it; give {' and '.join(kind.names())}, or factor")
+        raise ValueError(f"it changes nothing; give {' and '.join(kind.names())}, or factor")
     if _FACTOR not in entries:
         return moduli_of(entries, kind, of_each=as_number)
     if len(entries) > 1:

@@ -12,8 +12,8 @@ FloatArray = NDArray[np.float64]
 
 #: The mean shape is solved until twice the predicted decrease is below this share of its energy.
 TOLERANCE = 1e-9
-#: Iterations between two adaptations of the factor: one costs as much as some 15 iterations. On the
-#: Lion 40, 80 and 160 need 240, 240 and 330 iterations in all; without adapting it takes 1100.
+#: Iterations between two adaptations of the factor, which cost as much as about 15 iterations each.
+#: On the Lion 40, 80 and 160 need 240, 240 and 330 iterations in all; no adaptation needs 1100.
 _STAGE = 80
 _MOST_STAGES = 200
 
@@ -23,9 +23,9 @@ def mean_displacement(
 ) -> FloatArray:
     """Displacement (3n,) of the minimum of the mean energy of all poses.
 
-    The first iterations start from every pose at once, with a factor adapted to all of them. From
-    then on the shape with the lowest energy goes on alone, and every so many iterations the factor
-    is adapted to it.
+    The first 80 iterations start from every pose at once, with one factor adapted to all of them.
+    Then only the shape with the lowest energy continues, and the factor is adapted to it every 80
+    iterations.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def mean_displacement(
     KeyboardInterrupt
         On Ctrl-C.
     """
-    shapes, near = poses, _next_pose(len(poses))
+    shapes, near = poses, _first_weights(len(poses))
     for _ in range(_MOST_STAGES):
         weights = np.full((len(shapes), len(poses)), 1.0 / len(poses))
         batch = _stage(system.adapted(shapes, near), weights, shapes, threads)
@@ -59,11 +59,11 @@ def mean_displacement(
     )
 
 
-def _next_pose(poses: int) -> FloatArray:
-    """For the factor of the first stage each pose counts in itself and in one other, (k, k).
+def _first_weights(poses: int) -> FloatArray:
+    """Weights (k, k) for the factor of the first stage: half each for a pose and the next one.
 
-    Each in all others takes k^2 Hessians: for ten poses of the Lion five seconds, and as many
-    iterations.
+    Weights of all poses would need k^2 Hessians: five seconds for ten poses of the Lion, and as
+    many iterations.
     """
     return (np.eye(poses) + np.roll(np.eye(poses), 1, axis=1)) / 2.0
 

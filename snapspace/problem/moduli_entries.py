@@ -14,7 +14,7 @@ FloatArray = NDArray[np.float64]
 Value = float | FloatArray
 
 _YOUNG, _POISSON = "young", "poisson"
-#: Entries that every material can be given by, instead of its moduli.
+#: Entries that can define every material, instead of its moduli.
 NAMES = (_YOUNG, _POISSON)
 
 
@@ -33,7 +33,7 @@ def moduli_of(
     Raises
     ------
     ValueError
-        For a mixture of both ways, one of "young" and "poisson" alone, or values out of range.
+        For a mixture of both forms, one of "young" and "poisson" alone, or values out of range.
     """
     values = {key: of_each(entry, key) for key, entry in entries.items()}
     given = values.keys() & set(NAMES)
@@ -47,6 +47,6 @@ def moduli_of(
         )
     if len(given) < 2:
         (missing,) = set(NAMES) - given
-        raise ValueError(f"'{min(given)}' needs the entry '{missing}' beside it")
+        raise ValueError(f"'{min(given)}' also needs the entry '{missing}'")
     made = kind.from_young(youngs_modulus=values[_YOUNG], poisson_ratio=values[_POISSON])
     return {name: getattr(made, name) for name in kind.names()}

@@ -43,7 +43,7 @@ def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
     alpha = np.where(locked, 0.0, np.arctan2(R[..., 2, 1], R[..., 2, 2]))
     beta = np.arctan2(-R[..., 2, 0], level)
     # gamma from R Rx(-alpha) = Rz Ry: near gimbal lock alpha is mostly rounding, and this gamma
-    # makes up for it, while one from column 0 of R would have a rounding of its own
+    # makes up for it, while one from column 0 of R would have its own rounding
     sine, cosine = np.sin(alpha), np.cos(alpha)
     gamma = np.arctan2(
         sine * R[..., 0, 2] - cosine * R[..., 0, 1], cosine * R[..., 1, 1] - sine * R[..., 1, 2]
@@ -54,7 +54,7 @@ def euler_of_rotation(rotation: ArrayLike) -> FloatArray:
 def rigid_offset(euler: ArrayLike, translation: ArrayLike) -> FloatArray:
     """Offsets [R - I | t], (..., 3, 4), of rigid motions about a centroid.
 
-    It maps (rest position - centroid, 1) to the displacement that the motion wants:
+    An offset maps (rest position - centroid, 1) to the displacement that the motion asks for:
     target = R (v - c) + c + t. The identity has offset zero.
     """
     rotation = rotation_matrix(euler) - np.eye(3)

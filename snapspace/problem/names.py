@@ -1,4 +1,4 @@
-"""Names of handles and poses at the door."""
+"""Checks of the names of handles and poses."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 def check_names(names: Sequence[str], count: int, *, who: str, what: str) -> None:
     """ValueError unless there are `count` names, none is empty and none is used twice.
 
-    `who` begins the message, and `what` is what is named, with its number: "2 handles".
+    `who` begins the message, and `what` says what is named, with the number: "2 handles".
     """
     if len(names) != count:
         raise ValueError(f"{who}: got {len(names)} names for {what}")

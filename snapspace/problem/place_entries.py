@@ -35,7 +35,7 @@ def in_places(item: dict[str, Any], points: FloatArray) -> Mask:
 
 
 def listed(item: dict[str, Any], key: str, what: str, *, count: int) -> Mask:
-    """Mask (count,) of the indices in the item's list `key`; ValueError if one is none of these."""
+    """Mask (count,) of the indices in the item's list `key`; ValueError if one is out of range."""
     mask = np.zeros(count, np.bool_)
     for index in as_list(item.get(key, []), key):
         mask[as_index(index, what, below=count)] = True

@@ -23,20 +23,20 @@ class Poses:
     Parameters
     ----------
     shapes : array_like, (k, n, 3)
-        Vertices of each pose, in one unit of length; each pose may be in a frame of its own.
+        Vertices of each pose, in one unit of length; each pose may be in its own frame.
     tets : array_like of int, (m, 4)
         0-based vertex indices; the tets of the first pose have positive volumes.
     names : sequence of str, optional
         One per pose, unique. Default: pose 0, pose 1, ...
     accept_inverted : bool, default False
-        Accepts inverted tets in all poses but the first. Their energy is that of the mirrored tet,
-        so interpolated shapes may have such tets as well.
+        Accepts inverted tets in all poses except the first. Their energy is that of the mirrored
+        tet, so interpolated shapes may have such tets as well.
 
     Raises
     ------
     ValueError
         For fewer than two poses, wrong array shapes, names that do not match, coordinates that are
-        not finite, a first pose that is no valid `TetMesh`, a tet without volume in any pose, or
+        not finite, a first pose that is not a valid `TetMesh`, a tet without volume in any pose, or
         an inverted tet unless accepted. The message names the pose.
     """
 
@@ -70,7 +70,7 @@ class Poses:
     ) -> Poses:
         """Poses from meshes with the same tets; ValueError names the first difference."""
         if len(meshes) < 2:
-            raise ValueError(f"Poses: got {_poses(len(meshes))}, but two are needed at least")
+            raise ValueError(f"Poses: got {_poses(len(meshes))}, but at least two are needed")
         names = _as_names(names, len(meshes))
         try:
             check_same_tets([(mesh.vertices, mesh.tets) for mesh in meshes], names)
@@ -156,7 +156,7 @@ def _poses(count: int) -> str:
 
 
 def _as_shapes(shapes: ArrayLike) -> FloatArray:
-    """A fresh (k, n, 3) float64 copy of two or more shapes; ValueError for anything else."""
+    """A new (k, n, 3) float64 array of two or more shapes; ValueError for any other input."""
     try:
         array = np.asarray(shapes)
     except ValueError:
@@ -169,7 +169,7 @@ def _as_shapes(shapes: ArrayLike) -> FloatArray:
             f"{array.shape}"
         )
     if len(array) < 2:
-        raise ValueError(f"Poses: got {_poses(len(array))}, but two are needed at least")
+        raise ValueError(f"Poses: got {_poses(len(array))}, but at least two are needed")
     return np.array(array, dtype=np.float64, order="C")
 
 
@@ -186,8 +186,8 @@ def _check_finite(shapes: FloatArray, names: tuple[str, ...]) -> None:
         pose, vertex = bad[0]
         x, y, z = shapes[pose, vertex]
         raise ValueError(
-            f"Poses: {names[pose]}: vertex {vertex} is not finite ({x:g}, {y:g}, {z:g}); mend the "
-            "coordinates where they come from"
+            f"Poses: {names[pose]}: vertex {vertex} is not finite ({x:g}, {y:g}, {z:g}); correct "
+            "the coordinates at their source"
         )
 
 

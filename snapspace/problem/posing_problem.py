@@ -51,9 +51,9 @@ class PosingProblem:
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, what is no material of `MATERIALS` or has moduli for
-        another number of tets, a handle with a vertex outside of the mesh (the message names it),
-        or handles that all lie on one line, about which the shape could turn freely.
+        For a stiffness that is not positive, a material that is not one of `MATERIALS` or has
+        moduli for another number of tets, a handle with a vertex that the mesh does not have (the
+        message names it), or handles that all lie on one line, about which the shape could turn.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class PosingProblem:
     def with_handles(self, handles: Handles, *, domain: HandleBox | None = None) -> PosingProblem:
         """The same body, of the same material and stiffness, moved by other handles.
 
-        What solutions for the old handles are worth for the new ones is told by `carry_over`.
+        `carry_over` takes solutions for the old handles over to the new ones.
 
         Parameters
         ----------
@@ -103,7 +103,7 @@ class PosingProblem:
         Returns
         -------
         PosingProblem
-            A new one that shares the mesh and the compiled energy.
+            A new problem that shares the mesh and the compiled energy.
 
         Raises
         ------
@@ -122,8 +122,8 @@ class PosingProblem:
 
     @property
     def solving(self) -> SolverTraits:
-        """What it asks of the solvers."""
-        # made anew each time: kept here, it and the problem would keep each other in memory
+        """What this problem needs of the solvers."""
+        # made anew each time: a stored one and the problem would keep each other in memory
         return posing_traits(
             self.material,
             soft_modes=lambda: self._soft_modes,
@@ -155,7 +155,7 @@ class PosingProblem:
 
     @cached_property
     def fingerprint(self) -> str:
-        """SHA-256 of all that solutions depend on, 64 hex digits."""
+        """SHA-256 of everything that solutions depend on, 64 hex digits."""
         content = {
             "kind": "posing",
             "mesh": self.mesh.fingerprint,
@@ -220,7 +220,7 @@ class PosingProblem:
         return np.asarray(self.offsets_of_all(np.asarray(parameters, np.float64)[None])[0])
 
     def offsets_of_all(self, parameters: FloatArray) -> FloatArray:
-        """The same for samples (k, p): (k, h, 3, 4)."""
+        """Offsets of all handles, (k, h, 3, 4), for samples (k, p)."""
         for w in parameters:
             self.check(w)
         motions = np.pad(parameters.reshape(len(parameters), -1, 6), ((0, 0), (1, 0), (0, 0)))
@@ -233,7 +233,7 @@ class PosingProblem:
         return np.concatenate(parts, axis=-2)
 
     def check(self, parameters: FloatArray) -> None:
-        """ValueError for parameters (p,) of another size or not finite; the box may be left."""
+        """ValueError for parameters (p,) of another size or not finite; they may leave the box."""
         moving = self.handles.names[1:]
         if parameters.shape != (self.parameter_count,):
             raise ValueError(
@@ -276,13 +276,13 @@ class PosingProblem:
         return elastic + self.handle_energy(x, offsets), gradient
 
     def _misses(self, x: ArrayLike, offsets: FloatArray) -> FloatArray:
-        """How far the pinned vertices are from where the offsets want them, (p, 3)."""
+        """Vectors to the pinned vertices from where the offsets want them, (p, 3)."""
         moved = np.asarray(x, np.float64).reshape(-1, 3)[self.pinned]
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return np.asarray(moved - wanted)
 
     def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[TetMesh, Handles]]:
-        # what defines it travels; the compiled system and other caches are made again where needed
+        # pickles the definition; the compiled system and other caches are made again where needed
         made = partial(
             PosingProblem, domain=self.domain, material=self.material, stiffness=self.stiffness
         )

@@ -1,4 +1,4 @@
-"""Problem: what a parametrised shape problem offers to the stages after it."""
+"""Problem: the interface of parametrised shape problems, for all later stages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 
 
 class ProblemDomain(Domain, Protocol):
-    """A parameter domain that can be sampled and in which distances mean something."""
+    """A parameter domain that can be sampled and in which distances can be compared."""
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
         """Coordinates of parameters (k, p) in which their distances are comparable."""
@@ -37,7 +37,7 @@ class Problem(Protocol):
 
     @property
     def material(self) -> Material:
-        """What it is made of; moduli are uniform, or one per tet of the mesh."""
+        """What the body is made of; moduli are uniform, or one per tet of the mesh."""
         ...
 
     @property
@@ -67,12 +67,12 @@ class Problem(Protocol):
 
     @property
     def solving(self) -> SolverTraits:
-        """What it asks of the solvers."""
+        """What this problem needs of the solvers."""
         ...
 
     @property
     def fingerprint(self) -> str:
-        """Hash of all that solutions depend on."""
+        """Hash of everything that solutions depend on."""
         ...
 
     def mass(self, *, lumped: bool = False) -> csr_array:
@@ -88,7 +88,7 @@ class Problem(Protocol):
         ...
 
     def guesses(self, parameters: FloatArray) -> FloatArray | None:
-        """Displacements (k, 3n) from `base` near the solutions for (k, p); None if that is hard."""
+        """Displacements (k, 3n) from `base` near the solutions for parameters (k, p), or None."""
         ...
 
     def known_solutions(self) -> tuple[FloatArray, FloatArray]:
@@ -96,7 +96,7 @@ class Problem(Protocol):
         ...
 
     def aligned(self, shape: FloatArray, onto: FloatArray) -> FloatArray:
-        """A shape (3n,) moved, as far as solutions are free to move, onto another one."""
+        """A shape (3n,) moved onto another one, as far as solutions are free to move."""
         ...
 
     def registered(self, displacements: FloatArray) -> FloatArray:

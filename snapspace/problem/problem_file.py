@@ -33,14 +33,14 @@ def read_problem(
         "stiffness", "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes",
         "spheres", "vertices", "painted", "domain"}, ...]}.
         A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
-        [[x, y, z], radius] and vertices. Its "painted" are the vertices of the surface that it was
-        chosen by; only the page reads them. The first handle is the fixed one; any other may have a
-        domain of its own, whose entries replace those of the common one. Where all of them are zero
-        it is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name or
-        "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
+        [[x, y, z], radius] and vertices. "painted" lists the surface vertices that the user chose
+        for it; only the page reads them. The first handle is the fixed one; any other may have its
+        own domain, whose entries replace those of the common one. A handle whose bounds are all
+        zero is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name
+        or "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
         tet. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
         "factor"; later ones win. Without "material" it is the default one, and without "stiffness"
-        that of the handles follows from the body, see `usual_stiffness`.
+        the stiffness of the handles follows from the body, see `usual_stiffness`.
     mesh : TetMesh, optional
         Used instead of the file's mesh.
     repair : bool, default False
@@ -69,7 +69,7 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
     ----------
     path : path of a JSON file, see `read_problem`
     mesh : TetMesh
-        That of the problem, filled into the surface.
+        The problem's mesh, which fills the surface.
 
     Returns
     -------
@@ -79,8 +79,8 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
     Raises
     ------
     ValueError
-        If a file cannot be read, or the surface is not that of the mesh: farther from it than its
-        diagonal.
+        If a file cannot be read, or the surface does not belong to the mesh: a vertex is farther
+        from it than its diagonal.
     """
     path = Path(path)
     content = _load(path)
@@ -101,7 +101,7 @@ def problem_content(
 ) -> dict[str, Any]:
     """The problem as the JSON content that `read_problem` takes, handles by vertices.
 
-    What is None is left out.
+    Arguments that are None are left out.
     """
     common = problem.domain.common.bounds[0]
     content: dict[str, Any] = {
@@ -174,5 +174,5 @@ def _handles(value: Any, mesh: TetMesh) -> Handles:
 def _mask(item: dict[str, Any], name: str, mesh: TetMesh) -> Mask:
     """The union of a handle's boxes, spheres and vertices."""
     with within(f"handle '{name}'"):
-        listed_ones = listed(item, "vertices", "a vertex", count=len(mesh.vertices))
-        return in_places(item, mesh.vertices) | listed_ones
+        vertices = listed(item, "vertices", "a vertex", count=len(mesh.vertices))
+        return in_places(item, mesh.vertices) | vertices

@@ -21,7 +21,7 @@ def in_box(vertices: ArrayLike, lower: Corner, upper: Corner) -> NDArray[np.bool
     Raises
     ------
     ValueError
-        For a corner that has not three entries, or a lower bound above the upper one.
+        For a corner that does not have three entries, or a lower bound above the upper one.
     """
     points = np.asarray(vertices, np.float64)
     for corner in (lower, upper):
@@ -38,7 +38,7 @@ def in_box(vertices: ArrayLike, lower: Corner, upper: Corner) -> NDArray[np.bool
 
 
 def in_sphere(vertices: ArrayLike, center: Sequence[float], radius: float) -> NDArray[np.bool_]:
-    """Mask (n,) of the vertices within `radius` > 0 of `center`; ValueError otherwise."""
+    """Mask (n,) of the vertices within `radius` > 0 of `center`; ValueError for bad values."""
     points = np.asarray(vertices, np.float64)
     if len(center) != 3 or not np.isfinite(np.asarray(center, np.float64)).all():
         raise ValueError(f"sphere: the center needs three finite numbers, got {list(center)}")

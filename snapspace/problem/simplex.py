@@ -107,34 +107,34 @@ class Simplex:
         return self._enlarged((steps + 1.0 / self.corners) / (level + 1))
 
     def blends(self, count: int, *, seed: int = 0, scramble: bool = True) -> FloatArray:
-        """Blends of two corners first, then also of three, with a share of all: (count, corners).
+        """Weights (count, corners): blends of two corners first, then also of three and of all.
 
         For many corners, where uniform points lie around the centre and say little about blends of
         few. All pairs are blended evenly before any pair is blended again, see `blend_weights`; a
         sample does not depend on how many follow. With extrapolation the weights of two or three
-        corners go down to `lowest` while the others are zero, and the share of all fills the whole
-        domain. Corners themselves are left out: these solutions are known.
+        corners go down to `lowest` while the others are zero, and blends of all fill the whole
+        domain. Corners themselves are left out, because their solutions are known.
 
         Parameters
         ----------
         count : int
-            How many, > 0.
+            Number of samples, > 0.
         seed : int, default 0
-            Of the order of the corners, and of the share of all, which is a Sobol sequence.
+            Seeds the order of the corners, and the Sobol sequence of the blends of all.
         scramble : bool, default True
             Without it corners come in their own order, and the Sobol sequence is the plain one.
         """
         inside = self.from_unit(sobol_points(self.dimension, count, seed=seed, scramble=scramble))
         order = np.arange(self.corners)
         if scramble:
-            # a stream of its own: the first numbers of the other one scramble the Sobol sequence
+            # a separate stream: the first numbers of the other one scramble the Sobol sequence
             order = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(2,))).permutation(
                 self.corners
             )
         return blend_weights(inside, lowest=self.lowest, order=order)
 
     def scaled(self, parameters: FloatArray) -> FloatArray:
-        """Coordinates in which distances between parameters compare: the weights themselves."""
+        """Coordinates in which distances of parameters are comparable: the weights themselves."""
         return parameters
 
     def contains(self, weights: ArrayLike) -> bool:
@@ -148,7 +148,7 @@ class Simplex:
     def check(
         self, weights: ArrayLike, *, extrapolate: bool = False, who: str = "Simplex"
     ) -> FloatArray:
-        """Weights at the door.
+        """The given weights as an array, after checks.
 
         Parameters
         ----------
@@ -156,7 +156,7 @@ class Simplex:
         extrapolate : bool, default False
             Accepts any weights that sum to one, however negative.
         who : str
-            Begins the error message.
+            The start of the error message.
 
         Returns
         -------
@@ -167,7 +167,7 @@ class Simplex:
         ------
         ValueError
             For a wrong number of weights, a weight that is not finite, a sum that is not one, or
-            a weight outside of the domain.
+            a weight outside the domain.
         """
         try:
             w = np.array(weights, np.float64)
@@ -199,5 +199,5 @@ class Simplex:
         return w
 
     def _enlarged(self, weights: FloatArray) -> FloatArray:
-        """Weights of the simplex to those of the domain, larger about the centre."""
+        """Maps weights of the simplex onto the domain, which is larger about the centre."""
         return (1.0 + self.extrapolation) * weights + self.lowest

@@ -1,4 +1,4 @@
-"""SolverTraits: what a kind of problem, and its material, ask of the solvers."""
+"""SolverTraits: what a kind of problem and its material need of the solvers."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ Projection = Literal["stretches", "clamp", "absolute"]
 
 @dataclass(frozen=True, kw_only=True)
 class SolverTraits:
-    """How full solutions of a problem are found; users decide otherwise by `SolverOptions`.
+    """How full solutions of a problem are found; users can override this with `SolverOptions`.
 
-    tolerance : of snapshots, where neither the user nor settling decides; those that train a
-        cubature, whose forces must be near equilibrium, never settle
-    loose_tolerance : of samples for a first impression, see `growing_models`
+    tolerance : tolerance of snapshots, where neither the user nor settling decides; snapshots that
+        train a cubature, whose forces must be near equilibrium, never settle
+    loose_tolerance : tolerance of samples for a first impression, see `growing_models`
     settling : share of the displacement at which the fast solver's steps may end; 0 for never
     patience : iterations of the fast solver after which `system_near` helps; None if it never does
-    projection : of the tets' Hessians in Newton's method, see `SolverOptions`
-    far_apart : whether shapes interpolated between solutions may be worse starts than the nearest
-    soft_modes : gives what the system's scalar factor mistakes for stiff, or None if unknown;
-        made by the first call, and kept by the problem
-    system_near : gives the compiled problem made for solutions near a displacement (3n,)
+    projection : projection of the tets' Hessians in Newton's method, see `SolverOptions`
+    far_apart : whether a shape interpolated between solutions may be a worse start than the nearest
+        solution
+    soft_modes : returns the modes that the system's scalar factor mistakes for stiff, or None if
+        unknown; the first call computes them, and the problem keeps them
+    system_near : returns the compiled problem for solutions near a displacement (3n,)
     """
 
     tolerance: float
@@ -42,10 +43,10 @@ class SolverTraits:
     system_near: Callable[[FloatArray], Any]
 
 
-#: Iterations on the shared factor after which an interpolated sample gets one of its own. Most take
-#: 200. A factor and a solve alone take as long as some 600 iterations beside others: 32 samples of
-#: ten Lions take 10.3 s with 240, 5.6 s with 400, and 6.9 s with 800. Those that start far from
-#: their minimum take 650 on the shared factor, and 220 more after 240 on one of their own.
+#: Iterations on the shared factor after which an interpolated sample gets its own factor. Most take
+#: 200. A factor and a solve alone take as long as about 600 iterations beside others: 32 samples of
+#: ten Lions take 10.3 s with 240, 5.6 s with 400, and 6.9 s with 800. Samples that start far from
+#: their minimum take 650 on the shared factor, or 240 on it and 220 more on their own.
 PATIENCE = 400
 
 
@@ -55,7 +56,7 @@ def posing_traits(
     soft_modes: Callable[[], core.SoftModes],
     system_near: Callable[[FloatArray], Any],
 ) -> SolverTraits:
-    """Those of posing: the one place that decides to what snapshots are solved.
+    """Traits of posing: the only place that decides how tightly snapshots are solved.
 
     Where the reduced energy can be an exact quartic, only the shapes count. They may be as far from
     the minimum as a subspace of 40 dimensions usually is from the shapes: 1 % of the displacement.
@@ -68,16 +69,16 @@ def posing_traits(
     processor time; 1e-7, in double precision, takes 24 s and leaves 0.0015 / 0.0021. The gap grows
     with d: it is 0.0028 / 0.0030 against 0.0014 / 0.0022 with 800 samples.
 
-    Expected decreases are those of the scalar factor, which takes shear for as stiff as stretch:
+    Expected decreases are those of the scalar factor, which takes shear to be as stiff as stretch:
     they are too small by (2 mu + lam) / mu. Tolerances of nearly incompressible materials are
-    lower by that, against lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6 leaves live
-    errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 they are 0.0135 and 0.0067 (d = 80).
+    lower by this factor, relative to lam = mu. On a creature with a Poisson ratio of 0.45, 1e-6
+    leaves live errors of 0.0097, 1e-7 leaves 0.0039; with 0.49 they are 0.0135 and 0.0067 (d = 80).
 
     36 loose samples of the Dragon, d = 28, make a model with a live error of 0.048 (median, stable
     neo-Hookean); with a loose tolerance of 1e-2 it is 0.060, and 3 % of the time are saved.
 
-    Guesses may have inverted tets. Where their energy is infinite, samples start from the lowest of
-    what is known.
+    Guesses may have inverted tets. Where their energy is infinite, samples start from the known
+    shape of lowest energy.
 
     Newton's method projects as the paper does where the material is the paper's.
 
@@ -110,11 +111,11 @@ def _shear_share(material: Material) -> float:
 def interpolation_traits(
     material: Material, *, system_near: Callable[[FloatArray], Any]
 ) -> SolverTraits:
-    """Those of interpolation.
+    """Traits of interpolation.
 
-    Nothing holds the shape, and poses differ in what is soft: no soft modes are known, and they
-    move on in steps too short to tell that they have settled, so that the tolerance must be tight.
-    Halfway between distant poses a blend of solutions shrinks and turns inside out.
+    Nothing holds the shape, and poses differ in what is soft. So no soft modes are known, and
+    shapes move along them in steps too short for settling to be recognised: the tolerance must be
+    tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
     """
     return SolverTraits(
         tolerance=1e-9,

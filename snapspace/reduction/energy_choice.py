@@ -1,4 +1,4 @@
-"""Which reduced energy a problem gets: exact, a cubature, or that of the full mesh."""
+"""The choice of a problem's reduced energy: exact, a cubature, or that of the full mesh."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ STORED_ENERGIES: tuple[Energy, ...] = ("auto", "exact", "cubature")
 ENERGIES: tuple[Energy, ...] = (*STORED_ENERGIES, "full")
 
 #: How much more than a cubature an exact quartic may cost: it needs no tight snapshots, and has no
-#: error. On the Dragon, d = 40, a warm solve takes 0.17 ms with the quartic and 0.10 with 320 tets.
+#: error. On the Dragon, d = 40, a warm solve takes 0.17 ms with it and 0.10 ms with 320 tets.
 EXACTNESS = 2.0
 
 
 def chosen_energy(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> Literal["exact", "cubature", "full"]:
-    """The energy that `reduce` makes, see there.
+    """The kind of energy that `reduce` makes; see `reduce`.
 
     Parameters
     ----------
@@ -28,12 +28,12 @@ def chosen_energy(
     dimension : int
         The dimension of the subspace.
     energy : "auto", "exact", "cubature" or "full"
-        As the user wants it.
+        The user's choice.
 
     Raises
     ------
     ValueError
-        For an unknown choice, or an exact energy of a material whose density is no quartic.
+        For an unknown choice, or an exact energy of a material whose density is not a quartic.
     """
     if energy not in ENERGIES:
         raise ValueError(
@@ -43,8 +43,8 @@ def chosen_energy(
     quartic = material.exact_degree == 4
     if energy == "exact" and not quartic:
         raise ValueError(
-            f"reduce: the energy of {material.title} is no polynomial of degree four, so there is "
-            "no exact one; take energy='cubature', or the material StVK"
+            f"reduce: the energy of {material.title} is not a polynomial of degree four, so it has "
+            "no exact form; take energy='cubature', or the material StVK"
         )
     if energy != "auto":
         return energy
@@ -56,7 +56,7 @@ def chosen_energy(
 def fewest_snapshots(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> int:
-    """How many snapshots `reduce` takes at least: a cubature is trained on them.
+    """The fewest snapshots that `reduce` accepts; a cubature is trained on them.
 
     Ten for posing and two for blending, whose states are few and between known poses.
     """
@@ -68,7 +68,7 @@ def fewest_snapshots(
 def training_tolerance(
     problem: PosingProblem | InterpolationProblem, dimension: int, energy: Energy = "auto"
 ) -> float | None:
-    """The tolerance of snapshots that the energy asks for; None if it leaves that to the problem.
+    """The tolerance of snapshots that the energy needs; None if it leaves that to the problem.
 
     See `posing_traits` for the reasons.
     """
@@ -78,9 +78,10 @@ def training_tolerance(
 
 
 def _quartic_pays(dimension: int) -> bool:
-    """Up to d = 48, by multiply-adds of an evaluation.
+    """Whether a quartic is worth its cost in multiply-adds per evaluation: up to d = 48.
 
-    Three for each of d^4 / 24 coefficients, with the Hessian, against 18 for each tet and mode.
+    With the Hessian it takes three for each of d^4 / 24 coefficients; a cubature takes 18 for each
+    tet and mode.
     """
     quartic = 3.0 * dimension**4 / 24.0
     return quartic <= EXACTNESS * 18.0 * default_tets(dimension) * dimension

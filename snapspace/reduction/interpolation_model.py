@@ -59,7 +59,7 @@ class InterpolationModel(ReducedModel):
     def value(self, q: FloatArray, weights: ArrayLike) -> float:
         """Reduced objective at coordinates (d,).
 
-        Equal to F at tau + U q, but for the cubature's error.
+        Equal to F at tau + U q, except for the cubature's error.
         """
         return self.elastic(weights).value(q)
 

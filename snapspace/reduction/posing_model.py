@@ -42,7 +42,7 @@ class PosingModel(ReducedModel):
     def value(self, q: FloatArray, offsets: FloatArray) -> float:
         """Reduced objective at coordinates (d,) for offsets (h, 3, 4).
 
-        Equal to F at tau + U q, but for the cubature's error.
+        Equal to F at tau + U q, except for the cubature's error.
         """
         return self.elastic.value(q) + self.handles.value(q, offsets)
 

@@ -24,8 +24,8 @@ class Quartic:
     ----------
     dimension : int, d
     coefficients : (C(d + 4, 4),)
-        Of the monomials x_i x_j x_k x_l, i <= j <= k <= l, of x = (1, q); l slowest, i fastest.
-        The polynomial on the first d' coordinates is therefore a prefix.
+        Coefficients of the monomials x_i x_j x_k x_l, i <= j <= k <= l, of x = (1, q); l slowest,
+        i fastest. The polynomial on the first d' coordinates is therefore a prefix.
 
     Raises
     ------
@@ -43,12 +43,12 @@ class Quartic:
         self.coefficients = np.ascontiguousarray(coefficients, np.float64)
 
     def __reduce__(self) -> tuple[type[Quartic], tuple[int, FloatArray]]:
-        """Pickles what defines it: the compiled part is made again."""
+        """Pickles the definition; the compiled part is made again."""
         return type(self), (self.dimension, self.coefficients)
 
     @cached_property
     def _core(self) -> core.Quartic:
-        """Has a copy of the coefficients, in the order that evaluations like."""
+        """The compiled quartic, with a copy of the coefficients in the fastest order."""
         return core.Quartic(self.dimension, self.coefficients)
 
     def value(self, q: ArrayLike) -> float:
@@ -80,7 +80,7 @@ class PoseQuartics:
     Parameters
     ----------
     dimension : int, d
-    coefficients : (poses, C(d + 4, 4)), of each pose as in `Quartic`
+    coefficients : (poses, C(d + 4, 4)), each row as in `Quartic`
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""How long an exact reduced energy takes to make, told before it begins."""
+"""The time that an exact reduced energy takes, reported before it begins."""
 
 from __future__ import annotations
 
@@ -8,27 +8,28 @@ from ..notice import Notice
 from ..problem import InterpolationProblem, PosingProblem
 from .quartic import coefficient_count
 
-#: From so many seconds on the user is told.
+#: The user is warned if it takes more than this many seconds.
 LONG = 60.0
-#: For each tet and coefficient, on one or two threads: 0.70 to 1.41 ns were measured, d = 20 to 80.
+#: Per tet and coefficient, on one or two threads: 0.70 to 1.41 ns were measured, d = 20 to 80.
 _SECONDS = 0.8e-9
 
 
 class LongWorkNotice(Notice):
-    """Something takes long, and there is a faster way."""
+    """A step takes long, and there is a faster alternative."""
 
 
 def exact_seconds(problem: PosingProblem | InterpolationProblem, dimension: int) -> float:
     """About how long `reduce` takes for an exact energy, in seconds on one core.
 
-    The tets times the C(d + 4, 4) coefficients, for every pose of an interpolation.
+    Proportional to the number of tets times the C(d + 4, 4) coefficients; an interpolation takes
+    that for every pose.
     """
     poses = len(problem.poses) if isinstance(problem, InterpolationProblem) else 1
     return _SECONDS * poses * len(problem.mesh.tets) * coefficient_count(dimension)
 
 
-def tell_of_long_quartics(problem: PosingProblem | InterpolationProblem, dimension: int) -> None:
-    """A `LongWorkNotice` for an exact energy that takes more than a minute."""
+def warn_of_long_quartics(problem: PosingProblem | InterpolationProblem, dimension: int) -> None:
+    """Warns with a `LongWorkNotice` if an exact energy takes more than a minute."""
     seconds = exact_seconds(problem, dimension)
     if seconds <= LONG:
         return

@@ -1,4 +1,4 @@
-"""reduce: a problem and a subspace become a model."""
+"""reduce: makes a model of a problem and a subspace."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .handle_quadric import handle_quadric
 from .interpolation_model import InterpolationModel
 from .posing_model import PosingModel
 from .quartic import PoseQuartics, Quartic, pose_quartics, reduced_quartic
-from .quartic_cost import tell_of_long_quartics
+from .quartic_cost import warn_of_long_quartics
 from .shown_surface import surface_in
 from .training import check_attached, training
 
@@ -86,20 +86,20 @@ def reduce(
         positive weights, for all materials; handles stay exact. It is trained on the snapshots.
         full: the energy of all tets, at the cost of the mesh, for subspaces of hundreds of
         dimensions; such models are for experiments, and are not saved or shown in pages.
-        auto: exact where the material allows it and d is at most 48, else a cubature. There an
+        auto: exact where the material allows it and d is at most 48, else a cubature. At d = 48 an
         evaluation of the quartic costs d^4 / 8 multiply-adds, twice the 18 r d of a cubature with
-        the default r, which the exact energy is worth.
+        the default r; exactness is worth that.
     snapshots : Snapshots, optional
         Snapshots of the problem; recorded in the model by parameters and coordinates. A cubature
-        needs ten at least that are not at rest, two for blending. Its quality is that of their
-        forces: those of settled snapshots are far from equilibrium, see `SolverOptions`.
+        needs at least ten that are not at rest, or two for blending. It is as good as their forces:
+        those of settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
-        The most that a cubature may choose. Default: 8 d for posing, 15 d for blending, but at
-        most 1000, or all tets if there are fewer.
+        The most tets that a cubature may choose, r. Default: 8 d for posing, 15 d for blending, but
+        at most 1000, or all tets if there are fewer.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
-        That pages and files show. Default: that of the tets.
+        The surface that pages and files show. Default: the boundary of the tets.
     threads : int, optional
         Default: all. The result does not depend on it.
     provenance : dict, optional
@@ -111,15 +111,15 @@ def reduce(
     PosingModel or InterpolationModel
         With an exact energy its objective equals F at tau + U q for all q, and all affine motions
         of the handles or all weights of the poses. Bitwise the same for the same arguments. Its
-        basis is the subspace's in single precision, as in a file: what is saved is what was used.
+        basis is the subspace's in single precision, as in a file: saving it loses nothing.
 
     Raises
     ------
     ValueError
-        If the subspace is of another mesh, not attached to the problem's tau or its basis not
-        M-orthonormal, the surface is of another mesh, the energy is not possible, a cubature has
-        too few snapshots, `tets` is not between 1 and the number of the mesh, or it is given
-        without a cubature.
+        If the subspace belongs to another mesh, is not attached to the problem's tau or has a basis
+        that is not M-orthonormal, the surface belongs to another mesh, the energy is not possible,
+        a cubature has too few snapshots, or `tets` is given without a cubature or is not between 1
+        and the number of tets of the mesh.
 
     Warns
     -----
@@ -134,7 +134,7 @@ def reduce(
     if kind != "cubature" and tets is not None:
         raise ValueError(f"reduce: tets is for energy='cubature'; '{kind}' takes all tets")
     if kind == "exact":
-        tell_of_long_quartics(problem, subspace.dimension)
+        warn_of_long_quartics(problem, subspace.dimension)
     _check_snapshots(problem, subspace, energy, snapshots)
     if kind != "full":  # full models are in no file
         subspace = subspace.in_single_precision()

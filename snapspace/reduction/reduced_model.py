@@ -1,4 +1,4 @@
-"""ReducedModel: all that a live solve needs, at a cost independent of the mesh."""
+"""ReducedModel: everything that a live solve needs, at a cost independent of the mesh."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ class ReducedModel(ABC):
 
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace, attached to the problem's tau
-    surface : EmbeddedSurface, what pages and files show: the user's surface, or that of the tets
-    training_parameters : (k, p) of the solutions that the subspace was made from, or (0, p)
-    training_coordinates : (k, d) of their projections, or (0, d)
+    surface : EmbeddedSurface, shown by pages and files: the user's, or the boundary of the tets
+    training_parameters : (k, p), parameters of the solutions that the subspace was made from, or
+        (0, p)
+    training_coordinates : (k, d), coordinates of their projections, or (0, d)
     provenance : what made it: versions, seeds, options, timings
     error_estimator : ErrorEstimator of `calibrate`, for `Session.certificate`
     """
@@ -46,18 +47,18 @@ class ReducedModel(ABC):
 
     @property
     def dimension(self) -> int:
-        """d."""
+        """Dimension d of the subspace."""
         return self.subspace.dimension
 
     @property
     def up(self) -> str:
-        """Axis that points up in pages and pictures: `provenance["up"]`, or z if that is none."""
+        """Axis that points up in pages and pictures: `provenance["up"]`, or z if it names none."""
         axis = self.provenance.get("up")
         return axis if axis in ("x", "y", "z") else "z"
 
     @property
     def value_scale(self) -> float:
-        """Unit of energy for the termination tests, that of a shear of 10 %: 0.01 mu * volume.
+        """Unit of energy for the termination tests, as of a shear of 10 %: 0.01 mu * volume.
 
         For moduli that differ from tet to tet, the sum over all of them.
         """
@@ -110,7 +111,7 @@ class ReducedModel(ABC):
         Warns
         -----
         UserWarning
-            If the output has more than 10 MB: not every way to a remote kernel carries it.
+            If the output has more than 10 MB: not every connection to a remote kernel carries it.
         """
         from ..page import NotebookPage
 

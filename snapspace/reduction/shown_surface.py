@@ -6,7 +6,7 @@ from ..mesh import EmbeddedSurface, TetMesh, boundary_surface
 
 
 def surface_in(mesh: TetMesh, surface: EmbeddedSurface | None, *, who: str) -> EmbeddedSurface:
-    """The surface, or that of the tets; ValueError if it is of another mesh."""
+    """The surface, or the boundary of the tets if None; ValueError if it is of another mesh."""
     shown = boundary_surface(mesh) if surface is None else surface
     if len(shown.corners) and shown.corners.max() >= len(mesh.vertices):
         raise ValueError(

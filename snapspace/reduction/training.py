@@ -1,4 +1,4 @@
-"""What every way of reducing needs of a subspace and of the snapshots it comes from."""
+"""What every reduction needs: a check of the subspace, and the training data of its snapshots."""
 
 from __future__ import annotations
 

@@ -65,8 +65,8 @@ def rigid_registration(
     RigidMotion
         Minimises |scale R x + t - onto|_M over rotations R with determinant 1 and translations t
         (and over scales > 0 if asked): a shape and its mirror image are not brought together.
-        Where several rotations are equally good, one of them: the identity for a shape without
-        extent; for a shape on a line, the rotation nearest to the identity.
+        Where several rotations are equally good, it is one of them: the identity for a shape
+        without extent; for a shape on a line, the rotation nearest to the identity.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def rigid_registration(
     Notes
     -----
     Kabsch 1976 and Umeyama 1991 with M in place of weights: centroids and the cross covariance
-    X^T M Y of the centred shapes are those of M, also if M is not diagonal.
+    X^T M Y of the centred shapes are those of M, even if M is not diagonal.
 
     The difference between the moved shape and `onto` is M-orthogonal to the three translations and
     to the three infinitesimal rotations omega x onto. A subspace of such differences holds no
@@ -94,7 +94,7 @@ def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArra
     Parameters
     ----------
     shapes : array_like, (3n,) or (3n, k)
-        One shape vector, or one per column; each has a motion of its own.
+        One shape vector, or one per column; each gets its own motion.
     onto : array_like, (3n,)
     mass : csr_array, (n, n)
         M, from `mass_matrix`.
@@ -102,8 +102,8 @@ def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArra
     Returns
     -------
     ndarray
-        Of the shape of `shapes`. The differences to `onto` are M-orthogonal to its rigid motions,
-        see `rigid_registration`.
+        The moved shapes, with the shape of `shapes`. The differences to `onto` are M-orthogonal to
+        its rigid motions, see `rigid_registration`.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArra
 
 
 class _Target:
-    """A shape that others are registered onto, with what every registration needs of it."""
+    """A shape that others are registered onto, with values that every registration needs."""
 
     def __init__(self, onto: ArrayLike, mass: csr_array, *, who: str) -> None:
         self._who = who
@@ -138,7 +138,7 @@ class _Target:
 
     def points_of(self, shape: ArrayLike, what: str) -> FloatArray:
         """A shape vector as (n, 3) points; ValueError unless it fits M and is finite."""
-        # contiguous: BLAS rounds strided columns in another way
+        # contiguous: BLAS rounds strided columns differently
         x = np.ascontiguousarray(shape, np.float64)
         n = self._mass.shape[0]
         if x.shape != (3 * n,):

@@ -13,7 +13,7 @@ IndexArray = NDArray[np.integer]
 ScalePolicy = Literal["auto", "match", "keep"]
 SCALE_POLICIES: tuple[ScalePolicy, ...] = ("auto", "match", "keep")
 
-#: Ratio of edge lengths, in either direction, beyond which "auto" reads a change of the unit of
+#: Ratio of edge lengths, in either direction, beyond which "auto" assumes another unit of
 #: length. Posing bends a body far more than it stretches it, and the units in use are farther
 #: apart: the inch has 2.54 cm, the yard 3 feet. (Yard and metre, 1.09 apart, are the exception.)
 UNITS_DIFFER_BEYOND = 1.5
@@ -32,9 +32,9 @@ def scale_factors(shapes: ArrayLike, cells: ArrayLike) -> FloatArray:
     Returns
     -------
     ndarray, (k,)
-        Multiply pose i by factor i: then the median, over the edges, of length / length in the
-        first pose is one. The first factor is 1. Edges of length zero in the first pose are left
-        out. The median is blind to parts that grow or shrink, if more than half of the edges keep
+        Pose i is to be multiplied by factor i. Then the median, over the edges, of length / length
+        in the first pose is one. The first factor is 1. Edges of length zero in the first pose are
+        left out. The median ignores parts that grow or shrink, if more than half of the edges keep
         their length.
 
     Raises
@@ -58,7 +58,7 @@ def scale_factors(shapes: ArrayLike, cells: ArrayLike) -> FloatArray:
     if not ratios.all():
         raise ValueError(
             f"scale_factors: half of the edges of pose {np.flatnonzero(ratios == 0)[0]} have "
-            "length zero, so its size cannot be told; check its vertices"
+            "length zero, so its size is unknown; check its vertices"
         )
     return np.asarray(1.0 / ratios, dtype=np.float64)
 
@@ -72,16 +72,16 @@ def matched_scales(
     ----------
     shapes, cells : see `scale_factors`
     policy : "auto", "match" or "keep", default "auto"
-        Which poses are scaled: those whose edges are longer or shorter than the first pose's by
-        more than 1.5 (`UNITS_DIFFER_BEYOND`), since a pose changes size by less and a unit of
-        length by more; all; or none.
+        Which poses are scaled. "auto": those whose edges are longer or shorter than the first
+        pose's by a factor of more than 1.5 (`UNITS_DIFFER_BEYOND`), since poses change size by less
+        and units of length by more. "match": all. "keep": none.
 
     Returns
     -------
     shapes : ndarray, (k, n, 3)
         The poses, each multiplied by its factor (about the origin).
     factors : ndarray, (k,)
-        What was applied; exactly 1 where nothing was.
+        Factors that were applied; exactly 1 for poses that were not scaled.
 
     Raises
     ------

@@ -80,7 +80,7 @@ def test_without_a_material_it_is_stable_neo_hookean_and_the_energy_a_cubature(
 def test_an_energy_that_is_not_possible_is_said_before_the_work(run: Run, tmp_path: Path) -> None:
     problem, path = default_material(tmp_path), tmp_path / "m.snapspace"
     for options, message in (
-        (("--energy", "exact"), "stable neo-Hookean is no polynomial of degree four"),
+        (("--energy", "exact"), "stable neo-Hookean is not a polynomial of degree four"),
         (("--samples", 9, "--dimension", 3), "trained on 10 samples or more, but there are 9"),
         (("--samples", 9, "--energy-fraction", 0.9), "trained on 10 samples or more"),
     ):

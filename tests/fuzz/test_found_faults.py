@@ -28,7 +28,7 @@ def test_a_table_of_tets_in_a_cubature(cubature: Path, tmp_path: Path) -> None:
     arrays, header = read_container(cubature)
     arrays["cubature_tets"] = arrays["cubature_tets"][None]
     write_container(tmp_path / "b.snapspace", arrays, header)
-    with pytest.raises(ValueError, match=r"'cubature_tets' has shape \(1, \d+\) and not \(\d+,\)"):
+    with pytest.raises(ValueError, match=r"'cubature_tets' has shape \(1, \d+\), not \(\d+,\)"):
         load(tmp_path / "b.snapspace")
 
 
@@ -76,7 +76,7 @@ def test_control_characters_in_a_problem(tmp_path: Path) -> None:
 def test_a_meshb_file_without_vertices(tmp_path: Path) -> None:
     """meshio gives None in place of the table, and counting its rows was a TypeError."""
     (tmp_path / "a.meshb").write_bytes(struct.pack("<8i", 1, 2, 3, 20, 3, 54, 0, 0))
-    with pytest.raises(ValueError, match=r"a\.meshb: .*its vertices are no table"):
+    with pytest.raises(ValueError, match=r"a\.meshb: .*its vertices are not a table"):
         read_tets(tmp_path / "a.meshb")
 
 

@@ -174,7 +174,7 @@ def test_what_is_no_number_is_refused(wrong: Any, message: str) -> None:
 
 
 def test_moduli_of_different_numbers_of_tets_do_not_go_together() -> None:
-    with pytest.raises(ValueError, match="StVK: moduli of 2 and 3 tets do not go together"):
+    with pytest.raises(ValueError, match="StVK: moduli of 2 and 3 tets do not match"):
         StVK(lam=[1.0, 2.0], mu=MU)  # type: ignore[arg-type]
 
 

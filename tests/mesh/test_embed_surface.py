@@ -121,7 +121,7 @@ def test_units_and_frames_do_not_matter() -> None:
 def test_what_is_far_outside_is_carried_along_where_that_is_allowed() -> None:
     mesh = box_mesh((3, 2, 2), (1.0, 0.7, 0.9))
     points = near(mesh, 80, seed=8, outside=0.5)
-    with pytest.raises(ValueError, match="outside of the tets"):
+    with pytest.raises(ValueError, match="outside the tets"):
         embed_surface(points, NO_FACES, mesh)
     surface = embed_surface(points, NO_FACES, mesh, farthest=1.0)
     matrix, shift = affine(8)
@@ -141,8 +141,8 @@ def test_what_is_far_outside_is_carried_along_where_that_is_allowed() -> None:
         (
             [[0.5, 0.5, 0.5], [0.5, 0.5, 1.1], [0.5, 0.5, 9.0]],
             NO_FACES,
-            r"vertex 1 lies 0.1 outside of the tets, 0.0577 of the mesh's diagonal and more than "
-            r"0.02; 2 of 3 vertices affected: give the surface that the mesh was filled into",
+            r"vertex 1 lies 0.1 outside the tets, 0.0577 of the mesh's diagonal and more than "
+            r"0.02; 2 of 3 vertices affected: give the surface that the mesh fills",
         ),
     ],
 )

@@ -68,9 +68,9 @@ def test_names_what_is_wrong_with_shapes() -> None:
     with pytest.raises(ValueError, match=r"got \(27, 3\)"):
         apply_mass(mass, np.zeros((27, 3)))
     block, vector = np.zeros((81, 2)), np.zeros(81)
-    with pytest.raises(ValueError, match=r"mass_inner: .*mass_gram takes a shape per column"):
+    with pytest.raises(ValueError, match=r"mass_inner: .*mass_gram takes one shape per column"):
         mass_inner(mass, block, vector)
-    with pytest.raises(ValueError, match=r"mass_norm: .*mass_norms takes a shape per column"):
+    with pytest.raises(ValueError, match=r"mass_norm: .*mass_norms takes one shape per column"):
         mass_norm(mass, block)
     with pytest.raises(ValueError, match="mass_inner is for two vectors"):
         mass_gram(mass, vector, vector)

@@ -88,7 +88,7 @@ def test_planted_faults_in_medit_files(tmp_path: Path, text: str, message: str) 
     [
         ("*VERTICES\n0\n", r"needs the sections \*VERTICES and \*ELEMENTS"),
         ("*VERTICES\n2 3\n1 0 0 0\n*ELEMENTS\nTET\n", "2 vertices are announced, but the file ho"),
-        ("*VERTICES\n2 3\n1 0 0 0\n3 0 0 0\n*ELEMENTS\nTET\n", "not numbered one after the other"),
+        ("*VERTICES\n2 3\n1 0 0 0\n3 0 0 0\n*ELEMENTS\nTET\n", "not numbered consecutively"),
         ("*VERTICES\n2 3\n1 0 0 0\n2 0 0\n*ELEMENTS\nTET\n", "do not all have 4 numbers in a row"),
         ("*VERTICES\n1 3\n1 0 0\n*ELEMENTS\nTET\n", "vertices have 3 numbers in a row; 4 are nee"),
         ("*VERTICES\n1 3\n1 0 0 x\n*ELEMENTS\nTET\n", "'x' is not a number"),

@@ -110,7 +110,10 @@ def test_refuses_wrong_paths(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"vertices": np.zeros((4, 3))}, r"vertices must have shape \(27, 3\) .*got \(4, 3\)"),
+        (
+            {"vertices": np.zeros((4, 3))},
+            r"vertices must have shape \(27, 3\), like .*got \(4, 3\)",
+        ),
         ({"vertices": np.full((27, 3), np.nan)}, "write_tets: vertex 0 is not finite"),
         ({"point_data": {"u": np.zeros(4)}}, r"point_data\['u'\] must be numbers of shape \(27,\)"),
         ({"point_data": {"u": np.zeros((27, 3, 3))}}, r"float64 of shape \(27, 3, 3\)"),

@@ -89,7 +89,7 @@ def test_an_altered_number_is_told_from_a_broken_file(saved: Path) -> None:
     content = bytearray(saved.read_bytes())
     content[-3] ^= 1
     saved.write_bytes(content)
-    assert "the checksum does not match, the file was altered; build it again" in refused(saved)
+    assert "the checksum does not match: the file was altered; build it again" in refused(saved)
 
 
 @pytest.mark.parametrize("key", ["problem", "provenance"])
@@ -131,7 +131,7 @@ def test_a_wrong_size_is_named(saved: Path, name: str) -> None:
         arrays[name] = np.ascontiguousarray(arrays[name][..., :-1])
 
     rewrite(saved, change)
-    assert f"the model does not fit together ('{name}' has shape" in refused(saved)
+    assert f"the model is inconsistent ('{name}' has shape" in refused(saved)
 
 
 def bad_tet(arrays: dict[str, Any], header: dict[str, str]) -> None:
@@ -222,7 +222,7 @@ def no_problem(arrays: dict[str, Any], header: dict[str, str]) -> None:
 def test_content_that_makes_no_model_is_refused(saved: Path, change: Change) -> None:
     """Even with a valid checksum: what is loaded goes through the validators of its types."""
     rewrite(saved, change)
-    assert "the model does not fit together" in refused(saved)
+    assert "the model is inconsistent" in refused(saved)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
@@ -248,8 +248,9 @@ def test_another_version_is_named(saved: Path, version: str) -> None:
         header["version"] = version
 
     rewrite(saved, change)
-    assert f"model version {version}, this snapspace reads versions 1, 2, 3, 4; install" in refused(
-        saved
+    assert (
+        f"the version is {version}, but this snapspace reads versions 1, 2, 3, 4; install"
+        in refused(saved)
     )
 
 

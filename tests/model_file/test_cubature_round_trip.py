@@ -62,5 +62,5 @@ def test_a_cubature_that_does_not_fit_is_refused(
     else:
         arrays["cubature_weights"] = arrays["cubature_weights"][:-1]
     write_container(path, arrays, header)
-    with pytest.raises(ValueError, match="does not fit together"):
+    with pytest.raises(ValueError, match="is inconsistent"):
         load(path)

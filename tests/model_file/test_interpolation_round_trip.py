@@ -206,7 +206,7 @@ def test_an_altered_array_is_noticed(saved: Path, name: str) -> None:
         arrays[name].reshape(-1).view(np.uint8)[0] ^= 1
 
     rewrite(saved, change, sign=False)
-    assert "the checksum does not match, the file was altered" in refused(saved)
+    assert "the checksum does not match: the file was altered" in refused(saved)
 
 
 @pytest.mark.parametrize("name", sorted(ARRAYS - {"eigenvalues"}))
@@ -215,7 +215,7 @@ def test_a_wrong_size_does_not_fit(saved: Path, name: str) -> None:
         arrays[name] = np.ascontiguousarray(arrays[name][..., :-1])
 
     rewrite(saved, change)
-    assert "the model does not fit together" in refused(saved)
+    assert "the model is inconsistent" in refused(saved)
 
 
 @pytest.mark.parametrize("index", [-1, 10_000])
@@ -227,7 +227,7 @@ def test_an_index_out_of_range_is_refused(saved: Path, name: str, index: int) ->
 
     rewrite(saved, change)
     message = refused(saved)
-    assert "the model does not fit together" in message
+    assert "the model is inconsistent" in message
     assert name == "tets" or f"'{name}' has an index that is not between 0 and" in message
 
 
@@ -252,11 +252,11 @@ def posing_kind(arrays: dict[str, Any], header: dict[str, str]) -> None:
 
 CHANGES: list[tuple[Change, str]] = [
     (header_change(poses=["one", "two"]), "got 2 names for 3 poses"),
-    (header_change(material=None), "the model does not fit together"),
+    (header_change(material=None), "the model is inconsistent"),
     (header_change(material={"model": "stvk", "lam": 1.0, "mu": -1.0}), "mu"),
     (header_change(extrapolation=-1.0), "extrapolation is -1.0, but it must be zero or positive"),
-    (header_change(accept_inverted=None), "the model does not fit together"),
-    (header_change(lumped_mass=None), "the model does not fit together"),
+    (header_change(accept_inverted=None), "the model is inconsistent"),
+    (header_change(lumped_mass=None), "the model is inconsistent"),
     (not_finite_mean, "the array 'mean_shape' has a number at [0] that is not finite"),
     (posing_kind, "the array 'vertices' is missing"),
 ]
@@ -276,7 +276,7 @@ def test_an_unknown_kind_is_named(saved: Path, kind: str) -> None:
     rewrite(saved, change)
     message = refused(saved)
     assert (
-        f"a model of kind '{kind}', this snapspace knows posing, posing-cubature, interpolation"
+        f"the kind is '{kind}', but this snapspace knows posing, posing-cubature, interpolation"
         in message
     )
     assert "install the snapspace that wrote it" in message

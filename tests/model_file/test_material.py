@@ -114,7 +114,7 @@ def test_an_unknown_material_is_refused_by_its_name(saved: Path) -> None:
     rewrite(saved, change)
     message = refused(saved)
     assert message.startswith(
-        f"{saved}: a model of material 'foo', this snapspace knows arap, corotational"
+        f"{saved}: the material is 'foo', but this snapspace knows arap, corotational"
     )
     assert message.endswith("install the snapspace that wrote it")
 
@@ -136,7 +136,7 @@ def test_a_modulus_that_is_none_is_refused(saved: Path, value: Any, expected: st
 
     rewrite(saved, change)
     message = refused(saved)
-    assert "the model does not fit together" in message
+    assert "the model is inconsistent" in message
     assert expected in message
 
 

@@ -107,7 +107,7 @@ def test_seconds_of_another_record_are_refused(saved: Path, entries: str) -> Non
         header["timings_checksum"] = timings._checksum(entries)
 
     rewrite(saved, change)
-    assert "the model does not fit together" in refused(saved)
+    assert "the model is inconsistent" in refused(saved)
 
 
 def test_seconds_do_not_overwrite_what_has_a_checksum(saved: Path) -> None:

@@ -127,7 +127,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"translation": 1.0, "angle": 45.0}, "angle is 45.0, but it is in radians and at most pi"),
     ({"translation": 1.0, "angle": (0.1, 4.0, 0.1)}, "angle is (0.1, 4.0, 0.1), but it is in"),
     ({"translation": 0.0, "angle": (0.0, 0.0, 0.0)}, "all bounds are zero"),
-    ({"translation": 1.0, "angle": 0.1, "moving": 0}, "moving is 0, but one handle at least"),
+    ({"translation": 1.0, "angle": 0.1, "moving": 0}, "moving is 0, but at least one handle"),
     ({"translation": np.ones((2, 3)), "angle": 0.1, "moving": 3}, "translation has 2 rows of"),
     ({"translation": 1.0, "angle": np.ones((1, 3)), "moving": 2}, "angle has 1 rows of bounds"),
     ({"translation": np.ones((2, 2)), "angle": 0.1, "moving": 2}, "translation must be one number"),

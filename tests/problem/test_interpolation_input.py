@@ -38,7 +38,7 @@ def not_finite() -> FloatArray:
 
 
 BAD: list[tuple[Callable[[], Any], str]] = [
-    (lambda: InterpolationProblem([MESH]), "Poses: got 1 pose, but two are needed at least"),
+    (lambda: InterpolationProblem([MESH]), "Poses: got 1 pose, but at least two are needed"),
     (
         lambda: InterpolationProblem([MESH, irregular_bar(7, 2, 2)]),
         "Poses: pose 1: has 72 vertices, but pose 0 has 81",
@@ -53,7 +53,7 @@ BAD: list[tuple[Callable[[], Any], str]] = [
     ),
     (
         lambda: InterpolationProblem(POSES, mean_shape=not_finite()),
-        "InterpolationProblem: the mean shape has a coordinate not finite",
+        "InterpolationProblem: the mean shape has a coordinate that is not finite",
     ),
     (
         lambda: PROBLEM.value_and_gradient(SHAPE[3:], np.ones(3)),

@@ -78,8 +78,8 @@ def test_inverted_tets_are_counted_if_they_are_accepted() -> None:
 NAMES = ["stand", "run"]
 TET = [[0, 1, 2, 3]]
 BAD: list[tuple[Any, dict[str, Any], str]] = [
-    (SHAPES[:1], {}, "got 1 pose, but two are needed at least"),
-    (SHAPES[:0], {}, "got 0 poses, but two are needed at least"),
+    (SHAPES[:1], {}, "got 1 pose, but at least two are needed"),
+    (SHAPES[:0], {}, "got 0 poses, but at least two are needed"),
     (SHAPES[0], {}, "shapes must be real numbers (k, n, 3), got float64 of shape (36, 3)"),
     (SHAPES[:, :, :2], {}, "shapes must be real numbers (k, n, 3), got float64 of shape (3, 36, 2"),
     (SHAPES.astype(str), {}, "shapes must be real numbers (k, n, 3), got <U"),
@@ -148,7 +148,7 @@ def test_meshes_that_do_not_correspond_are_refused() -> None:
         Poses.of([BAR, other], names=NAMES)
     with pytest.raises(ValueError, match="Poses: pose 1: has 4 vertices, but pose 0 has 36"):
         Poses.of([BAR, one_tet()])
-    with pytest.raises(ValueError, match="Poses: got 1 pose, but two are needed"):
+    with pytest.raises(ValueError, match="Poses: got 1 pose, but at least two are needed"):
         Poses.of([BAR])
     with pytest.raises(ValueError, match="Poses: got 1 names for 2 poses"):
         Poses.of([BAR, BAR], names=["stand"])

@@ -29,7 +29,7 @@ class StiffStVK(ss.StVK):
 
 NO_MATERIALS: list[tuple[Any, str]] = [
     ("stvk", "material is 'stvk' of type str, but it must be one of StableNeoHookean, "),
-    (ss.StVK, "material is the class StVK; give one with moduli, such as StVK.from_lame"),
+    (ss.StVK, "material is the class StVK; give an instance, such as StVK.from_lame"),
     (StiffStVK(lam=1.0, mu=1.0), "of type StiffStVK, but it must be one of "),
     (SimpleNamespace(kind="stvk", check_tets=lambda *_: None), "of type SimpleNamespace, but"),
     ({"model": "stvk"}, "of type dict, but it must be one of "),

@@ -43,7 +43,7 @@ def test_a_material_is_exact_where_its_density_is_a_quartic(kind: str) -> None:
     if exact:
         assert chosen_energy(problem, 500, "exact") == "exact"
     else:
-        message = f"{problem.material.title} is no polynomial of degree four.*energy='cubature'"
+        message = f"{problem.material.title} is not a polynomial of degree four.*energy='cubature'"
         with pytest.raises(ValueError, match=message):
             chosen_energy(problem, 20, "exact")
 
@@ -66,7 +66,7 @@ def test_interpolation_is_exact_at_any_dimension() -> None:
 def test_blends_of_other_materials_are_cubatures(kind: str) -> None:
     problem = InterpolationProblem(bar_poses(), material=MATERIALS[kind]())
     assert chosen_energy(problem, 5) == "cubature"
-    with pytest.raises(ValueError, match="is no polynomial of degree four"):
+    with pytest.raises(ValueError, match="is not a polynomial of degree four"):
         chosen_energy(problem, 5, "exact")
 
 
