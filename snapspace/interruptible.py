@@ -11,7 +11,7 @@ from . import _core as core
 from .stopping import check_stop, ctrl_c_at_checks
 
 POLL_SECONDS = 0.1
-#: Name of the threads whose work nobody has to wait for.
+#: Name of the threads whose work may be abandoned.
 ABANDONABLE = "abandonable"
 
 Result = TypeVar("Result")

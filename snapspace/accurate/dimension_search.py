@@ -11,11 +11,11 @@ from .growing_samples import GrowingSamples
 from .plan import Plan
 from .step import Step
 
-#: Most modes per solution that they come from: the last modes fit single solutions.
+#: Most modes per solution that they come from: further modes fit only these solutions.
 MODES_PER_SOLUTION = 0.8
 #: Least growth of the dimension from one try to the next.
 GROWTH = 1.2
-#: If more dimensions leave more than this share of the error, still more are no use.
+#: If more dimensions leave more than this share of the error, still more do not help.
 FALL = 0.9
 #: Factor by which the next try aims below the target.
 MARGIN = 1.1
@@ -54,7 +54,7 @@ class DimensionSearch:
         self._ratio = step.ratio
 
     def dimensions(self, *, last: bool) -> Iterator[int]:
-        """Dimensions to try in turn, until one meets the target or more are no use.
+        """Dimensions to try in turn, until one meets the target or more do not help.
 
         There are none if more samples are needed, unless these samples are the `last`.
         """

@@ -66,11 +66,11 @@ class Solving:
 
     def counting(self, before: int, total: int) -> Progress | None:
         """The progress callback for samples that follow `before` others of a stage."""
-        tell = self.progress
-        if tell is None:
+        progress = self.progress
+        if progress is None:
             return None
 
         def counted(state: SolveProgress) -> None:
-            tell(replace(state, done=before + state.done, total=total))
+            progress(replace(state, done=before + state.done, total=total))
 
         return counted

@@ -15,8 +15,8 @@ class Step:
         median for motions
     error : the same of their reduced solutions
     mean, ninth : mean and 90th percentile of the errors of the reduced solutions
-    unseen, typical : for the user, what was held out ("motions"), and which statistic `error` is
-        ("median")
+    unseen, typical : names for the user: what was held out ("motions"), and which statistic `error`
+        is ("median")
     """
 
     samples: int
