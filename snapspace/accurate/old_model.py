@@ -95,8 +95,8 @@ class OldModel:
         within = reduced_solutions(self._with_handles(problem, slice(None)), parameters)
         if everything:
             return within
-        common = len(kept) > 1
-        beyond = self._solved_and_moved(parameters) if common else problem.guesses(parameters)
+        some_kept = len(kept) > 1  # besides the fixed one
+        beyond = self._solved_and_moved(parameters) if some_kept else problem.guesses(parameters)
         inputs = problem.inputs(parameters)
         return lowest_start(problem.system, inputs, [beyond, within], threads=threads or 0)
 
