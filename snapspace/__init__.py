@@ -7,7 +7,7 @@ tenth of the time. Type checkers read `__init__.pyi`; a test keeps it equal to `
 from importlib import import_module as _import_module
 from typing import Any as _Any
 
-#: The packages and modules, with the names of theirs that are also names of `snapspace`.
+#: The packages and modules, each with the names that `snapspace` exports from it.
 EXPORTS = {
     "accurate": ("AccurateModel", "Growth", "accurate_model", "growing_models"),
     "animation": ("write_animation",),
@@ -101,7 +101,7 @@ __all__ = sorted(_HOMES)
 
 
 def __getattr__(name: str) -> _Any:
-    """A name that is used for the first time, or a package that was not imported yet."""
+    """Imports a name on its first use, or a package that was not imported yet."""
     if name in _HOMES:
         value = getattr(_import_module(f".{_HOMES[name]}", __name__), name)
     elif name == "__version__":

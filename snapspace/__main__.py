@@ -1,4 +1,4 @@
-"""`python -m snapspace` is `snapspace`."""
+"""`python -m snapspace` runs the command `snapspace`."""
 
 from .cli import program
 

@@ -23,34 +23,35 @@ def write_animation(
     frames_per_second: float = 30.0,
     **picture: Any,
 ) -> list[Path]:
-    """Writes shapes of a model, as `session.animate` makes them.
+    """Writes shapes of a model, for instance the frames of `session.animate`.
 
     Parameters
     ----------
     path : path
-        A film, `.gif` or `.mp4`; or else a folder, which is made, for frame-0000.obj,
-        frame-0001.obj and so on. Files of earlier frames there are replaced.
+        A film, `.gif` or `.mp4`; or else a folder, which is created, for frame-0000.obj,
+        frame-0001.obj and so on. Existing files with these names are replaced.
     model : ReducedModel
+        The model that the shapes belong to.
     shapes : iterable of (n, 3)
         Vertices of the tets.
     kind : str, default "obj"
-        Of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu, vtk or
-        mesh.
+        Format of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu,
+        vtk or mesh.
     frames_per_second : float, default 30
-        Of a film.
+        The frame rate of a film.
     **picture
-        Of a film: size, azimuth, elevation, up (default: that of the model), colors and others, see
-        `pictures.save_film`.
+        Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
+        others, see `pictures.save_film`.
 
     Returns
     -------
     list of Path
-        The files written: the film, or those of the frames in their order.
+        The files written: the film, or the files of the frames in order.
 
     Raises
     ------
     ValueError
-        For an unknown kind, a folder that cannot be made, options of a picture without a film, and
+        For an unknown kind, a folder that cannot be created, picture options without a film, and
         as for `save_film`.
 
     Examples
@@ -69,14 +70,14 @@ def write_animation(
         return [save_film(target, seen, surface.faces, frames_per_second=rate, **picture)]
     if picture:
         raise ValueError(
-            f"write_animation: {', '.join(picture)} is for films, but {target} is a folder; give a "
-            "name that ends in .gif or .mp4"
+            f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
+            "folder; give a name that ends in .gif or .mp4"
         )
     return _written(target, model, shapes, f".{kind}")
 
 
 def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
-    """Writes a shape (n, 3) of a model: its surface or its tets, by the extension."""
+    """Writes a shape (n, 3) of a model: its surface or its tets, depending on the extension."""
     if path.suffix.lower() in SURFACE_OUTPUTS:
         write_surface(path, model.surface.vertices(vertices), model.surface.faces)
     else:
@@ -91,14 +92,14 @@ def _written(
         raise ValueError(f"write_animation: unknown kind '{suffix[1:]}'; known are {known}")
     if folder.suffix and not folder.is_dir():
         raise ValueError(
-            f"write_animation: {folder} is neither a film, .gif or .mp4, nor a folder; give a name "
+            f"write_animation: {folder} is neither a film (.gif or .mp4) nor a folder; give a name "
             "without an extension for a new folder"
         )
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ValueError(
-            f"write_animation: cannot make the folder {folder} ({error.strerror}); give another"
+            f"write_animation: cannot create the folder {folder} ({error.strerror}); give another"
         ) from None
     files = []
     for number, shape in enumerate(shapes):

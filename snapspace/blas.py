@@ -18,16 +18,16 @@ R = TypeVar("R")
 
 
 def single_threaded_blas(function: Callable[P, R]) -> Callable[P, R]:
-    """Decorator: NumPy's and SciPy's linear algebra stays on one thread inside of the function.
+    """Decorator: NumPy's and SciPy's linear algebra stays on one thread inside the function.
 
-    BLAS splits long sums between its threads, so that the last bits of a product depend on how many
-    there are. What a model is made of should not, and these products take well under a second.
+    BLAS splits long sums between its threads, so the last bits of a product depend on how many
+    there are. A model should not depend on that, and its products take well under a second.
     Functions that run at the same time on several threads share the limit.
     """
 
     @wraps(function)
     def limited(*args: P.args, **kwargs: P.kwargs) -> R:
-        with ctrl_c_at_checks(), _limit:  # in between, the limit would stay
+        with ctrl_c_at_checks(), _limit:  # a Ctrl-C between the two would leave the limit set
             return function(*args, **kwargs)
 
     return limited
@@ -41,7 +41,7 @@ class _SharedLimit:
         self._inside = 0
         self._limits: Any = None
         self._controller: ThreadpoolController | None = None
-        self._modules = 0  # that were imported when the controller looked for libraries
+        self._modules = 0  # how many were imported when the controller looked for libraries
 
     def __enter__(self) -> None:
         with self._lock:
@@ -51,7 +51,7 @@ class _SharedLimit:
             self._inside += 1
 
     def _libraries(self) -> ThreadpoolController:
-        """Those of this process. To look for them takes milliseconds: only after imports."""
+        """The BLAS libraries of this process. A search takes milliseconds: only after imports."""
         if self._controller is None or self._modules != len(sys.modules):
             self._modules = len(sys.modules)
             self._controller = ThreadpoolController()
@@ -70,8 +70,8 @@ class _SharedLimit:
 def _take_control() -> None:
     """Lets this thread change OpenBLAS's limit.
 
-    From version 3.8 on threadpoolctl ignores, without a word, all threads but the one that changed
-    it first. Ours take turns, under the lock.
+    From version 3.8 on threadpoolctl silently ignores all threads except the one that changed it
+    first. Ours take turns, under the lock.
     """
     controller: Any = getattr(threadpoolctl, "OpenBLASController", None)
     if hasattr(controller, "clear_controlling_thread"):

@@ -1,4 +1,4 @@
-"""calibrate: a model that can say how far its frames are from full solutions."""
+"""calibrate: makes a model that can estimate how far its frames are from full solutions."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from .validation import check_reference, reference_options
 FloatArray = NDArray[np.float64]
 Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
-#: Full solutions by default.
+#: Default number of full solutions.
 SAMPLES = 50
-#: Frames whose residuals choose the vertices of the sample. They need no full solution.
+#: Number of frames whose residuals choose the sampled vertices. They need no full solution.
 TYPICAL_FRAMES = 32
 #: Distances and indicators below this share of the largest one are rounding.
-NOTHING = 1e-12
+ROUNDING = 1e-12
 
 
 def calibrate(
@@ -44,44 +44,47 @@ def calibrate(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Model:
-    """The same model with an `ErrorEstimator`, so that its sessions can give certificates.
+    """Returns the model with an `ErrorEstimator`, so that its sessions can give certificates.
 
-    Solves the full problem at new parameters, and the reduced one, and keeps the ratios of the true
-    distances to what a session can see: the residual at a few vertices, and what a polish moves.
-    Default builds do so with the samples that they hold out, for quick certificates.
+    Solves the full and the reduced problem at new parameters, and keeps the ratios of the true
+    distances to what a session can see: the residual at a few vertices, and how far a polish moves
+    the shape. Default builds do so with their held-out samples, for quick certificates.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
+        The model to calibrate.
     samples : int, default 50
-        Full solutions, each two to four times as expensive as a snapshot. A confidence c takes at
-        least c / (1 - c) of them: nine for 90 %, 99 for 99 %; with few the bounds are wide.
+        Number of full solutions, each two to four times as expensive as a snapshot. A confidence c
+        takes at least c / (1 - c) of them: nine for 90 %, 99 for 99 %; with few the bounds are
+        wide.
     seed : int, default 0
-        The parameters come from streams of their own: neither `sample` nor `validate` draws them.
+        Seed of the parameters. They have their own random streams: neither `sample` nor `validate`
+        draws them.
     reference : Snapshots, optional
         Known full solutions in place of new ones, as for `validate`.
     thorough : bool, default True
-        Whether to measure what a polish moves: ten full iterations for each solution. Without it
-        there are no thorough certificates.
+        Whether to measure how far a polish moves the shape: ten full iterations for each solution.
+        Without it there are no thorough certificates.
     threads, progress : as for `solve_snapshots`
 
     Returns
     -------
     PosingModel or InterpolationModel
-        It shares everything else with `model`, which stays as it is.
+        A new model, which shares everything else with `model`.
 
     Raises
     ------
     ValueError
-        For fewer than two samples, if not two full solutions converged, for samples or seed beside
-        a reference, or for a reference that `validate` would refuse.
+        For fewer than two samples, if fewer than two full solutions converged, for samples or a
+        seed together with a reference, or for a reference that `validate` would refuse.
     KeyboardInterrupt
         On Ctrl-C.
 
     Notes
     -----
     The bounds hold for parameters drawn like the samples, uniformly from the domain, and for frames
-    that begin at the rest or mean shape. Other dimensions of the model take another calibration.
+    that start at the rest or mean shape. Another dimension of the model needs a new calibration.
     """
     full = _full(model, reference, samples=samples, seed=seed, threads=threads, progress=progress)
     typical = _parameters(model.problem.domain, TYPICAL_FRAMES, seed=seed or 0, stream=3)
@@ -108,18 +111,18 @@ def _full(
     threads: int | None,
     progress: Progress | None,
 ) -> Snapshots:
-    """The full solutions to measure by, given or new."""
+    """The full solutions to compare with, given or new."""
     if reference is not None:
         if samples is not None or seed is not None:
             raise ValueError(
-                "calibrate: the parameters come from the reference, so samples and seed are of no "
+                "calibrate: the parameters come from the reference, so samples and seed have no "
                 "effect; leave them or the reference out"
             )
         check_reference(model, reference, who="calibrate")
         if len(reference) < 2:
             raise ValueError(
-                "calibrate: the reference has one full solution, but it takes two to compare "
-                "with; give one of more samples"
+                "calibrate: the reference has one full solution, but at least two are needed; "
+                "give one with more samples"
             )
         return reference
     count = SAMPLES if samples is None else samples
@@ -137,14 +140,14 @@ def _full(
     full = solved.select(solved.converged)
     if len(full) < 2:
         raise ValueError(
-            f"calibrate: {len(full)} of {count} full solutions converged, but it takes two to "
-            "compare with; choose a smaller domain"
+            f"calibrate: {len(full)} of {count} full solutions converged, but at least two are "
+            "needed; choose a smaller domain"
         )
     return full
 
 
 def _parameters(domain: Domain, count: int, *, seed: int, stream: int) -> FloatArray:
-    """Uniform random parameters (count, p); `sample` and `validate` have other streams."""
+    """Uniform random parameters (count, p); `sample` and `validate` use other streams."""
     random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(stream,)))
     return domain.from_unit(random.random((count, domain.dimension)))
 
@@ -198,6 +201,6 @@ def _solve(session: Session[Any], parameters: FloatArray) -> None:
 def _ratios(distances: FloatArray, indicators: FloatArray) -> FloatArray:
     """True distances over indicators; both are at least rounding."""
     tiny = np.finfo(np.float64).tiny
-    above, below = (np.maximum(a, max(NOTHING * a.max(), tiny)) for a in (distances, indicators))
+    above, below = (np.maximum(a, max(ROUNDING * a.max(), tiny)) for a in (distances, indicators))
     ratios: FloatArray = above / below
     return ratios

@@ -1,11 +1,11 @@
-"""Packages that only a part of Snapspace needs, and the extras that install them."""
+"""Packages that only parts of Snapspace need, and the extras that install them."""
 
 from __future__ import annotations
 
 import sys
 from importlib.util import find_spec
 
-#: The modules that each extra brings; `pyproject.toml` has their distributions and versions.
+#: The modules that each extra installs; `pyproject.toml` has their distributions and versions.
 EXTRAS = {
     "dask": ("distributed",),
     "fill": ("pytetwild",),
@@ -14,21 +14,21 @@ EXTRAS = {
     "view": ("starlette", "uvicorn", "websockets"),
 }
 
-#: Distributions that are not named as their module.
+#: Distributions whose name is not that of their module.
 _DISTRIBUTIONS = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}
 
 
 class MissingExtraError(ValueError, ImportError):
-    """A package is not installed that the called function needs; the message names the extra."""
+    """A package that the called function needs is missing; the message names the extra."""
 
 
 def missing(extra: str) -> tuple[str, ...]:
-    """The modules of an extra that are not installed; none are imported."""
+    """The modules of an extra that are not installed; imports none of them."""
     return tuple(name for name in EXTRAS[extra] if find_spec(name) is None)
 
 
 def need_extra(extra: str, *, who: str) -> None:
-    """MissingExtraError with the command that installs the extra, unless it is installed."""
+    """Raises MissingExtraError, with the command that installs the extra, if it is missing."""
     absent = missing(extra)
     if absent:
         cure = f'pip install "snapspace[{extra}]"'

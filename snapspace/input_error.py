@@ -1,4 +1,4 @@
-"""InputError: what came is not what was needed."""
+"""InputError: an input is not what was needed."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-#: The longest message; a file may have names of any length.
+#: Longest message, in characters; names in a file may have any length.
 _LONGEST = 800
 
 
 def one_line(text: str) -> str:
-    """The text with control characters escaped, and the middle of a long one left out.
+    """The text with control characters escaped, and without the middle if it is long.
 
-    A file may have anything for a name.
+    A name in a file may be anything.
     """
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST - 300]} ... {text[-290:]}"
@@ -23,9 +23,9 @@ def one_line(text: str) -> str:
 
 
 class InputError(ValueError):
-    """A ValueError that knows where it is from, so that callers can say it better.
+    """A ValueError that knows its place, so that callers can name a better one.
 
-    place : the function, file or entry that says it
+    place : the function, file or entry that reports it
     fault : what came, what was needed, and the cure
     """
 
@@ -46,12 +46,12 @@ def fault_of(error: Exception) -> str:
 
 @contextmanager
 def located(place: str | Path) -> Iterator[None]:
-    """Puts a file in the place of the functions that find fault with its content.
+    """Errors in this block name the given place, such as a file, instead of a function.
 
     Raises
     ------
     InputError
-        For a ValueError or an OSError of the block.
+        For a ValueError or an OSError in the block.
     """
     try:
         yield

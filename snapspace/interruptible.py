@@ -1,4 +1,4 @@
-"""Running compiled work so that Ctrl-C, or another thread, ends it and progress shows."""
+"""Running compiled work so that Ctrl-C or another thread can stop it, and progress shows."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from . import _core as core
 from .stopping import check_stop, ctrl_c_at_checks
 
 POLL_SECONDS = 0.1
-#: Name of threads with work that nobody has to wait for.
+#: Name of the threads whose work may be abandoned.
 ABANDONABLE = "abandonable"
 
 Result = TypeVar("Result")
 
 
 def run_abandonable(work: Callable[[], Result]) -> Result:
-    """Calls work() on a thread of its own, so that Ctrl-C is answered at once.
+    """Calls work() on its own thread, so that Ctrl-C is answered at once.
 
-    For compiled work without a way to tell it to stop, such as a factorisation. On Ctrl-C its
-    thread is left alone until it is done, and what it finds is lost.
+    For compiled work that cannot be stopped, such as a factorisation. After Ctrl-C its thread runs
+    to the end in the background, and its result is lost.
     """
     return begin_abandonable(work)()
 
 
 def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
-    """As `run_abandonable`, in two parts: calling what is returned waits for the work."""
+    """Starts what `run_abandonable` does; the returned function waits for the result."""
     outcome: Future[Result] = Future()
 
     def run() -> None:
@@ -48,7 +48,7 @@ def begin_abandonable(work: Callable[[], Result]) -> Callable[[], Result]:
 
 
 def abandoned_work_runs() -> bool:
-    """Whether any such work still runs, for those who end the process without it."""
+    """Whether any such work still runs, so that the process can end without it."""
     return any(thread.name == ABANDONABLE for thread in threading.enumerate())
 
 
@@ -56,12 +56,12 @@ def run_interruptible(
     solve: Callable[[core.SolveControl], Any],
     on_progress: Callable[[int], None],
 ) -> tuple[Any, bool]:
-    """Calls solve(control) on a thread of its own.
+    """Calls solve(control) on its own thread.
 
     Returns its result, and whether Ctrl-C ended it early. `on_progress` gets the number of
-    finished samples now and then. The solve keeps what it finished: an interrupted one returns
-    early with the rest marked cancelled. What `on_progress` raises ends the solve as well, and is
-    passed on.
+    finished samples now and then. An interrupted solve keeps the finished samples and returns early
+    with the others marked cancelled. An exception in `on_progress` also ends the solve, and is
+    raised again.
     """
     control = core.SolveControl()
     interrupted = False
@@ -74,10 +74,10 @@ def run_interruptible(
                 if not interrupted:
                     check_stop()
                     on_progress(control.finished)
-            except KeyboardInterrupt:  # also one of on_progress
+            except KeyboardInterrupt:  # also one from on_progress
                 interrupted = True
                 control.cancel()
-            except BaseException:  # of on_progress: leaving the pool would wait for all samples
+            except BaseException:  # from on_progress; leaving the pool would wait for all samples
                 control.cancel()
                 raise
     return future.result(), interrupted

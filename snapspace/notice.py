@@ -1,4 +1,4 @@
-"""The warnings of this package that tell the user something, and are no mistake of the program."""
+"""Notice: warnings that inform the user, and do not point to a mistake in the program."""
 
 from __future__ import annotations
 

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 Method = Literal["random", "sobol", "grid", "blends"]
-#: Methods for every domain, and all of them: "blends" is for weights of poses.
+#: Methods for every domain, and all methods: "blends" is for weights of poses.
 ANYWHERE: tuple[Method, ...] = ("random", "sobol", "grid")
 METHODS: tuple[Method, ...] = (*ANYWHERE, "blends")
 
 
 class Domain(Protocol):
-    """What a parameter domain must offer: an image of the unit cube.
+    """What a parameter domain must offer: a map from the unit cube.
 
     Uniform points of the cube must become uniform points of the domain.
     """
@@ -31,7 +31,7 @@ class Domain(Protocol):
         ...
 
     def grid(self, count: int) -> FloatArray:
-        """Centres of equal cells of the domain, as many as there can be up to `count`: (k, p)."""
+        """Centres of equal cells of the domain, as many as possible up to `count`: (k, p)."""
         ...
 
 
@@ -40,7 +40,7 @@ class BlendDomain(Domain, Protocol):
     """A domain of weights, whose corners are blended two and three at a time."""
 
     def blends(self, count: int, *, seed: int, scramble: bool) -> FloatArray:
-        """Weights of two and three corners, and a share of all: (count, p)."""
+        """Weights of two and of three corners, and a share of weights of all: (count, p)."""
         ...
 
 
@@ -52,26 +52,28 @@ def sample(
     seed: int = 0,
     scramble: bool = True,
 ) -> FloatArray:
-    """Parameters for snapshots, spread over the domain: uniformly, or as it is used.
+    """Parameters for snapshots, spread over the domain uniformly or as people use it.
 
     Parameters
     ----------
     domain : HandleBox, Simplex or another domain
         The box of the handles' motions, or the simplex of interpolation weights.
     count : int
-        How many, > 0. A grid has the largest number of points up to `count` that its domain allows:
-        in a box of six dimensions 300 are 3 * 3 * 3 * 2 * 2 * 2 = 216, see `HandleBox.grid`; on the
-        simplex of three weights 30 are 1 + 2 + ... + 7 = 28, see `Simplex.grid`.
+        Number of samples, > 0. A grid has the largest number of points up to `count` that its
+        domain allows: in a box of six dimensions 300 become 3 * 3 * 3 * 2 * 2 * 2 = 216, see
+        `HandleBox.grid`; on the simplex of three weights 30 become 1 + 2 + ... + 7 = 28, see
+        `Simplex.grid`.
     method : "random", "sobol", "grid" or "blends", default "random"
         Independent uniform points, a Sobol sequence (Sobol 1967, directions of Joe & Kuo), or the
-        centres of equal cells. "blends" is for weights of five poses or more, of which people blend
-        two or three at a time: all pairs, then triples as well, with a share of uniform points, see
-        `Simplex.blends`.
+        centres of equal cells. "blends" is for weights of five poses or more. People blend two or
+        three poses at a time, so it takes all pairs, then triples as well, with a share of uniform
+        points, see `Simplex.blends`.
     seed : int, default 0
-        For "random", for the scrambling of "sobol", and for the order of poses in "blends".
+        Seed for "random", for the scrambling of "sobol" and for the order of poses in "blends".
     scramble : bool, default True
-        Owen's scrambling of the Sobol sequence; without it the first point is the lower corner of
-        the box, or the last corner of the simplex, and "blends" takes poses in their order.
+        Whether to use Owen's scrambling of the Sobol sequence. Without it the first point is the
+        lower corner of the box, or the last corner of the simplex, and "blends" takes the poses in
+        order.
 
     Returns
     -------
@@ -99,7 +101,7 @@ def sample(
         if not isinstance(domain, BlendDomain):
             raise ValueError(
                 "sample: the method 'blends' is for weights of poses, but the domain is a "
-                f"{type(domain).__name__}; take sobol"
+                f"{type(domain).__name__}; use sobol"
             )
         return domain.blends(count, seed=seed, scramble=scramble)
     raise ValueError(f"sample: unknown method '{method}'; known are {', '.join(METHODS)}")

@@ -1,4 +1,4 @@
-"""Where long work ends when it is told to: at its checks, at Ctrl-C and from other threads."""
+"""How long work is stopped: it checks for Ctrl-C and for requests from other threads."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from contextvars import ContextVar
 from time import monotonic
 from types import FrameType
 
-#: Ctrl-C that comes again within this time of the first one means the same.
+#: A second Ctrl-C within this time of the first one does not count.
 SAME_SECONDS = 1.0
 
 Handler = Callable[[int, FrameType | None], object]
 
-#: Raises if the work of this thread was told to stop; see `check_stop`.
+#: Raises if the work of this thread was asked to stop; see `check_stop`.
 _check: ContextVar[Callable[[], None]] = ContextVar("check", default=lambda: None)
 
 
 class Stopped(KeyboardInterrupt):
-    """Work was told to stop, as by Ctrl-C, see `stoppable`."""
+    """Work was asked to stop, as by Ctrl-C; see `stoppable`."""
 
 
 class Termination:
-    """A handler of SIGTERM that does as Ctrl-C does, and remembers that it did.
+    """A handler of SIGTERM that acts like Ctrl-C, and remembers that the signal came.
 
     came : whether the signal has come
     """
@@ -39,24 +39,25 @@ class Termination:
 
 
 def check_stop() -> None:
-    """Raises KeyboardInterrupt if the work of this thread was told to stop.
+    """Raises KeyboardInterrupt if the work of this thread was asked to stop.
 
-    `Stopped` in a block of `stoppable`, and once for a Ctrl-C in one of `ctrl_c_at_checks`.
+    Raises `Stopped` in a block of `stoppable`. In one of `ctrl_c_at_checks` it raises once for a
+    Ctrl-C.
     """
     _check.get()()
 
 
 @contextmanager
 def stoppable(asked: Callable[[], bool]) -> Iterator[None]:
-    """Long work in this block ends as it does at Ctrl-C, soon after `asked` says so.
+    """Long work in this block ends as at Ctrl-C, soon after `asked` returns True.
 
-    For threads other than the main one, where Ctrl-C does not arrive. What waits for compiled work
-    or another process asks ten times a second, and raises `Stopped`.
+    For threads other than the main one, where Ctrl-C does not arrive. Code that waits for compiled
+    work or another process checks ten times a second, and raises `Stopped`.
     """
 
     def check() -> None:
         if asked():
-            raise Stopped("told to stop")
+            raise Stopped("asked to stop")
 
     token = _check.set(check)
     try:
@@ -69,13 +70,13 @@ def stoppable(asked: Callable[[], bool]) -> Iterator[None]:
 def ctrl_c_at_checks() -> Iterator[None]:
     """Ctrl-C in this block raises KeyboardInterrupt at the next `check_stop`, or at its end.
 
-    Elsewhere Python raises it behind any call, also of a standard library that has just taken a
-    lock or started a thread: whoever waits for that lock or thread then waits forever. So whatever
-    shares work with threads does it in such a block, and checks ten times a second. Work that fails
-    to check ends at a second Ctrl-C, a second later.
+    Elsewhere Python may raise it after any call, even in a standard library that has just taken a
+    lock or started a thread: code that waits for that lock or thread then waits forever. So all
+    code that shares work with threads does it in such a block, and checks ten times a second. Work
+    that fails to check ends at a second Ctrl-C that comes at least one second later.
 
     The same holds for SIGTERM where its handler is a `Termination`. Does nothing on other threads,
-    inside of another such block, and for programs with their own way to take these signals.
+    inside another such block, and in programs with their own handlers of these signals.
     """
     handlers = _raising_handlers()
     if not handlers:
@@ -110,9 +111,9 @@ def _raising_handlers() -> dict[int, Handler]:
 
 @contextmanager
 def ctrl_c_as_itself() -> Iterator[None]:
-    """What a library has made of a KeyboardInterrupt in this block is raised as one again.
+    """Restores a KeyboardInterrupt that a library in this block turned into another exception.
 
-    NumPy, for instance, makes a TypeError of one that comes while it compares types.
+    NumPy, for instance, raises a TypeError if Ctrl-C comes while it compares types.
     """
     try:
         yield
@@ -129,7 +130,7 @@ def _follows_ctrl_c(error: BaseException | None) -> bool:
 
 
 class _CtrlC:
-    """Whether Ctrl-C was pressed, and raised."""
+    """Remembers whether Ctrl-C was pressed, and whether that was raised."""
 
     def __init__(self, handlers: dict[int, Handler]) -> None:
         self._handlers = handlers
@@ -137,7 +138,7 @@ class _CtrlC:
         self._raised = False
 
     def note(self, number: int, frame: FrameType | None) -> None:
-        """A signal handler."""
+        """Handles the signal."""
         handler = self._handlers[number]
         if isinstance(handler, Termination):
             handler.came = True
@@ -148,7 +149,7 @@ class _CtrlC:
             handler(number, frame)
 
     def check(self) -> None:
-        """Raises once."""
+        """Raises KeyboardInterrupt, once."""
         if self._pressed is not None and not self._raised:
             self._raised = True
             raise KeyboardInterrupt

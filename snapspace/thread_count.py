@@ -1,13 +1,13 @@
-"""checked_threads: how many threads a caller wants."""
+"""checked_threads: checks how many threads a caller wants."""
 
 from __future__ import annotations
 
-#: More are never of use, and far larger numbers do not fit in the core's integers.
+#: More are never useful, and far larger numbers do not fit in the core's integers.
 MOST_THREADS = 1024
 
 
 def checked_threads(threads: int | None, who: str) -> int:
-    """The number of threads, 0 for all; ValueError of `who` for a number that nobody has."""
+    """The number of threads, 0 for all; ValueError that names `who` if it is out of range."""
     if threads is None:
         return 0
     if not 0 <= threads <= MOST_THREADS:

@@ -1,4 +1,4 @@
-"""accurate_model: as many samples and dimensions as an error of unseen parameters asks for."""
+"""accurate_model: chooses samples and dimension for a wanted error at unseen parameters."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ ModelOf = TypeVar("ModelOf", bound=Model)
 
 @dataclass(frozen=True)
 class AccurateModel(Generic[ModelOf]):
-    """A model of motions or blends, and how it came about.
+    """A model of motions or blends, and how it was found.
 
-    model : the first that met the target, or else that with the least error
-    snapshots : all samples, those that were held out among them
-    held_out : (k,), which these are
-    steps : the models that were tried, in their order
-    step : that of the model
+    model : the first that met the target, or else the one with the least error
+    snapshots : all samples, including the held-out ones
+    held_out : (k,), True for the samples that were held out
+    steps : the models that were tried, in order
+    step : the step that made `model`
     target : the error that was asked for
     """
 
@@ -114,11 +114,12 @@ def accurate_model(
 ) -> AccurateModel[Any]:
     """Solves samples until the model of some meets a target on the others.
 
-    The first stage solves some samples to train on, and a few, more tightly, to judge by. The
-    projections of these say which dimension may do, and whether any can; then a model is made, and
-    its reduced solutions are compared with them. The ratio of both errors decides the next
-    dimension, and where no dimension is enough, half as many samples again are solved. These start
-    from the reduced solutions of the best model, if there is one. Without a budget time has no say.
+    The first stage solves some samples to train on, and a few more tightly, which are held out to
+    judge models. The projections of the held-out samples show which dimension may be enough, if
+    any is. Then a model is made, and its reduced solutions are compared with the held-out samples.
+    The ratio of the two errors decides the next dimension. Where no dimension is enough, half as
+    many samples again are solved; they start from the reduced solutions of the best model, if there
+    is one. Without a budget, time plays no part.
 
     Parameters
     ----------
@@ -129,24 +130,24 @@ def accurate_model(
         |x_red - x_full|_M / |x_full - tau|_M of the held-out samples: the median of motions, and
         the mean of blends.
     most_samples : int, optional
-        In all, 20 at least. Where the target is not met the best model is returned. Default:
-        `usual_most_samples`.
+        Largest number of samples in all, at least 20. If the target is not met, the best model is
+        returned. Default: `usual_most_samples`.
     budget : float, optional
-        Seconds. Samples that would probably take longer are not solved; the first stage always is.
-        With a budget, the speed of the machine has a say in the result. Default: none; the default
-        of `most_samples` leaves large meshes half a minute on two cores.
+        Time limit in seconds. Samples that would probably exceed it are not solved; the first stage
+        always is. With a budget, the result depends on the speed of the machine. Default: none; the
+        default of `most_samples` limits large meshes to half a minute on two cores.
     seed : int, default 0
-        Of the samples, see `GrowingSamples`.
+        Seed of the samples, see `GrowingSamples`.
     options, threads, progress, checkpoint, executor : as for `solve_snapshots`
     start : PosingModel, optional
-        A model of the same mesh with other handles, new, saved or loaded: of `problem`'s handles
-        some may be added, removed or moved. The first model then is made of its shapes and of a few
-        solver steps from what it says of the new handles; most often it is as near as models that
-        start over, after a fraction of the time. Unless it meets the target, samples are solved
-        from its solutions, and the old shapes count for later bases.
+        A model of the same mesh with other handles, new, saved or loaded: handles may have been
+        added, removed or moved since. The first model is then made of its shapes, and of shapes a
+        few solver steps from what it predicts for the new handles. Most often it is as accurate as
+        a model made from scratch, after a fraction of the time. Unless it meets the target, samples
+        are solved starting from its solutions, and the old shapes count for later bases.
     surface : as for `reduce`
     tell : callable(str), optional
-        Gets a line for each model that was tried, and why samples are added.
+        Gets a line for each model that was tried, and the reason when samples are added.
 
     Returns
     -------
@@ -156,10 +157,10 @@ def accurate_model(
     Raises
     ------
     ValueError
-        For a target or budget that is not positive, fewer than 20 samples, or no usable ones, and
-        a `start` of another mesh, without training shapes, or where handles are not what changes.
+        For a target or budget that is not positive, fewer than 20 samples, or no usable ones. Also
+        for a `start` of another mesh, without training shapes, or with other changes than handles.
     Interrupted
-        On Ctrl-C, after the finished samples were saved.
+        On Ctrl-C, after the finished samples have been saved.
     """
     search = ModelSearch(
         problem,

@@ -1,27 +1,27 @@
-"""Checks of what a caller asks for."""
+"""Checks of the target, the budget and the number of samples that a caller asks for."""
 
 from __future__ import annotations
 
 import numpy as np
 
-#: Fewest samples, and fewest of them that judge.
+#: Fewest samples, and fewest held-out ones among them.
 FEWEST_SAMPLES, FEWEST_HELD_OUT = 20, 4
 
 
 def check_target(target_error: float) -> None:
-    """ValueError unless a target can be met."""
+    """Raises ValueError unless a target error is positive and finite."""
     if not (np.isfinite(target_error) and target_error > 0):
         raise ValueError(f"the target error is {target_error}, but it must be positive and finite")
 
 
 def check_budget(budget: float | None) -> None:
-    """ValueError unless a budget in seconds can be kept."""
+    """Raises ValueError unless a budget in seconds is positive and finite, or None."""
     if budget is not None and not (np.isfinite(budget) and budget > 0):
         raise ValueError(f"the budget is {budget} seconds, but it must be positive and finite")
 
 
 def check_most(most_samples: int) -> None:
-    """ValueError for too few samples."""
+    """Raises ValueError for too few samples."""
     if most_samples < FEWEST_SAMPLES:
         raise ValueError(
             f"most_samples is {most_samples}, but at least {FEWEST_SAMPLES} are "

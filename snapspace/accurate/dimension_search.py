@@ -1,4 +1,4 @@
-"""DimensionSearch: the dimensions that are tried with the samples of a stage."""
+"""DimensionSearch: chooses the dimensions to try with the samples of a stage."""
 
 from __future__ import annotations
 
@@ -11,26 +11,29 @@ from .growing_samples import GrowingSamples
 from .plan import Plan
 from .step import Step
 
-#: Modes for each solution that they come from: the last ones fit these alone.
+#: Most modes per solution that they come from: further modes fit only these solutions.
 MODES_PER_SOLUTION = 0.8
-#: The least growth of the dimension from try to try.
+#: Least growth of the dimension from one try to the next.
 GROWTH = 1.2
-#: Where more dimensions leave more than this share of the error, still more are of no use.
+#: If more dimensions leave more than this share of the error, still more do not help.
 FALL = 0.9
-#: What the next try aims below the target by.
+#: Factor by which the next try aims below the target.
 MARGIN = 1.1
 
 
 class DimensionSearch:
-    """Chooses dimensions by the errors of projections, and by how far models are off beyond these.
+    """Chooses dimensions by projection errors, and by how much larger errors of models are.
 
     Parameters
     ----------
     growing : GrowingSamples
+        The samples that are solved so far.
     plan : Plan
+        How samples and dimension are chosen.
     target : float
+        The wanted relative error.
     ratio : float
-        Of errors of reduced solutions to errors of projections, as far as it is known.
+        Ratio of errors of reduced solutions to errors of projections, as known so far.
     """
 
     def __init__(self, growing: GrowingSamples, plan: Plan, target: float, ratio: float) -> None:
@@ -46,14 +49,14 @@ class DimensionSearch:
         return float(self._projections[dimension])
 
     def add(self, step: Step) -> None:
-        """Takes what the last dimension gave."""
+        """Records the model of the last dimension."""
         self.steps.append(step)
         self._ratio = step.ratio
 
     def dimensions(self, *, last: bool) -> Iterator[int]:
-        """One after the other, until one meets the target or more of them are of no use.
+        """Dimensions to try in turn, until one meets the target or more do not help.
 
-        None of them, where more samples are the cure; unless these are the last.
+        There are none if more samples are needed, unless these samples are the `last`.
         """
         while not self._useless():
             tried = self.steps[-1].dimension if self.steps else 0

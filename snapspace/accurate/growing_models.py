@@ -1,4 +1,4 @@
-"""growing_models: a first model within seconds, and better ones until one is accurate."""
+"""growing_models: gives a first model within seconds, then better ones until one is accurate."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Growth:
     """One of the models of `growing_models`.
 
     model : PosingModel or InterpolationModel
-    snapshots : what is solved by then, the samples that are held out among them
-    held_out : (k,), which these are
-    step : errors of the model; None for the first impression, which nothing judges
-    seconds : since `growing_models` began
-    final : whether no better one follows
+    snapshots : the samples solved by then, including the held-out ones
+    held_out : (k,), True for the samples that are held out
+    step : errors of the model; None for the first impression, whose errors are not measured
+    seconds : time since `growing_models` began
+    final : whether this is the last model
     """
 
     model: Model
@@ -54,12 +54,12 @@ def growing_models(
     start: PosingModel | None = None,
     surface: EmbeddedSurface | None = None,
 ) -> Iterator[Growth]:
-    """The models of `accurate_model` while it looks for the last one.
+    """Yields the models that `accurate_model` finds on its way to the last one.
 
-    The first one is an impression of a few loosely solved samples, whose solves begin there later;
-    with `start`, a model of other handles, it is one that is as good as most that start over. All
-    others are judged by samples that they are not made of, and each is better than those before
-    it.
+    The first one is an impression of a few loosely solved samples, which are starting points for
+    later solves. With `start`, a model of other handles, the first one is as good as most models
+    made from scratch. All others are judged by held-out samples, and each is better than those
+    before it.
 
     Parameters
     ----------
@@ -67,8 +67,8 @@ def growing_models(
     target_error, most_samples, budget, seed, start, surface : as for `accurate_model`
     options, threads, progress, executor : as for `solve_snapshots`
     known : Snapshots, optional
-        Where the first solves start, as for `solve_snapshots`: samples of an earlier run. Of no use
-        with `start`.
+        Where the first solves start, as for `solve_snapshots`: samples of an earlier run. Has no
+        effect with `start`.
     begins : callable, optional
         Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 
@@ -95,8 +95,8 @@ def growing_models(
     )
     loose = search.solve_impression(known)
     if loose is not None:
-        nothing = np.zeros(len(loose), bool)
-        yield Growth(search.impression(loose), loose, nothing, None, search.seconds, False)
+        held_out = np.zeros(len(loose), bool)
+        yield Growth(search.impression(loose), loose, held_out, None, search.seconds, False)
     shown: Trial | None = None
     for trial in search.trials(one_a_stage=True):
         if trial.step.error <= search.target and trial is search.best:

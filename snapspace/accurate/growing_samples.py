@@ -1,4 +1,4 @@
-"""GrowingSamples: solved samples, some of which are held out."""
+"""GrowingSamples: samples that are solved in stages, some held out."""
 
 from __future__ import annotations
 
@@ -18,17 +18,16 @@ FloatArray = NDArray[np.float64]
 
 
 class GrowingSamples:
-    """Samples of one sequence, solved as far as is asked; the same ones are held out all the time.
+    """Samples of one sequence, solved in stages; the held-out ones stay the same.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
     most : int
         Length of the sequence.
-    method : of `sample`
-    seed : int
+    method, seed : as for `sample`
     first, held_out : int
-        The first samples train, so many after them are held out, and all others train again.
+        The `first` samples train, the next `held_out` are held out, and all others train again.
     """
 
     def __init__(
@@ -51,31 +50,31 @@ class GrowingSamples:
 
     @property
     def snapshots(self) -> Snapshots:
-        """All that are solved; there must be some."""
+        """All samples that are solved; there must be some."""
         assert self._snapshots is not None
         return self._snapshots
 
     @property
     def held_out(self) -> NDArray[np.bool_]:
-        """Which samples (k,) judge."""
+        """Which samples are held out, (k,)."""
         judges = np.zeros(len(self.snapshots), bool)
         judges[self._judges.start : self._judges.stop] = True
         return judges
 
     @property
     def trained(self) -> Snapshots:
-        """The usable ones that are not held out."""
+        """The usable samples that are not held out."""
         solved = self.snapshots.select(self._masks()[0])
         return solved if self._given is None else solved.joined(self._given)
 
     @property
     def unseen(self) -> Snapshots:
-        """The usable ones that are held out."""
+        """The usable samples that are held out."""
         return self.snapshots.select(self._masks()[1])
 
     @property
     def trained_solutions(self) -> int:
-        """How many solutions a basis comes from, those known without solving among them."""
+        """How many solutions a basis comes from, including those known without solving."""
         given = 0 if self._given is None else len(self._given)
         return int(self._masks()[0].sum()) + len(self._known()) + given
 
@@ -84,9 +83,9 @@ class GrowingSamples:
         self._given, self._first_known = given, near
 
     def solve_loosely(self, count: int, solving: Solving, *, known: Snapshots | None) -> Snapshots:
-        """The first samples, for a first impression; their solves begin there later.
+        """Solves the first samples for a first impression; later solves start from them.
 
-        known : where they start themselves, as for `solve_snapshots`
+        known : where these solves start, as for `solve_snapshots`
         """
         loose = solve_snapshots(
             self.problem,
@@ -103,10 +102,10 @@ class GrowingSamples:
     def solve_up_to(
         self, count: int, solving: Solving, *, model: PosingModel | InterpolationModel | None
     ) -> None:
-        """Solves the samples before `count` that are not.
+        """Solves the samples before `count` that are not solved yet.
 
-        The solves start from the reduced solutions of `model`, where there is one, and take half as
-        many iterations.
+        The solves start from the reduced solutions of `model`, if there is one, and then take half
+        as many iterations.
         """
         usual, judging = solving.usual(self.problem), solving.judging(self.problem)
         parts = ((self._judges.start, usual), (self._judges.stop, judging), (count, usual))
@@ -133,17 +132,17 @@ class GrowingSamples:
     def _starts(
         self, model: PosingModel | InterpolationModel | None, parameters: FloatArray
     ) -> Snapshots | None:
-        """What is solved, and what a model of it says of samples that are not."""
+        """The solved samples, and the reduced solutions of `model` for samples that are not."""
         if model is None:
             return self._first_known if self._snapshots is None else self._snapshots
         shapes = reduced_solutions(model, parameters) + self.problem.base
         guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
         reports = [guess] * len(parameters)
-        said = Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
-        return said if self._snapshots is None else self._snapshots.joined(said)
+        guesses = Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
+        return guesses if self._snapshots is None else self._snapshots.joined(guesses)
 
     def projection_errors(self) -> FloatArray:
-        """Of the held-out samples onto bases of the others, see `SnapshotGram.held_out_errors`."""
+        """Errors of projections onto bases of the others, see `SnapshotGram.held_out_errors`."""
         gram, (trained, unseen) = self._gram.copy(), self._masks()
         gram.add(list(self._known()))
         if self._given is not None:
@@ -154,19 +153,19 @@ class GrowingSamples:
         )
 
     def projection_errors_onto(self, subspace: AffineSubspace) -> FloatArray:
-        """Of the held-out samples onto another basis, (k,)."""
+        """Errors of projections of the held-out samples onto another basis, (k,)."""
         squares = np.diag(self._gram.matrix)[self._masks()[1]]
         held = (subspace.row_coordinates(self.unseen.displacements) ** 2).sum(axis=1)
         errors: FloatArray = np.sqrt(np.maximum(squares - held, 0.0) / squares)
         return errors
 
     def _known(self) -> FloatArray:
-        """Displacements (k, 3n) of the solutions that are known, beside tau."""
+        """Displacements (k, 3n) of the solutions that are known without solving, except tau."""
         shapes: FloatArray = solutions_beyond_tau(self.problem)[1] - self.problem.base
         return shapes
 
     def _masks(self) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-        """Which samples (k,) train, and which are held out."""
+        """Masks (k,) of the usable samples that train, and of those that are held out."""
         usable, judges = self.snapshots.usable, self.held_out
         others = self._given is not None or (usable & ~judges).any()
         if not ((usable & judges).any() and others):

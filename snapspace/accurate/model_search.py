@@ -1,4 +1,4 @@
-"""ModelSearch: more samples and dimensions until a model of some samples meets a target."""
+"""ModelSearch: adds samples and dimensions until a model meets a target."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .solving import Solving
 from .step import Step
 
 Model = PosingModel | InterpolationModel
-#: Gets a line for people.
+#: Gets a line of text for the user.
 Tell = Callable[[str], None]
 #: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 Begins = Callable[[str], None]
@@ -34,7 +34,7 @@ Begins = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Trial:
-    """A model that was tried, its errors, and the full solutions that they are distances to."""
+    """A model that was tried, its errors, and the full solutions that it was compared with."""
 
     step: Step
     model: Model
@@ -43,7 +43,7 @@ class Trial:
 
 @dataclass(frozen=True, kw_only=True)
 class SearchOptions:
-    """What is looked for; None stands for the default.
+    """What to search for; None stands for the default.
 
     target_error, most_samples, budget, seed : as for `accurate_model`
     """
@@ -55,17 +55,21 @@ class SearchOptions:
 
 
 class ModelSearch:
-    """What `accurate_model` and `growing_models` do alike.
+    """The search that `accurate_model` and `growing_models` share.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
+        The problem to solve.
     options : SearchOptions
+        Target and limits.
     solving : Solving
+        How samples are solved.
     start : PosingModel, optional
-        Of other handles, see `accurate_model`.
+        A model of other handles, see `accurate_model`.
     surface : as for `reduce`
-    tell, begins : callable
+    tell : as for `accurate_model`
+    begins : as for `growing_models`
 
     Raises
     ------
@@ -96,14 +100,14 @@ class ModelSearch:
         self._budget = options.budget
         self._plan = usual.fitting(self._most)
         self._old: OldModel | None = None
-        self._near = 0  # shapes that the first model is made of, with an old one
+        self._near = 0  # number of shapes near solutions, if there is an old model
         if start is not None:
             check_start(start, problem)
             assert isinstance(problem, PosingProblem)
             wanted = max(self._plan.first, usual_shapes(start, problem))
             self._near = min(wanted, self._most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
-        self._first: Model | None = None  # made of the old one
+        self._first: Model | None = None  # made from the old one
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -117,18 +121,18 @@ class ModelSearch:
         )
         self.steps: list[Step] = []
         self.best: Trial | None = None
-        self._model_seconds = 0.0  # of the last model, none at first
+        self._model_seconds = 0.0  # what the last model took; 0 before the first
         self._finish_parts = begin_abandonable(lambda: _make_parts(problem))
 
     @property
     def seconds(self) -> float:
-        """Since the search began."""
+        """Time since the search began."""
         return time.perf_counter() - self._begin
 
     def solve_impression(self, known: Snapshots | None = None) -> Snapshots | None:
-        """The loose samples of a first impression, where later solves begin; None if it has none.
+        """Solves the loose samples of a first impression, where later solves start; None if none.
 
-        known : where they start, as for `solve_snapshots`; of no use with a model of other handles
+        known : where they start, as for `solve_snapshots`; no effect with a model of other handles
         """
         if self._old is not None:
             return self._begin_with(self._old)
@@ -139,19 +143,19 @@ class ModelSearch:
         return self.samples.solve_loosely(count, self._solving, known=known)
 
     def impression(self, loose: Snapshots) -> Model:
-        """The model of a first impression, or that made of an old one."""
+        """The model of a first impression, or the one made from an old model."""
         if self._first is not None:
             return self._first
         return self._model(loose, min(self._plan.impression_dimension, len(loose) - 1))
 
     @property
     def chosen(self) -> Trial:
-        """The best, once all trials are made, calibrated by the samples that judged it.
+        """The best trial of all, its model calibrated with the held-out samples.
 
-        What was asked for and tried is in its provenance.
+        The model's provenance has the target and all steps.
         """
         best = self.best
-        assert best is not None  # the last stage tries one at least
+        assert best is not None  # the last stage tries at least one
         record = {
             "target_error": self.target,
             "reached": best.step.error <= self.target,
@@ -165,10 +169,10 @@ class ModelSearch:
         return replace(best, model=model)
 
     def trials(self, *, one_a_stage: bool = False) -> Iterator[Trial]:
-        """The models that are tried, and `best` is the one to take in the end.
+        """Yields the models that are tried; at the end `best` is the one to take.
 
-        one_a_stage : also a model of a stage that is known not to meet the target, for whoever
-            looks on. It does not count otherwise.
+        one_a_stage : also yield a model of a stage that cannot meet the target, to show progress.
+            It does not count otherwise.
         """
         stages = self._plan.stages(self._most)
         if self._first is not None:
@@ -179,7 +183,7 @@ class ModelSearch:
                 count, self._solving, model=self.best.model if self.best else self._first
             )
             last = count == self._most or self._is_too_late(count, stages[stage + 1])
-            # the least: where more dimensions do not help the ratio grows, and says nothing
+            # the least: where more dimensions do not help, the ratio grows and means nothing
             ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
             if self._first is not None and stage == 0:
                 yield self._taken(self._judged(count, self._first))
@@ -197,7 +201,7 @@ class ModelSearch:
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
 
     def _begin_with(self, old: OldModel) -> Snapshots:
-        """Shapes near solutions, and the first model, of a basis of these and the old shapes."""
+        """Returns shapes near solutions, and makes the first model of these and the old shapes."""
         self._begins("snapshots")
         plan, solving = self._plan, self._solving
         training = slice(plan.held_out, plan.held_out + self._near)
@@ -209,7 +213,7 @@ class ModelSearch:
         return near
 
     def _taken(self, trial: Trial) -> Trial:
-        """Counts a trial."""
+        """Reports and records a trial, and returns it."""
         self._tell(str(trial.step))
         self.steps.append(trial.step)
         if self.best is None or trial.step.error < self.best.step.error:
@@ -248,7 +252,7 @@ class ModelSearch:
     def _model(
         self, snapshots: Snapshots, dimension: int, *, trained: Snapshots | None = None
     ) -> Model:
-        """trained : what a cubature is trained with; default all"""
+        """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")
         self._finish_parts()
         subspace = snapshot_pca(snapshots, dimension=dimension)
@@ -268,19 +272,19 @@ class ModelSearch:
         seconds = self.seconds
         # the first model takes up to as long as the samples that it is made of
         model = self._model_seconds or seconds
-        done = max(count, self._near)  # an old model has taken as many shapes as it needs
+        done = max(count, self._near)  # the shapes near solutions took time as well
         wanted = seconds / done * (following - count) + model
         if seconds + wanted <= self._budget:
             return False
         self._tell(
-            f"{following} samples would take longer than the budget of {self._budget:g} s: these "
-            f"{count} must do"
+            f"{following} samples would exceed the budget of {self._budget:g} s: {count} samples "
+            "have to be enough"
         )
         return True
 
 
 def _make_parts(problem: PosingProblem | InterpolationProblem) -> None:
-    """Makes what every stage needs beside the system, and what can be made without it."""
+    """Makes what every stage needs besides the system, and what can be made without it."""
     _ = problem.mesh.surface
-    if isinstance(problem, PosingProblem):  # others have the mass of the mean, a solution
+    if isinstance(problem, PosingProblem):  # otherwise it is the mass of the mean shape, a solution
         problem.mass()

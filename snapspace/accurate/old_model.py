@@ -1,4 +1,4 @@
-"""OldModel: what a model for some handles is worth for others of the same mesh."""
+"""OldModel: a model that is reused for other handles of the same mesh."""
 
 from __future__ import annotations
 
@@ -18,42 +18,45 @@ from ..snapshots import SampleReport, Snapshots, carry_over, lowest_start
 
 FloatArray = NDArray[np.float64]
 
-#: Steps of L-BFGS from a guess, of 60 to 100 that a whole solve takes. They leave a hundredth to a
-#: sixth of its error: 0.0005 on the creature with a new tail, 0.018 on Spot, 0.015 on the hand.
+#: Steps of L-BFGS from a guess; a whole solve takes 60 to 100. They leave a hundredth to a sixth of
+#: its error: 0.0005 on the creature with a new tail, 0.018 on Spot, 0.015 on the hand.
 STEPS = 20
-#: Shapes near solutions for each parameter, at the least.
+#: Fewest shapes near solutions for each parameter.
 SHAPES_A_PARAMETER = 8
 
 
 class OldModel:
-    """A model whose shapes, subspace and energy are of use for a problem with other handles.
+    """A model whose shapes, subspace and energy are reused for a problem with other handles.
 
     Parameters
     ----------
     model : PosingModel
+        The model of the old handles.
     problem : PosingProblem
+        The problem with the new handles.
     most : int
-        Shapes of the model that count: its first ones, since any number of Sobol samples is spread.
+        How many of the model's shapes are used: the first ones, since the first Sobol samples
+        spread over the domain however many they are.
     """
 
     def __init__(self, model: PosingModel, problem: PosingProblem, *, most: int) -> None:
         self._model, self._problem, self._most = model, problem, most
         old = {handle.vertices.tobytes() for handle in model.problem.handles}
         kept = [h for h, one in enumerate(problem.handles) if one.vertices.tobytes() in old]
-        #: Places of the problem's handles that the model has as well; the first one is fixed.
+        #: Indices of the problem's handles that the model has as well; the first one is fixed.
         self._kept = np.array(kept, np.intp)
         self._all_kept = len(kept) == len(old)
 
     @property
     def dimension(self) -> int:
-        """Of the model."""
+        """Dimension of the old model."""
         return self._model.dimension
 
     @cached_property
     def shapes(self) -> Snapshots:
         """The shapes that the model was trained with, as snapshots of the problem.
 
-        They are the projections of its samples: a saved model has no others.
+        They are the projections of its samples: a saved model has nothing else.
         """
         model = self._model
         rows = model.training_coordinates[: self._most] @ model.subspace.basis.T
@@ -61,7 +64,7 @@ class OldModel:
         return carry_over(_guessed(model.problem, parameters, rows), self._problem)
 
     def near_solutions(self, parameters: FloatArray, *, threads: int | None) -> Snapshots:
-        """Shapes near the solutions for samples (k, p): guesses, and some steps of the solver."""
+        """Shapes near the solutions for samples (k, p): guesses plus some solver steps."""
         problem = self._problem
         _ = problem.system  # before threads ask for it
         finish_modes = begin_abandonable(problem.solving.soft_modes)
@@ -76,22 +79,24 @@ class OldModel:
     def guesses(self, parameters: FloatArray, *, threads: int | None) -> FloatArray:
         """Displacements (k, 3n) near the solutions for samples (k, p), without solving.
 
-        The model solves for the handles that both problems have, and the difference of two linear
-        responses takes the others from where that leaves them to where they shall be. Or it solves
-        for all handles in its subspace, which follows new ones only as far as it can: this where
-        none is new, the other where none is gone, and else what has less energy. Where another
-        handle is fixed, or the material differs, the response to all handles must do.
+        There are two ways. One solves in the subspace for the handles that both problems have, and
+        then adds the difference of two linear responses, which takes the others from where they are
+        to their targets. The other solves for all handles in the subspace, which can follow new
+        ones only partly. The second is used if no handle is new, the first if none is gone, and
+        otherwise the one with less energy. If another handle is fixed, or the material differs, the
+        guess is the linear response to all handles.
         """
         problem, kept = self._problem, self._kept
         if not self._fits:
             return problem.guesses(parameters)
         everything = len(kept) == len(problem.handles)
         if self._all_kept and not everything:
-            return self._moved_on(parameters)
+            return self._solved_and_moved(parameters)
         within = reduced_solutions(self._with_handles(problem, slice(None)), parameters)
         if everything:
             return within
-        beyond = self._moved_on(parameters) if len(kept) > 1 else problem.guesses(parameters)
+        some_kept = len(kept) > 1  # besides the fixed one
+        beyond = self._solved_and_moved(parameters) if some_kept else problem.guesses(parameters)
         inputs = problem.inputs(parameters)
         return lowest_start(problem.system, inputs, [beyond, within], threads=threads or 0)
 
@@ -102,8 +107,8 @@ class OldModel:
         first = next(iter(problem.handles)).vertices, next(iter(old.handles)).vertices
         return np.array_equal(*first) and problem.material.key == old.material.key
 
-    def _moved_on(self, parameters: FloatArray) -> FloatArray:
-        """Solutions for the handles that are kept, and from there the others by their response."""
+    def _solved_and_moved(self, parameters: FloatArray) -> FloatArray:
+        """Reduced solutions for the kept handles, and the others moved by the linear response."""
         problem, every = self._problem, list(self._problem.handles)
         handles = [every[place] for place in self._kept]
         common = problem.with_handles(
@@ -121,7 +126,7 @@ class OldModel:
     ) -> PosingModel:
         """The model's subspace and elastic energy with other handles.
 
-        columns : of the problem's parameters, those of these handles
+        columns : which of the problem's parameters belong to these handles
         """
         return replace(
             self._model,
@@ -133,7 +138,7 @@ class OldModel:
 
 
 def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -> Snapshots:
-    """Displacements (k, 3n) that were not solved for these parameters."""
+    """Snapshots of displacements (k, 3n) that are guesses, not solutions."""
     report = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
     displacements = DisplacementRows(np.ascontiguousarray(rows), problem.base.size)
     return Snapshots(problem, parameters, displacements, [report] * len(parameters))
@@ -142,8 +147,8 @@ def _guessed(problem: PosingProblem, parameters: FloatArray, rows: FloatArray) -
 def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
     """How many shapes near solutions a first model takes.
 
-    Eight for each parameter. Some bodies take more than others: half as many as the old model, or
-    less where handles have gone.
+    Eight for each parameter, and at least half as many as the old model has, or less where handles
+    were removed: some bodies take more than others.
     """
     count, before = problem.parameter_count, model.problem.parameter_count
     known = len(model.training_parameters) * min(count, before) // (2 * before)
@@ -151,7 +156,7 @@ def usual_shapes(model: PosingModel, problem: PosingProblem) -> int:
 
 
 def check_start(model: Any, problem: Any) -> None:
-    """ValueError unless a model is of handles of the problem's mesh, and has shapes."""
+    """Raises ValueError unless `model` poses the problem's mesh and has training shapes."""
     for what, one, kind in (("start", model, PosingModel), ("the problem", problem, PosingProblem)):
         if not isinstance(one, kind):
             raise ValueError(

@@ -1,4 +1,4 @@
-"""Plan: what a kind of problem asks of samples, dimensions and errors."""
+"""Plan: how samples, dimension and target are chosen for a kind of problem."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from .checks import FEWEST_HELD_OUT
 
 FloatArray = NDArray[np.float64]
 
-#: Growth of the samples that train, from stage to stage.
+#: Growth of the number of training samples from stage to stage.
 MORE_SAMPLES = 1.5
-#: The most samples of large meshes by default.
+#: Default limit of samples of large meshes.
 FEWER_SAMPLES = 160
 
 
@@ -25,20 +25,20 @@ class Plan:
     """How samples and dimension are chosen.
 
     target : error of unseen samples that is good enough
-    typical : of these errors, what is compared with the target
-    typical_name, unseen_name : of these, for people
+    typical : the statistic of these errors that is compared with the target
+    typical_name, unseen_name : names of the statistic and of unseen samples, for the user
     sampling : method of the samples
-    first : samples of the first stage that train
-    held_out : samples that judge
-    first_ratio : errors of reduced solutions over those of projections, before it is measured; too
-        low a one costs models that miss the target
-    most_dimensions : so that a frame of a drag takes up to a millisecond
-    impression, impression_dimension : loosely solved samples of a first impression, see
+    first : number of training samples of the first stage
+    held_out : number of samples that judge models
+    first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
+        measured; too low a ratio costs models that miss the target
+    most_dimensions : limit of the dimension, so that a frame of a drag takes up to 1 ms
+    impression, impression_dimension : number of loosely solved samples of a first impression, see
         `growing_models`, and the dimension of its model
-    most_samples : of small meshes, by default
-    most_vertices : of all samples together, where that is less than `most_samples` and more than
-        160 samples: half a minute on two cores
-    looser_if_large : factor of the tolerance of samples of bodies that get 160 of them, `is_large`
+    most_samples : default limit of samples of small meshes
+    most_vertices : limit of the vertices of all samples together, where that is less than
+        `most_samples` and more than 160 samples: half a minute on two cores
+    looser_if_large : factor of the samples' tolerance for bodies that get 160 of them, `is_large`
     """
 
     target: float
@@ -57,7 +57,7 @@ class Plan:
     looser_if_large: float
 
     def fitting(self, most: int) -> Plan:
-        """With at most so many samples; both parts shrink alike where the first stage has more."""
+        """The plan for at most `most` samples: both parts of the first stage shrink to fit."""
         together = self.first + self.held_out
         if most >= together:
             return self
@@ -65,7 +65,7 @@ class Plan:
         return replace(self, first=most - held_out, held_out=held_out)
 
     def stages(self, most: int) -> list[int]:
-        """Numbers of samples, the held-out ones among them, up to the most."""
+        """Numbers of samples of all stages, including held-out ones, up to `most`."""
         training = float(self.first)
         stages = [self.first + self.held_out]
         while stages[-1] < most:
@@ -74,7 +74,7 @@ class Plan:
         return stages
 
 
-#: Ratios of blends of generated and real poses are 2 to 14.
+#: For blends of generated and real poses the ratio is 2 to 14.
 BLENDS = Plan(
     target=0.005,
     typical=lambda errors: float(np.mean(errors)),
@@ -91,7 +91,7 @@ BLENDS = Plan(
     most_vertices=2_000_000,
     looser_if_large=1.0,
 )
-#: Ratios of motions are 3 to 7.
+#: For motions the ratio is 3 to 7.
 MOTIONS = Plan(
     target=0.003,
     typical=lambda errors: float(np.median(errors)),
@@ -111,24 +111,25 @@ MOTIONS = Plan(
 
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
-    """That of its kind; two poses take Sobol points, since `blends` adds only their middle."""
+    """The plan for a problem; two poses take Sobol points, as `blends` adds only their middle."""
     if isinstance(problem, PosingProblem):
         return MOTIONS
     return BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")
 
 
 def is_large(problem: PosingProblem | InterpolationProblem) -> bool:
-    """Whether the vertices allow no more than the fewest samples, as 37,500 do of motions.
+    """Whether a mesh is so large that it gets only 160 samples: for motions, 37,500 vertices.
 
-    What these few samples do not span is then more than what is left of looser solves: a creature,
-    a bar and a tripod of 250,000 to 400,000 tets have the same errors, to 4 %, with samples of 1e-6
-    as of 1e-7, in two thirds of the time. Smaller bodies lose up to half as much again.
+    The error from what these few samples do not span is then larger than that of looser solves: for
+    a creature, a bar and a tripod of 250,000 to 400,000 tets, samples of tolerance 1e-6 give the
+    same errors as of 1e-7, to 4 %, in two thirds of the time. For smaller bodies the errors grow by
+    up to half.
     """
     return usual_most_samples(problem) == FEWER_SAMPLES
 
 
 def usual_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
-    """The most samples by default: fewer on larger meshes, but 160 at least."""
+    """Default limit of samples: fewer on larger meshes, but at least 160."""
     plan = plan_of(problem)
     fitting = plan.most_vertices // len(problem.mesh.vertices)
     return min(plan.most_samples, max(FEWER_SAMPLES, fitting))

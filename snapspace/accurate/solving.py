@@ -1,4 +1,4 @@
-"""Solving: how samples are solved, and who is told."""
+"""Solving: how samples are solved, and who gets their progress."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from ..reduction import training_tolerance
 from ..snapshots import Checkpoint, Progress, SolveProgress, SolverOptions
 from .plan import is_large, plan_of
 
-#: Tolerance of held-out samples, relative to the usual one of the others.
+#: Tolerance of held-out samples, relative to that of the others.
 JUDGING = 0.01
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solving:
-    """Arguments as for `solve_snapshots`, for samples of all stages.
+    """Arguments as for `solve_snapshots`, for the samples of all stages.
 
-    progress : counts all samples of a stage, those of earlier ones among them
+    progress : counts all samples of a stage, including those of earlier stages
     """
 
     options: SolverOptions | None = None
@@ -28,7 +28,7 @@ class Solving:
     executor: Executor | None = None
 
     def usual(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """Of samples that train."""
+        """Options for training samples."""
         if self.options is not None:
             return self.options
         tight = self._tight(problem)
@@ -37,9 +37,10 @@ class Solving:
         return SolverOptions(tolerance=tight * plan_of(problem).looser_if_large)
 
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """Of samples that judge.
+        """Options for held-out samples.
 
-        They are solved more tightly: along soft modes the others are off by as much as a model.
+        They are solved more tightly: along soft modes a training sample may be as far off as a
+        model.
         """
         usual = self.options or SolverOptions(tolerance=self._tight(problem))
         return replace(
@@ -55,21 +56,21 @@ class Solving:
         return training_tolerance(problem, plan_of(problem).most_dimensions)
 
     def loose(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
-        """Of samples for a first impression.
+        """Options for samples of a first impression.
 
-        By the energy: they are far from settling, and what counts is how far.
+        These stop by the energy: they are far from settling, and only the distance matters.
         """
         usual = self.usual(problem)
         tolerance = max(usual.tolerance or 0.0, problem.solving.loose_tolerance)
         return replace(usual, tolerance=tolerance, settling=None, soft_modes=False)
 
     def counting(self, before: int, total: int) -> Progress | None:
-        """Tells of samples that come after others of a stage."""
-        tell = self.progress
-        if tell is None:
+        """The progress callback for samples that follow `before` others of a stage."""
+        progress = self.progress
+        if progress is None:
             return None
 
         def counted(state: SolveProgress) -> None:
-            tell(replace(state, done=before + state.done, total=total))
+            progress(replace(state, done=before + state.done, total=total))
 
         return counted

@@ -7,15 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Step:
-    """One model that was tried.
+    """The size and the errors of one model that was tried.
 
-    samples : solved by then
+    samples : number of samples solved by then
     dimension : d
-    projection : error of the held-out samples' projections, the mean for blends and the median for
-        motions
-    error : of their reduced solutions, the same
-    mean, ninth : mean and 90th percentile of the latter
-    unseen, typical : what was held out, and what of its errors `error` is, for people
+    projection : relative error of the held-out samples' projections, the mean for blends and the
+        median for motions
+    error : the same of their reduced solutions
+    mean, ninth : mean and 90th percentile of the errors of the reduced solutions
+    unseen, typical : names for the user: what was held out ("motions"), and which statistic `error`
+        is ("median")
     """
 
     samples: int
@@ -29,7 +30,7 @@ class Step:
 
     @property
     def ratio(self) -> float:
-        """How much farther reduced solutions are off than projections."""
+        """Ratio of the error of reduced solutions to that of projections."""
         return self.error / max(self.projection, 1e-12)
 
     def __str__(self) -> str:

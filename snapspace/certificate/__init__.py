@@ -1,4 +1,4 @@
-"""Certificates: how far a reduced solution is from the full one."""
+"""Certificates: estimates of how far a reduced solution is from the full one."""
 
 from .certificate import Certificate
 from .error_estimator import ErrorEstimator

@@ -11,10 +11,10 @@ class Certificate:
 
     distance : estimate of the root mean square distance of the two shapes over the body's mass,
     |x_red - x_full|_M / sqrt(mass), in the mesh's length unit
-    relative : the same distance over that of the frame from the rest or mean shape
-    upper_distance, upper_relative : bounds that hold with probability `confidence`
-    confidence : for parameters drawn at random from the domain that was sampled
-    seconds : that this took
+    relative : `distance` divided by the frame's distance from the rest or mean shape
+    upper_distance, upper_relative : upper bounds that hold with probability `confidence`
+    confidence : that probability, for parameters drawn at random from the sampled domain
+    seconds : the time this took
 
     The estimate is the median: the true distance is as often above as below it. Around single
     frames a factor of two is usual.

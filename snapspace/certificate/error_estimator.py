@@ -1,4 +1,4 @@
-"""ErrorEstimator: from what a frame shows to what it hides, calibrated on solved samples."""
+"""ErrorEstimator: relates indicators of a frame to its true error, by solved samples."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class ErrorEstimator:
-    """True errors of a model's frames over one or two indicators, on samples it never saw.
+    """Ratios of a model's true errors to one or two indicators, on samples it has not seen.
 
     Errors are root mean square distances, in the mesh's length unit.
 
-    mass : of the body at density 1, its volume
-    sample : where residuals are read
-    coordinates : (k, d) of the frames
-    residual_ratios : (k,) true distances over sampled residuals
-    movement_ratios : (k,) true distances over those that a polish moves, or None if that was not
-        measured: there are no thorough certificates then
+    mass : mass of the body at density 1, its volume
+    sample : the vertices where residuals are read
+    coordinates : (k, d), reduced coordinates of the k frames
+    residual_ratios : (k,), true distances over sampled residuals
+    movement_ratios : (k,), true distances over the distances that a polish moves, or None if these
+        were not measured; then there are no thorough certificates
 
     Raises
     ------
@@ -48,13 +48,13 @@ class ErrorEstimator:
             fine = fine and bool((ratios > 0).all())
         if not (fine and self.mass > 0):
             raise ValueError(
-                "ErrorEstimator: a calibration has two frames or more, and for each of them finite "
+                "ErrorEstimator: a calibration needs at least two frames, each with finite "
                 "coordinates and positive ratios; calibrate the model again"
             )
 
     @property
     def dimension(self) -> int:
-        """d of the model that was measured."""
+        """d of the calibrated model."""
         return int(self.coordinates.shape[1])
 
     @cached_property
@@ -64,10 +64,10 @@ class ErrorEstimator:
 
     @cached_property
     def of_movement(self) -> LocalRatios:
-        """Ratios for what a polish moves; ValueError if they were not measured."""
+        """Ratios for how far a polish moves; ValueError if they were not measured."""
         if self.movement_ratios is None:
             raise ValueError(
                 "certificate: the model was calibrated for quick certificates only; "
-                "snapspace.calibrate(model) measures what a polish moves, too"
+                "snapspace.calibrate(model) also measures how far a polish moves the shape"
             )
         return LocalRatios(self.coordinates, self.movement_ratios)

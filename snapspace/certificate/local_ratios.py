@@ -1,4 +1,4 @@
-"""LocalRatios: what a ratio known at some frames is worth near another one."""
+"""LocalRatios: predicts a ratio that is known at some frames for a frame near them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: Widths of the kernel that are tried, in median distances to the nearest known frame; the last
-#: one makes all frames count the same.
+#: Kernel widths that are tried, in median distances to the nearest known frame; with the last one
+#: all frames count the same.
 WIDTHS = (0.5, 1.0, 2.0, 4.0, math.inf)
-#: A narrower kernel must predict left-out ratios better by this share.
+#: A narrower kernel must improve the prediction of left-out ratios by this share.
 GAIN = 0.02
-#: What a frame counts however far it is, so that the mean far from all of them is the plain one.
+#: Least weight of a frame, however far it is: far from all frames the mean is the plain one.
 FAR = 1e-3
 
 
@@ -28,8 +28,11 @@ class LocalRatios:
 
     Parameters
     ----------
-    coordinates : (k, d) of the known frames; the basis is M-orthonormal, so distances are of shapes
-    ratios : (k,), positive; two or more
+    coordinates : (k, d)
+        Reduced coordinates of the known frames; the basis is M-orthonormal, so their distances are
+        those of the shapes.
+    ratios : (k,)
+        Positive, two or more.
     """
 
     def __init__(self, coordinates: FloatArray, ratios: FloatArray) -> None:
@@ -46,12 +49,12 @@ class LocalRatios:
                     self._width, self._surprises = width * spacing, surprises
 
     def at(self, q: FloatArray, confidence: float) -> tuple[float, float]:
-        """The median ratio expected at a frame q (d,), and one that it exceeds with 1 - confidence.
+        """The median ratio expected at a frame q (d,), and an upper bound of this confidence.
 
         Raises
         ------
         ValueError
-            For a confidence that is not between 0 and 1, or that takes more known frames.
+            For a confidence that is not between 0 and 1, or that needs more known frames.
         """
         rank = _rank(len(self._logs), confidence)
         kernel = self._kernel(np.linalg.norm(self._coordinates - q, axis=1), self._width)
@@ -61,7 +64,7 @@ class LocalRatios:
         return float(np.exp(np.median(expected))), float(np.exp(expected[rank - 1]))
 
     def _left_out(self, gaps: FloatArray, width: float) -> FloatArray:
-        """Logarithms less what all others predict for them, (k,)."""
+        """Logarithms minus what all other frames predict for them, (k,)."""
         kernel = self._kernel(gaps, width)
         np.fill_diagonal(kernel, 0.0)
         surprises: FloatArray = self._logs - (kernel @ self._logs) / kernel.sum(axis=1)
@@ -74,14 +77,14 @@ class LocalRatios:
 
 
 def _rank(count: int, confidence: float) -> int:
-    """ceil((k + 1) confidence), the place of the bound among k; ValueError if it is beyond."""
+    """ceil((k + 1) confidence), the rank of the bound among k; ValueError if above k."""
     if not 0 < confidence < 1:
         raise ValueError(f"certificate: confidence is {confidence}, but it must be between 0 and 1")
     rank = math.ceil((count + 1) * confidence - 1e-9)
     if rank > count:
         needed = math.ceil(confidence / (1 - confidence) - 1e-9)
         raise ValueError(
-            f"certificate: a confidence of {confidence:g} takes {needed} calibration samples, the "
-            f"model has {count}; use calibrate(model, samples={needed})"
+            f"certificate: a confidence of {confidence:g} takes {needed} calibration samples, but "
+            f"the model has {count}; use calibrate(model, samples={needed})"
         )
     return rank

@@ -1,4 +1,4 @@
-"""ResidualProbe: the sampled residual of a frame, at a cost that does not depend on the mesh."""
+"""ResidualProbe: the sampled residual of a frame, at a cost independent of the mesh."""
 
 from __future__ import annotations
 
@@ -19,28 +19,31 @@ FloatArray = NDArray[np.float64]
 class ResidualProbe(ABC):
     """The full objective's gradient at the vertices of a sample, for shapes of a subspace.
 
-    It takes the tets around these vertices out of the mesh, with the modes at their corners; within
-    them the gradient is exact, for every material. About 1 ms on any mesh; the page has the same
-    loop (core/online/residual_probe.h).
+    It extracts the tets around these vertices from the mesh, with the modes at their corners, so
+    the gradient at the vertices is exact, for every material. Takes about 1 ms on any mesh; the
+    page has the same loop (core/online/residual_probe.h).
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
+        The full problem.
     subspace : AffineSubspace
+        The subspace of the shapes.
     sample : ResidualSample
+        The sampled vertices and their weights.
 
     Attributes
     ----------
     corners : (c,), the vertices of these tets, ascending
-    tets : (t, 4) int32, among the corners
+    tets : (t, 4) int32, as indices of corners
     rests : (1 or k, c, 3), the corners at rest, or in all poses
     material : Material of these tets
-    places : (s,) int32, of the sampled vertices among the corners
-    weights : (s,), of the sample
-    pinned, handles : (p,) int32, the sampled vertices that handles hold, among the corners, and the
-        indices of their handles; none for blending
+    places : (s,) int32, indices of the sampled vertices among the corners
+    weights : (s,), weights of the sample
+    pinned, handles : (p,) int32, indices among the corners of the sampled vertices in handles, and
+        the indices of their handles; none for blending
     pulls : (p,), twice the weights of their springs
-    arms : (p, 3), from the centroids of their handles at rest
+    arms : (p, 3), vectors to them from the centroids of their handles, at rest
 
     Raises
     ------
@@ -98,8 +101,10 @@ class ResidualProbe(ABC):
 
         Parameters
         ----------
-        q : (d,), or fewer leading coordinates
-        state : offsets (h, 3, 4) of the handles, or weights of the poses
+        q : (d,)
+            Reduced coordinates, or fewer leading ones.
+        state : (h, 3, 4) or (k,)
+            Offsets of the handles, or weights of the poses.
         """
 
     def _find_pins(

@@ -1,4 +1,4 @@
-"""ResidualSample: a few vertices that tell the norm of the whole residual."""
+"""ResidualSample: a few vertices that estimate the norm of the whole residual."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ..problem import InterpolationProblem, PosingProblem
 
 FloatArray = NDArray[np.float64]
 
-#: Vertices that are read. On the Dragon 128 of 32k tell as much about the error as all of them.
+#: Number of sampled vertices. On the Dragon 128 of 32k say as much about the error as all do.
 VERTICES = 128
-#: Share of the vertices drawn without regard to their residuals, so that none is never seen.
+#: Share of the vertices drawn uniformly, so that every vertex may be drawn.
 UNIFORM = 0.1
 
 
@@ -22,12 +22,12 @@ UNIFORM = 0.1
 class ResidualSample:
     """Vertices v and weights c_v: sum over v of c_v |g_v|^2 estimates g^T D^-1 g.
 
-    vertices : (s,) int32; one may be there more than once
+    vertices : (s,) int32; a vertex may occur more than once
     weights : (s,) float64, positive, 1 / (s * probability * D_v)
 
     g is the gradient of the full objective, and D the diagonal of the scalar factor's matrix A. The
-    norm of g by D is the local part of that by A, and says as much about the error: measured on
-    unseen samples, the rank correlations are alike.
+    norm of g by D is the local part of its norm by A, and says as much about the error: on unseen
+    samples their rank correlations with it are alike.
     """
 
     vertices: NDArray[np.int32]
@@ -44,20 +44,24 @@ class ResidualSample:
 def residual_sample(
     expected: FloatArray, diagonal: FloatArray, *, count: int = VERTICES, seed: int = 0
 ) -> ResidualSample:
-    """Draws vertices with probabilities in proportion to what they are expected to contribute.
+    """Draws vertices with probabilities in proportion to their expected contributions.
 
     Parameters
     ----------
-    expected : (n,) squared residuals of the vertices, of typical frames
-    diagonal : (n,) of the scalar factor's matrix
+    expected : (n,)
+        Squared residuals of the vertices in typical frames.
+    diagonal : (n,)
+        Diagonal of the scalar factor's matrix.
     count : int, default 128
+        Number of vertices to draw.
     seed : int, default 0
+        Seed of the draw.
 
     Returns
     -------
     ResidualSample
-        An unbiased estimate for every frame (importance sampling); for one whose residuals are in
-        proportion to `expected` nearly without variance.
+        Its estimate is unbiased for every frame (importance sampling), and has nearly no variance
+        for a frame whose residuals are proportional to `expected`.
     """
     shares = expected / diagonal
     total = float(shares.sum())

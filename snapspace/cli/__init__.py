@@ -1,4 +1,4 @@
-"""The command line: the pipeline over files."""
+"""The command line: the whole pipeline on files."""
 
 from .main import main
 from .program import program

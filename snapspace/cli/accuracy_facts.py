@@ -1,4 +1,4 @@
-"""What a model's record says of its errors, for `info` and the end of a build."""
+"""What a model's record says about its errors, for `info` and the end of a build."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ Facts = list[tuple[str, str]]
 
 
 def accuracy_facts(record: dict[str, Any]) -> Facts:
-    """How far unseen motions or blends are off, and inverted tets, as far as they are recorded."""
+    """Errors of unseen motions or blends, and inverted tets, as far as they are recorded."""
     unseen = record.get("unseen")
     known = isinstance(unseen, dict) and isinstance(unseen.get("inverted_tets"), dict)
-    facts = _of_accuracy(record)
+    facts = _target_facts(record)
     if not isinstance(unseen, dict) or not known:
         return facts
     if not facts:
@@ -21,8 +21,8 @@ def accuracy_facts(record: dict[str, Any]) -> Facts:
     return [*facts, ("inverted tets", _inverted(unseen))]
 
 
-def _of_accuracy(record: dict[str, Any]) -> Facts:
-    """Of models that were built to be as accurate as was asked."""
+def _target_facts(record: dict[str, Any]) -> Facts:
+    """The errors of a model that was built for a target error; empty for others."""
     accurate = record.get("accurate")
     if not isinstance(accurate, dict) or not isinstance(accurate.get("step"), dict):
         return []
@@ -42,20 +42,20 @@ def _errors(figures: dict[str, Any], asked: str = "") -> str:
         for name in ("median", "mean")
         if name in figures
     ]
-    words = ", ".join([*averages, asked] if asked else averages)
+    parts = ", ".join([*averages, asked] if asked else averages)
     return (
-        f"unseen {figures['name']} are off by {words}; nine of ten by less than "
+        f"unseen {figures['name']} are off by {parts}; nine of ten by less than "
         f"{in_percent(figures['ninth'])}"
     )
 
 
 def _inverted(unseen: dict[str, Any]) -> str:
-    """In how many shapes, and the most of one."""
+    """How many shapes have inverted tets, and the most in one shape."""
     counts = unseen["inverted_tets"]
     return (
         f"in {_shapes(counts['samples'], 'samples')}; in "
         f"{_shapes(counts['frames'], 'frames of unseen ' + unseen['name'])}; in "
-        f"{_shapes(counts['unseen'], 'full solutions of these')}"
+        f"{_shapes(counts['unseen'], 'their full solutions')}"
     )
 
 

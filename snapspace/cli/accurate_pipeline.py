@@ -1,4 +1,4 @@
-"""From a problem to a model file, with samples and dimension chosen by the error of unseen ones."""
+"""From a problem to a model file, with samples and dimension chosen by a target error."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from ..snapshots import Checkpoint, SolverOptions, run_key, solver_key
 from .console import notice
 from .first_frame import check_first_frame
 from .given_options import chosen_parameters
-from .pipeline import Built, build_model, stage, telling_what_is_kept
+from .pipeline import Built, build_model, report_kept_samples, stage
 from .progress import spinner
 from .recipe import Recipe, made_by
 from .unseen import judged, unseen_record
 
-#: Options that decide samples or subspace: with one of them nothing is chosen by error.
+#: Options that decide samples or subspace: with any of them nothing is chosen by a target error.
 DECIDING = (
     "samples",
     "dimension",
@@ -46,22 +46,22 @@ budget_option = click.option(
     type=float,
     metavar="SECONDS",
     help="With --target-error: samples that would probably take longer are not solved. The first "
-    "96, of blends 44, always are. The model then depends on the machine's speed.",
+    "96 (44 for blends) always are. The model then depends on the machine's speed.",
 )
 
 
 def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
-    """Whether an option of the running command decides samples or subspace, or an exact energy.
+    """Whether an option or an exact energy, not the target error, decides samples and subspace.
 
     Parameters
     ----------
     exact : whether the material has an exact reduced energy
-    others : options of the command that decide, beside `DECIDING`
+    others : names of deciding options of the running command, besides `DECIDING`
 
     Raises
     ------
     ValueError
-        If --target-error or --budget is given as well, which would be of no effect.
+        If --target-error or --budget is given as well, which would have no effect.
     """
     given = {option.name: option.opts[0] for option in chosen_parameters()}
     deciding = [given[name] for name in (*DECIDING, *others) if name in given]
@@ -80,11 +80,11 @@ def decided_by_hand(*, exact: bool = False, others: Sequence[str] = ()) -> bool:
 
 @dataclass(frozen=True, kw_only=True)
 class AccurateRecipe:
-    """What to do with a problem.
+    """How to build a model with a target error.
 
     target_error, budget, seed, start : as for `accurate_model`
-    solver : SolverOptions
-    threads : None for all
+    solver : options of the solver
+    threads : number of threads, None for all
     """
 
     target_error: float
@@ -95,7 +95,7 @@ class AccurateRecipe:
     threads: int | None
 
     def key(self, problem: PosingProblem | InterpolationProblem) -> str:
-        """Hash of what the samples depend on: which models give starts follows from the target."""
+        """Hash of all that the samples depend on; their starts follow from the target."""
         choice: dict[str, Any] = {
             "seed": self.seed,
             "accurate": [usual_most_samples(problem), self.target_error],
@@ -118,7 +118,7 @@ def chosen_build(
     start: PosingModel | None = None,
     solver: SolverOptions,
 ) -> partial[Built]:
-    """`build_model` by the recipe where it was decided by hand, else `build_accurate_model`."""
+    """`build_model` with the recipe if it was decided by hand, else `build_accurate_model`."""
     if by_hand:
         return partial(build_model, problem, recipe)
     accurate = AccurateRecipe(
@@ -142,14 +142,14 @@ def build_accurate_model(
     begin: float | None = None,
     executor: Executor | None = None,
 ) -> Built:
-    """As `build_model`, with a line for each model that was tried."""
+    """As `build_model`, for a target error, with a line for each model that was tried."""
     begin = time.perf_counter() if begin is None else begin
     checkpoint = Checkpoint.beside(output, recipe.key(problem))
     seconds: dict[str, float] = {}
 
     found = finished_samples(checkpoint)
     most = usual_most_samples(problem)
-    with telling_what_is_kept(lambda: (finished_samples(checkpoint), most)):
+    with report_kept_samples(lambda: (finished_samples(checkpoint), most)):
         if found:
             notice(f"resuming: {found} samples were finished before")
         if isinstance(problem, InterpolationProblem):
@@ -169,7 +169,7 @@ def build_accurate_model(
                 surface=surface,
                 tell=notice,
             )
-        _tell_outcome(built, recipe.budget)
+        _notice_missed_target(built, recipe.budget)
         unseen = built.held_out & built.snapshots.converged
         known = built.snapshots.select(unseen) if unseen.any() else None
         validation = judged(built.model, known, threads=recipe.threads)
@@ -188,16 +188,19 @@ def build_accurate_model(
     return Built(model, built.snapshots, output, seconds, validation)
 
 
-def _tell_outcome(built: AccurateModel[Any], budget: float | None) -> None:
+def _notice_missed_target(built: AccurateModel[Any], budget: float | None) -> None:
     if built.reached:
         return
     step = built.step
-    cure = "leave out poses that differ most" if step.unseen == "blends" else "make the box smaller"
+    cure = "make the box smaller"
+    if step.unseen == "blends":
+        cure = "leave out the poses that differ most"
     more = "give --samples and --dimension"
     if budget is not None and len(built.snapshots) < usual_most_samples(built.model.problem):
         more = "raise --budget"
     notice(
         f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {step.typical}, "
-        f"more than the {100 * built.target:.2g} % of --target-error; it takes more than "
-        f"{len(built.snapshots)} samples or {built.model.dimension} dimensions: {more}, or {cure}"
+        f"more than the {100 * built.target:.2g} % of --target-error; more than "
+        f"{len(built.snapshots)} samples or {built.model.dimension} dimensions are needed: {more}, "
+        f"or {cure}"
     )

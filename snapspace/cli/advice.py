@@ -1,4 +1,4 @@
-"""What `validate` and the end of a build say where a model is not as good as it could be."""
+"""The advice of `validate` and of a build for a model that could be better."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .console import notice
 from .next_build import next_build
 from .progress import spinner
 
-#: Full solutions whose errors are split for an advice, which asks only for the largest part.
+#: Full solutions whose errors are split for advice, which needs only the largest part.
 SPLIT = 5
 
 
@@ -26,8 +26,8 @@ class Advice:
     """What to build next.
 
     split : ErrorSplit of some of the unseen samples
-    option : NextOption
-    command : words after `snapspace`; None where the model does not tell its files
+    option : the option that helps most
+    command : words after `snapspace`; None if the model does not name its files
     """
 
     split: ErrorSplit
@@ -44,8 +44,8 @@ class Advice:
             "python": self.option.python,
         }
 
-    def tell(self) -> None:
-        """A notice with the parts; and the calls in Python where there is no command."""
+    def print_notices(self) -> None:
+        """Prints the parts of the error, and the calls in Python if there is no command."""
         parts = ", ".join(
             f"{name} {100 * np.median(getattr(self.split, name)):.2g} %" for name in PARTS
         )
@@ -71,8 +71,9 @@ def split_of_some(
     threads: int | None,
     count: int = SPLIT,
 ) -> ErrorSplit | None:
-    """The split of the first so many full solutions of a validation; None, with a notice, if a
-    reduced minimiser of all tets is not found.
+    """Splits the errors at the first `count` full solutions of a validation.
+
+    None, with a notice, if a reduced minimiser of all tets is not found.
     """
     reference = validation.reference
     some = reference.select(np.arange(len(reference)) < count)

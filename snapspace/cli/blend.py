@@ -51,23 +51,23 @@ EVEN = ("shape", "weights")
 @click.option(
     "--even",
     type=click.Choice(EVEN),
-    help="What is even from frame to frame of --path: the largest motion of a vertex of the shape, "
-    "or the weights [default: shape].",
+    help="What changes evenly from frame to frame of --path: the shape, by the largest motion of a "
+    "vertex, or the weights [default: shape].",
 )
 @click.option(
     "-o",
     "--output",
     type=FILE,
     metavar="FILE|DIR",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path a "
-    "folder, or a film as .gif or .mp4.",
+    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path "
+    "a folder, or a film as .gif or .mp4.",
 )
 @format_option
 @rate_option
 @click.option(
-    "--linear", is_flag=True, help="Also write the straight blend, as NAME-linear, to compare with."
+    "--linear", is_flag=True, help="Also write the linear blend, as NAME-linear, for comparison."
 )
-@click.option("--extrapolate", is_flag=True, help="Take weights outside of the sampled simplex.")
+@click.option("--extrapolate", is_flag=True, help="Accept weights outside the sampled simplex.")
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture of the shapes.")
 @up_option
 @leading_option
@@ -95,20 +95,20 @@ def blend(
       snapspace blend centaur.snapspace --path 60 -o frames/ --linear --png path.png
       snapspace blend centaur.snapspace --path 90 -o centaur.mp4
 
-    With --path the vertex that moves most moves as far from frame to frame, and every pose is a
-    frame if there are as many frames as poses. Where the shape jumps however small the step, the
-    frame is told.
+    With --path the largest motion of a vertex is the same from frame to frame, and every pose is a
+    frame if there are as many frames as poses. If the shape jumps, however small the step, the
+    frame is reported.
     """
     if png is not None:
         need_extra("pictures", who="--png")
     if (weights is None) == (frames is None):
         raise ValueError("give either --weights or --path")
     if kind is not None and frames is None:
-        raise ValueError("--format is for --path; the extension of -o tells the format of one file")
+        raise ValueError("--format is for --path; the extension of -o sets the format of one file")
     if frames_per_second is not None and frames is None:
         raise ValueError("--fps is for a film of --path")
     if linear and is_film(output):
-        raise ValueError("--linear writes files beside others; give a folder in place of a film")
+        raise ValueError("--linear writes further files; give a folder in place of a film")
     if even is not None and frames is None:
         raise ValueError("--even is for --path; --weights has one shape")
     model = load_interpolation(model_file, dimension)
@@ -122,7 +122,7 @@ def blend(
         shapes = [shape_at(model, session, single, linear=linear, extrapolate=extrapolate)]
     else:
         assert frames is not None
-        shapes, jumps = _walked(model, session, frames, even or "shape", linear=linear)
+        shapes, jumps = _path_shapes(model, session, frames, even or "shape", linear=linear)
     _check(model, shapes)
     begin = time.perf_counter()
     if output is not None and is_film(output):
@@ -147,17 +147,17 @@ def blend(
 
 
 def _weights(model: InterpolationModel, weights: str, *, extrapolate: bool) -> NDArray[np.float64]:
-    """The weights (poses,) of the one shape."""
+    """The weights (poses,) of a single shape."""
     numbers = parse_numbers(weights)
     if not extrapolate and min(numbers) < model.problem.domain.lowest - 1e-9:
         raise ValueError(
             f"--weights {weights}: {min(numbers):g} is below {model.problem.domain.lowest:g}, the "
-            "least weight that was sampled; --extrapolate takes it all the same"
+            "least weight that was sampled; --extrapolate accepts it"
         )
     return model.problem.weights(numbers, extrapolate=extrapolate)
 
 
-def _walked(
+def _path_shapes(
     model: InterpolationModel, session: BlendingSession, frames: int, even: str, *, linear: bool
 ) -> tuple[list[BlendedShape], list[PathJump]]:
     """The shapes of a path, and where it jumps."""
@@ -173,7 +173,7 @@ def _walked(
 
 
 def _check_outputs(output: Path | None, png: Path | None, *, path: bool) -> None:
-    """ValueError unless the files of one shape can be written: before anything is."""
+    """Raises ValueError unless the files can be written, before any work is done."""
     if png is not None:
         writable_path(png, known=(".png",))
     if output is not None and not path:
@@ -204,7 +204,7 @@ def _check(model: InterpolationModel, shapes: list[BlendedShape]) -> None:
         if shape.report.status == "unbounded":
             raise ValueError(
                 f"{weights_text(shape.weights)}: the energy has no minimum that far outside; "
-                f"choose weights nearer to the poses{certain_share(model, shape.weights)}"
+                f"choose weights closer to the poses{certain_share(model, shape.weights)}"
             )
         notice_uncertain(model, shape)
     failed = [shape for shape in shapes if not shape.report.converged]

@@ -1,4 +1,4 @@
-"""What `snapspace blend` tells of weights far outside."""
+"""Notices of `snapspace blend` about weights far outside the poses."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ FloatArray = NDArray[np.float64]
 
 
 def notice_uncertain(model: InterpolationModel, shape: BlendedShape) -> None:
-    """A notice if the shape was found where the energy need not have a minimum."""
-    if shape.certain is False:  # of None nothing is known
+    """Prints a notice if the energy may have no minimum where the shape was found."""
+    if shape.certain is False:  # None means unknown
         notice(
             f"notice: {weights_text(shape.weights)}: the energy need not have a minimum there, and "
-            f"the shape may be a poor one{certain_share(model, shape.weights)}"
+            f"the shape may be poor{certain_share(model, shape.weights)}"
         )
 
 
 def certain_share(model: InterpolationModel, weights: FloatArray) -> str:
-    """How far on the way from equal weights there is a minimum, to end a message with."""
+    """The end of a message: how far from equal weights there certainly is a minimum."""
     certain = model.certain_range
     share = np.inf if certain is None else certain.reach(weights)
-    if share >= 1.0:  # not what ended it
+    if share >= 1.0:  # the range is not the reason
         return ""
     return f"; up to {100 * share:.3g} % of the way from equal weights it certainly has one"
 
 
 def weights_text(weights: FloatArray) -> str:
-    """As on the command line."""
+    """Weights as an option of the command line."""
     return f"--weights {','.join(f'{w:g}' for w in weights)}"

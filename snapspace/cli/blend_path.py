@@ -1,4 +1,4 @@
-"""The path of `snapspace blend --path`: from pose to pose."""
+"""The path of `snapspace blend --path --even weights`: from pose to pose."""
 
 from __future__ import annotations
 

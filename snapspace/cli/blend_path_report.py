@@ -1,4 +1,4 @@
-"""What `snapspace blend --path` tells of its path: motions from frame to frame, and jumps."""
+"""What `snapspace blend --path` reports: motions from frame to frame, and jumps."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .even_path import PathJump
 
 
 def path_figures(shapes: Sequence[BlendedShape], jumps: Sequence[PathJump]) -> dict[str, Any]:
-    """Under the key "path": the largest motion of a vertex to each next frame, and jumps."""
+    """The entry "path": the largest motion of a vertex from frame to frame, and jumps."""
     steps = [b.vertices - a.vertices for a, b in pairwise(shapes)]
     return {
         "motions": [float(np.linalg.norm(step, axis=1).max()) for step in steps],
@@ -26,7 +26,7 @@ def path_figures(shapes: Sequence[BlendedShape], jumps: Sequence[PathJump]) -> d
 
 
 def path_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    """The line of a table on the motions, for a path."""
+    """The table line about motions, for a path."""
     if "path" not in figures:
         return []
     motions = figures["path"]["motions"]
@@ -34,10 +34,10 @@ def path_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def notice_jumps(jumps: Sequence[PathJump]) -> None:
-    """A notice for each jump."""
+    """Prints a notice for each jump."""
     for jump in jumps:
         weights = ",".join(f"{w:.4g}" for w in jump.weights)
         notice(
             f"notice: the shape jumps by {jump.motion:.3g} before frame {jump.frame}, at --weights "
-            f"{weights}, however small the step; poses between those of the path are the cure"
+            f"{weights}, however small the step; add poses between those of the path"
         )

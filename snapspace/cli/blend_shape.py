@@ -1,4 +1,4 @@
-"""One blended shape: solved, measured, written."""
+"""BlendedShape: one blended shape, solved, measured and written."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class BlendedShape:
-    """The shape (n, 3) for weights (poses,), how it was found, and the linear blend if asked.
+    """The shape (n, 3) for weights (poses,), how it was found, and the linear blend if wanted.
 
-    `certain` is that of the session: whether the energy has a minimum there without doubt.
+    `certain` is that of the session: whether the energy certainly has a minimum there.
     """
 
     weights: FloatArray
@@ -35,7 +35,7 @@ class BlendedShape:
     certain: bool | None
 
     def as_json(self) -> dict[str, Any]:
-        """The figures with the keys of `snapspace blend --json`."""
+        """The numbers with the keys of `snapspace blend --json`."""
         return {
             "weights": self.weights.tolist(),
             "status": self.report.status,
@@ -57,7 +57,7 @@ def shape_at(
     linear: bool,
     extrapolate: bool,
 ) -> BlendedShape:
-    """Solves for weights from where the session is."""
+    """Solves for weights, starting from the session's current shape."""
     begin = time.perf_counter()
     report = session.blend(weights, extrapolate=extrapolate)
     vertices = session.vertices
@@ -77,7 +77,7 @@ def shape_at(
 
 
 def write_blended(model: InterpolationModel, shape: BlendedShape, path: Path) -> list[Path]:
-    """Writes the surface or the tets, by the extension, and the linear blend beside it."""
+    """Writes the surface or the tets, by the extension, and the linear blend beside the file."""
     files = [(path, shape.vertices)]
     if shape.linear is not None:
         files.append((path.with_name(f"{path.stem}-linear{path.suffix}"), shape.linear))

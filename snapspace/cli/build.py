@@ -1,4 +1,4 @@
-"""`snapspace build`: a problem file becomes a model file."""
+"""`snapspace build`: makes a model file from a problem file."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..model_file import check_model_path, load
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
-from .build_advice import tell_what_to_do
+from .build_advice import build_advice
 from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
@@ -43,7 +43,7 @@ DIMENSION = 40
     default=MOTIONS.target,
     show_default=True,
     metavar="SHARE",
-    help="Median error of unseen motions. Decides samples and dimension where none of --samples, "
+    help="Median error of unseen motions. Decides samples and dimension if none of --samples, "
     "--dimension, --energy-fraction, --sampling, --energy, --tets is given, except "
     "for stvk.",
 )
@@ -54,7 +54,7 @@ DIMENSION = 40
     type=FILE,
     metavar="OLD.snapspace",
     help="A model of the same mesh with other handles. The first model is made of its shapes, in a "
-    "fraction of the time, and is the last if it meets --target-error.",
+    "fraction of the time, and is kept if it meets --target-error.",
 )
 @choice_options(samples=300, dimension=DIMENSION, sampling="sobol", samplings=MOTION_SAMPLINGS)
 @click.option(
@@ -62,17 +62,17 @@ DIMENSION = 40
     type=click.Choice(STORED_ENERGIES),
     default="auto",
     show_default=True,
-    help="Of the model. exact: a quartic, for St.Venant-Kirchhoff, up to about 60 modes. cubature: "
-    "that of a few tets, for all materials; its samples are solved more tightly. auto: exact where "
-    "the material has it, up to 48 modes.",
+    help="Reduced energy. exact: a quartic, for St.Venant-Kirchhoff, up to about 60 modes. "
+    "cubature: a sum over a few tets, for all materials; its samples are solved more tightly. "
+    "auto: exact if the material has it, up to 48 modes.",
 )
 @click.option(
     "--tets",
     type=TET_COUNT,
     metavar="N",
-    help="Of a cubature [default: 8 for each mode, at most 1000].",
+    help="Number of tets of a cubature [default: 8 per mode, at most 1000].",
 )
-@click.option("--repair", is_flag=True, help="Mend a mesh that has curable faults.")
+@click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
 @threads_option
 @dask_option
 @json_option
@@ -93,9 +93,9 @@ def build(
 ) -> None:
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
-    Samples and dimension follow from the error of motions that the model was not made of, see
-    --target-error, unless you give them. MESH replaces the mesh that the problem file names. Ctrl-C
-    keeps the finished samples beside the model; the same command resumes from there.
+    Samples and dimension follow from the error of unseen motions, see --target-error, unless you
+    give them. MESH replaces the mesh that the problem file names. Ctrl-C keeps the finished samples
+    beside the model; the same command resumes from there.
 
     \b
     Examples:
@@ -137,7 +137,7 @@ def build(
     built = make(output, source=source, surface=surface, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
     folders = [file.parent for file in (problem_file, mesh) if file is not None]
-    better = tell_what_to_do(built, folders=folders, threads=threads)
+    better = build_advice(built, folders=folders, threads=threads)
     turn = ["--handle", problem.handles.names[1], "--euler", "0,0,20", "-o", "posed.obj"]
     suggestions: list[tuple[str, list[str | Path]]] = [
         ("drag it in the browser", ["view", output]),
@@ -150,7 +150,7 @@ def build(
 
 
 def check_output(output: Path) -> None:
-    """ValueError unless a model file can be written there: to be known before the work is done."""
+    """Raises ValueError unless a model file can be written there, before any work is done."""
     check_model_path(output)
     if output.is_dir():
         raise ValueError(f"{output}: this is a folder; give a file name")
@@ -159,7 +159,7 @@ def check_output(output: Path) -> None:
 
 
 def _old_model(file: Path) -> PosingModel:
-    """The model of --from; ValueError if it does not pose."""
+    """The model of --from; ValueError if it has no handles."""
     model = load(file)
     if not isinstance(model, PosingModel):
         raise ValueError(f"{file}: this model blends poses; --from takes one with handles")
@@ -169,7 +169,7 @@ def _old_model(file: Path) -> PosingModel:
 def _read(
     problem_file: Path, mesh_file: Path | None, *, repair: bool
 ) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, Any]]:
-    """The problem, the surface that it names, and for the model's provenance where it is from."""
+    """The problem, the surface that it names, and its source for the model's provenance."""
     mesh: TetMesh | None = None if mesh_file is None else read_tets(mesh_file, repair=repair)
     problem = read_problem(problem_file, mesh=mesh, repair=repair)
     content = json.loads(problem_file.read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""What to do where a model that was just built is not good."""
+"""build_advice: advice for a model that was just built and is not good."""
 
 from __future__ import annotations
 
@@ -17,33 +17,36 @@ from .pipeline import Built
 Suggestions = list[tuple[str, list[str | Path]]]
 
 
-def tell_what_to_do(built: Built, *, folders: Sequence[Path], threads: int | None) -> Suggestions:
-    """Notices where errors of unseen samples or inverted tets are bad, with the cure.
+def build_advice(built: Built, *, folders: Sequence[Path], threads: int | None) -> Suggestions:
+    """Prints notices about errors of unseen samples and inverted tets, with the cure.
 
     Parameters
     ----------
     built : Built
-    folders : of the files that it was made of
-    threads : None for all
+        The model and how it was built.
+    folders : sequence of Path
+        Folders of the files that it was made from.
+    threads : int, optional
+        Number of threads, None for all.
 
     Returns
     -------
     list
-        Commands for `print_next`; none where all is well, or no command is known.
+        Commands for `print_next`; empty if all is well, or no command is known.
     """
     if built.validation is None:
         return []
-    _tell_inverted_samples(built)
-    _tell_inverted_frames(built.validation)
-    if "accurate" in built.model.provenance:  # which has told its error
+    _notice_inverted_samples(built)
+    _notice_inverted_frames(built.validation)
+    if "accurate" in built.model.provenance:  # its error is reported already
         return []
-    return _tell_error(built, built.validation, folders, threads)
+    return _error_advice(built, built.validation, folders, threads)
 
 
-def _tell_error(
+def _error_advice(
     built: Built, validation: Validation, folders: Sequence[Path], threads: int | None
 ) -> Suggestions:
-    """Where the error is above what `--target-error` aims at without any option."""
+    """Advice if the error is above the default of `--target-error`."""
     plan = plan_of(built.model.problem)
     error = plan.typical(validation.error)
     if error <= plan.target:
@@ -56,35 +59,35 @@ def _tell_error(
     if split is None:
         return []
     found = advice(built.model, validation, split, built.path, folders=folders)
-    found.tell()
+    found.print_notices()
     return found.suggestions
 
 
-def _tell_inverted_samples(built: Built) -> None:
-    """Where most of the full solutions themselves have inverted tets: no model mends that."""
+def _notice_inverted_samples(built: Built) -> None:
+    """A notice if most full solutions have inverted tets, which no model can repair."""
     inverted = [report.inverted_tets for report in built.snapshots.reports]
     if np.median(inverted) == 0:
         return
     problem = built.model.problem
     if isinstance(problem, InterpolationProblem):
-        cure = "leave out poses that differ most, or mend those whose own tets are inverted"
+        cure = "leave out the poses that differ most, or repair those with inverted tets"
     else:
         cure = "make the box of motions smaller, or the handles larger"
         if problem.material.exact_degree == 4:
-            cure += ", or take the material stable-neo-hookean, which resists inversion"
+            cure += ", or use the material stable-neo-hookean, which resists inversion"
     notice(
         f"notice: {sum(count > 0 for count in inverted)} of {len(inverted)} samples have inverted "
         f"tets, at most {max(inverted)} of {len(problem.mesh.tets)}; {cure}"
     )
 
 
-def _tell_inverted_frames(validation: Validation) -> None:
-    """Where most of the reduced solutions have more inverted tets than the full ones."""
+def _notice_inverted_frames(validation: Validation) -> None:
+    """A notice if most reduced solutions have more inverted tets than the full ones."""
     full = np.array([report.inverted_tets for report in validation.reference.reports])
     added = validation.inverted_tets - full
     if np.median(added) <= 0:
         return
     notice(
-        f"notice: reduced solutions of unseen samples have {np.median(added):.0f} inverted tets "
-        f"more than the full ones in the median, at most {added.max()}: build a more accurate model"
+        f"notice: reduced solutions of unseen samples have {np.median(added):.0f} more inverted "
+        f"tets than the full ones in the median, at most {added.max()}; build a more accurate model"
     )

@@ -1,4 +1,4 @@
-"""Choices of `build` and `interpolate`: samples, subspace and solver, as options."""
+"""Choices: the options of `build` and `interpolate` for samples, subspace and solver."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ from .recipe import Recipe
 from .samples import ChosenSamples, GivenSamples, Samples, sampling_record
 
 Sampling = Method | Literal["greedy"]
-#: Of handle motions, and of weights of poses.
+#: Sampling methods for handle motions, and for weights of poses.
 MOTION_SAMPLINGS: tuple[Sampling, ...] = (*ANYWHERE, "greedy")
 WEIGHT_SAMPLINGS: tuple[Sampling, ...] = (*METHODS, "greedy")
-# The fewest poses whose uniform blends say little about blends of two, see docs/notes/sampling.md.
+# From this many poses on, uniform blends say little about blends of two: docs/notes/sampling.md.
 _MANY_POSES = 5
 
 
 @dataclass(frozen=True, kw_only=True)
 class Choices:
-    """What the user chose; None where the command's default holds."""
+    """The user's choices; None for the command's default."""
 
     samples: int
     dimension: int | None
@@ -48,7 +48,7 @@ class Choices:
     def solver_options(self, *, tolerance: float | None = None) -> SolverOptions:
         """The solver's options; ValueError if one is out of range.
 
-        `tolerance` holds if neither it nor settling was given; None leaves it to the problem.
+        `tolerance` is used if the user gave neither it nor settling; None leaves it to the problem.
         """
         neither = self.tolerance is None and self.settling is None
         return SolverOptions(
@@ -71,7 +71,7 @@ class Choices:
     ) -> Recipe:
         """The recipe for a domain.
 
-        `dimension` holds if neither size was given, `tolerance` as for `solver_options`.
+        `dimension` is used if the user gave no size, `tolerance` as for `solver_options`.
         """
         method = self.sampling or self._usual_sampling(domain)
         samples = self._samples(domain, method, dimension)
@@ -99,7 +99,7 @@ class Choices:
 
     def _usual_sampling(self, domain: Domain) -> Sampling:
         if domain.dimension == 1:
-            return "grid"  # in one dimension even spacing beats all other ways
+            return "grid"  # in one dimension even spacing is best
         many = isinstance(domain, BlendDomain) and domain.dimension + 1 >= _MANY_POSES
         return "blends" if many else "sobol"
 
@@ -114,7 +114,7 @@ class Choices:
             )
             return GivenSamples(parameters)
         if self.no_scramble:
-            raise ValueError("--no-scramble is for sobol samples, not for --sampling greedy")
+            raise ValueError("--no-scramble is for Sobol samples, not for --sampling greedy")
         return ChosenSamples(
             count=self.samples, seed=self.seed, dimension=self.dimension or dimension
         )
@@ -127,7 +127,7 @@ def choice_options(
     sampling: Sampling | None,
     samplings: tuple[Sampling, ...],
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """The options of `Choices` with a command's defaults, passed on as the parameter `choices`."""
+    """Decorator: adds the options of `Choices`, passed as the parameter `choices`."""
 
     def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
         @wraps(command)
@@ -154,7 +154,7 @@ def _options(
             type=SAMPLE_COUNT,
             default=samples,
             show_default=f"--target-error decides; {samples} with other choices",
-            help="Number of snapshots. A grid takes the most that fill its axes evenly.",
+            help="Number of snapshots. A grid uses as many as fill its axes evenly.",
         ),
         click.option(
             "--dimension",
@@ -165,42 +165,43 @@ def _options(
         click.option(
             "--energy-fraction",
             type=float,
-            help="Instead of --dimension: the fewest modes that hold this share, such as 0.9999.",
+            help="Instead of --dimension: the fewest modes with this share of the energy, such as "
+            "0.9999.",
         ),
         click.option(
             "--sampling",
             type=click.Choice(samplings),
             default=sampling,
-            show_default=sampling or "grid for two poses, blends for five and more, else sobol",
+            show_default=sampling or "grid for two poses, blends for five or more, else sobol",
             help=_sampling_help(samplings),
         ),
-        click.option("--no-scramble", is_flag=True, help="The plain Sobol sequence."),
+        click.option("--no-scramble", is_flag=True, help="Use the plain Sobol sequence."),
         click.option(
             "--seed",
             type=SEED_NUMBER,
             default=0,
             show_default=True,
-            help="Of the samples, except for a grid.",
+            help="Seed of the samples; a grid has none.",
         ),
         click.option(
             "--solver",
             type=click.Choice(SOLVERS),
             default="fast",
             show_default=True,
-            help="fast: L-BFGS on one preconditioner for all samples. newton: the paper's method, "
-            "as a reference.",
+            help="fast: L-BFGS with one preconditioner for all samples. newton: the paper's "
+            "method, as a reference.",
         ),
         click.option(
             "--tolerance",
             type=float,
-            help="Converged: the decrease still expected is below this share of the energy "
+            help="Converged if the expected decrease is below this share of the energy "
             "[default: 1e-9 for interpolation, 1e-7 for a cubature, less for Poisson ratios above "
             "0.25, but 1e-5 with St.Venant-Kirchhoff, and else --settling decides].",
         ),
         click.option(
             "--settling",
             type=float,
-            help="Converged: 8 directions as long as the last 4 together are below this share of "
+            help="Converged if 8 directions as long as the last 4 together are below this share of "
             "the displacement [default: 0.01 for an exact energy of posing without --tolerance, "
             "else 0: never].",
         ),
@@ -209,7 +210,7 @@ def _options(
             type=ITERATION_COUNT,
             default=SolverOptions.max_iterations,
             show_default=True,
-            help="Per sample.",
+            help="Limit per sample.",
         ),
         click.option(
             "--projection",
@@ -224,7 +225,7 @@ def _options(
             show_default=True,
             help="Newton with the projection stretches: least singular value, in (0, 1].",
         ),
-        click.option("--lumped", is_flag=True, help="Diagonal mass matrix."),
+        click.option("--lumped", is_flag=True, help="Use a diagonal mass matrix."),
         click.option(
             "--include-unconverged", is_flag=True, help="Also use samples that stopped early."
         ),
@@ -232,7 +233,7 @@ def _options(
 
 
 def _sampling_help(samplings: tuple[Sampling, ...]) -> str:
-    text = "Method. greedy: where the model so far is worst; fewer samples, more time each."
+    text = "Method. greedy: where the current model is worst; fewer samples, more time each."
     if "blends" in samplings:
-        text += " blends: of two and three poses first; the others: of all poses, uniformly."
+        text += " blends: two and three poses first; the others: all poses, uniformly."
     return text

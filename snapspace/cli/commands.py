@@ -1,4 +1,4 @@
-"""The commands of the program. Each is imported when it is called, so that help comes at once."""
+"""The commands of the program. Each is imported when it is called, so help is shown at once."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ from importlib import import_module
 
 import click
 
-#: The commands, one in the module of its name, with the line of each in the program's help.
+#: The commands, each in the module of its name, with its line in the program's help.
 COMMANDS = {
     "blend": "Blend poses and write the shapes.",
     "build": "Make a model from a problem.",
     "demo": "Build and paint a model of a generated creature.",
     "export": "Write a model as one HTML page.",
-    "info": "Show what a file holds.",
+    "info": "Show what a file contains.",
     "interpolate": "Make a model that blends poses.",
     "pose": "Move handles and write the shape.",
     "validate": "Measure the error of a model.",
@@ -21,14 +21,14 @@ COMMANDS = {
 
 
 class Commands(click.Group):
-    """A group that knows the names of its commands before it imports them."""
+    """A group that knows the names of its commands without importing them."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """All names, in the order of the alphabet."""
+        """All names, in alphabetical order."""
         return sorted(COMMANDS)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """The command of a name, or None if there is none."""
+        """The command with this name, or None if there is none."""
         if cmd_name not in COMMANDS:
             return None
         command = getattr(import_module(f".{cmd_name}", __package__), cmd_name)
@@ -36,6 +36,6 @@ class Commands(click.Group):
         return command
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """The section of the help that lists the commands."""
+        """Writes the section of the help that lists the commands."""
         with formatter.section("Commands"):
             formatter.write_dl([(name, COMMANDS[name]) for name in self.list_commands(ctx)])

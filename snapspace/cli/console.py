@@ -1,4 +1,4 @@
-"""What the user sees: one JSON object on standard output, everything else on standard error."""
+"""Output: one JSON object on standard output, everything else on standard error."""
 
 from __future__ import annotations
 
@@ -11,36 +11,36 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-if TYPE_CHECKING:  # rich is loaded where something is shown
+if TYPE_CHECKING:  # rich is imported only when something is shown
     from rich.console import Console
 
 from .printable import printable
 
 
 def console() -> Console:
-    """A console on the standard error of this moment."""
+    """A console on the current standard error."""
     from rich.console import Console
 
     return Console(stderr=True, highlight=False)
 
 
 def notice(message: str) -> None:
-    """One line on standard error."""
+    """Prints one line on standard error."""
     click.echo(f"snapspace: {one_line(message)}", err=True)
 
 
 def one_line(message: str) -> str:
-    """The message without line breaks, and with what a terminal would act on as escapes."""
+    """The message without line breaks, and with characters a terminal would act on escaped."""
     return printable(" ".join(line.strip() for line in message.splitlines() if line.strip()))
 
 
 def print_json(content: dict[str, Any]) -> None:
-    """The result as one JSON object on standard output; a number that is not finite is null."""
+    """Prints the result as one JSON object on standard output; not finite numbers are null."""
     click.echo(json.dumps(_finite(content), indent=2, allow_nan=False))
 
 
 def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
-    """A table of names and values on standard error."""
+    """Prints a table of names and values on standard error."""
     from rich.table import Table
     from rich.text import Text
 
@@ -55,7 +55,7 @@ def print_facts(title: str, facts: Iterable[tuple[str, str]]) -> None:
 
 
 def print_next(commands: Iterable[tuple[str, Sequence[str | Path]]]) -> None:
-    """What to try next and the command for it, as a line that can be copied."""
+    """Prints what to try next, with commands that can be copied."""
     click.echo("next:", err=True)
     for purpose, words in commands:
         click.echo(f"  # {printable(purpose)}", err=True)

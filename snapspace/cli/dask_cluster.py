@@ -1,4 +1,4 @@
-"""--dask: the samples go to a cluster."""
+"""--dask: samples are solved on a cluster."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ CONNECT_SECONDS = 10.0
 
 @contextmanager
 def dask_executor(address: str | None) -> Iterator[Executor | None]:
-    """The executor of the cluster whose scheduler is at an address, or None without one.
+    """Yields the executor of the cluster with a scheduler at `address`, or None without one.
 
     Raises
     ------
@@ -32,7 +32,7 @@ def dask_executor(address: str | None) -> Iterator[Executor | None]:
         yield None
         return
     if not re.search(r":\d+$", address):
-        raise ValueError(f"--dask {address}: this is no address such as tcp://127.0.0.1:8786")
+        raise ValueError(f"--dask {address}: this is not an address such as tcp://127.0.0.1:8786")
     client = _client(address)
     try:
         _check_workers(client, address)
@@ -45,7 +45,7 @@ def _client(address: str) -> Any:
     need_extra("dask", who="--dask")
     distributed: Any = import_module("distributed")
     with warnings.catch_warnings():
-        # a table of all packages; what matters here is checked by itself
+        # it would print a table of all packages; those that matter are checked below
         warnings.simplefilter("ignore", distributed.versions.VersionMismatchWarning)
         try:
             return distributed.Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
@@ -57,7 +57,7 @@ def _client(address: str) -> Any:
 
 
 def _check_workers(client: Any, address: str) -> None:
-    """ValueError unless there are workers, all with our version; a notice if they round else."""
+    """ValueError unless all workers have our version; a notice if their rounding differs."""
     workers = client.get_versions(packages=["snapspace"])["workers"]
     if not workers:
         raise ValueError(
@@ -71,7 +71,7 @@ def _check_workers(client: Any, address: str) -> None:
                 f"--dask {address}: worker {name} has {has}, but this is snapspace {__version__}; "
                 "install the same on all workers"
             )
-    # a worker that is lost by now gives no answer, and no samples either
+    # a worker that is lost by now gives no answer, but no samples either
     for name, built_for in sorted(client.run(core_level, on_error="ignore").items()):
         if built_for != level:
             notice(

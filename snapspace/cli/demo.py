@@ -1,4 +1,4 @@
-"""`snapspace demo`: the whole pipeline on a generated creature."""
+"""`snapspace demo`: runs the whole pipeline on a generated creature."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ..sampling import sample
 from ..snapshots import SolverOptions
 from ..validation import validate
 from .accurate_pipeline import chosen_build, decided_by_hand
-from .build_advice import tell_what_to_do
+from .build_advice import build_advice
 from .console import notice, print_json, print_next
 from .demo_creature import POSE_OF_OBJ, PROBLEM, contact_sheet, posed_shapes
 from .files import make_folder
@@ -57,13 +57,13 @@ VALIDATION_SAMPLES = 10
     "--samples",
     type=SAMPLE_COUNT,
     default=300,
-    show_default="as many as the accuracy takes; 300 with --dimension",
+    show_default="as many as the accuracy needs; 300 with --dimension",
 )
 @click.option(
     "--dimension",
     type=MODE_COUNT,
     default=40,
-    show_default="as many as the accuracy takes; 40 with --samples",
+    show_default="as many as the accuracy needs; 40 with --samples",
 )
 @click.option("--seed", type=SEED_NUMBER, default=0, show_default=True)
 @threads_option
@@ -96,7 +96,7 @@ def demo(
     }
     if missing("pictures"):
         del files["png"]
-        notice('notice: no picture: that needs pillow: pip install "snapspace[pictures]"')
+        notice('notice: no picture, which needs pillow: pip install "snapspace[pictures]"')
     check_dimension(dimension, samples)
     make_folder(output, option="--output")
     with spinner("generating the creature"):
@@ -129,7 +129,7 @@ def demo(
     }
     built = build(files["snapspace"], source=source, begin=begin)
     print_summary(built, include_unconverged=False)
-    better = tell_what_to_do(built, folders=[output], threads=threads)
+    better = build_advice(built, folders=[output], threads=threads)
     with sample_progress("full solutions", total=VALIDATION_SAMPLES) as progress:
         validation = validate(
             built.model, samples=VALIDATION_SAMPLES, threads=threads, progress=progress
@@ -171,6 +171,6 @@ def _suggestions(files: dict[str, Path]) -> list[tuple[str, list[str | Path]]]:
         ("drag it in the browser", ["view", model]),
         ("a pose of your own", ["pose", model, *head, *tail, *outputs]),
         ("more about its error", ["validate", model, "--samples", "30"]),
-        ("what is in it and how it was made", ["info", model]),
+        ("what it contains and how it was made", ["info", model]),
         ("a more accurate one", ["build", "--problem", files["json"], *finer]),
     ]

@@ -13,7 +13,7 @@ from ..pictures import render_row
 from ..reduction import PosingModel
 from .motions import Motion, as_parameters
 
-# Translations up to a tenth of the animal's length.
+# Translations are up to a tenth of the animal's length.
 PROBLEM: dict[str, Any] = {
     "mesh": "creature.msh",
     "material": {"model": DEFAULT_MATERIAL.kind, "lam": 1.0, "mu": 1.0},

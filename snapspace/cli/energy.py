@@ -1,4 +1,4 @@
-"""What the reduced energy asks of a build, before its samples are solved."""
+"""EnergyChoice: what the reduced energy needs, checked before samples are solved."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class EnergyChoice:
     """The energy that the user wants.
 
     energy, tets : as for `reduce`
-    dimension : of the subspace; None if an energy fraction decides
+    dimension : dimension of the subspace; None if an energy fraction decides
     """
 
     energy: Energy = "auto"
@@ -21,15 +21,15 @@ class EnergyChoice:
     dimension: int | None = None
 
     def check(self, problem: PosingProblem | InterpolationProblem, samples: int) -> None:
-        """ValueError for what `reduce` would say after the samples are solved."""
+        """Raises the ValueErrors that `reduce` would raise after the samples are solved."""
         # a subspace has at most as many dimensions as there are samples
         dimensions = (1, samples) if self.dimension is None else (self.dimension,)
         for dimension in dimensions:
             fewest = fewest_snapshots(problem, dimension, self.energy)
             if samples < fewest:
                 raise ValueError(
-                    f"the energy is a cubature, which is trained on {fewest} samples or more, but "
-                    f"there are {samples}; raise --samples"
+                    f"the energy is a cubature, which needs at least {fewest} samples, but there "
+                    f"are {samples}; raise --samples"
                 )
         kinds = {chosen_energy(problem, d, self.energy) for d in dimensions}
         if self.tets is not None and kinds == {"exact"}:
@@ -38,5 +38,5 @@ class EnergyChoice:
             )
 
     def tolerance(self, problem: PosingProblem) -> float | None:
-        """As `training_tolerance`; of an unknown dimension that of the smallest."""
+        """As `training_tolerance`; for an unknown dimension that of the smallest."""
         return training_tolerance(problem, self.dimension or 1, self.energy)

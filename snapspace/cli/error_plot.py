@@ -1,4 +1,4 @@
-"""The picture of an error curve: against the dimension, and against milliseconds."""
+"""The picture of an error curve: errors over dimension, and over solve time."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ import numpy as np
 from ..pictures import Curve, chart, save_png
 from ..validation import ErrorCurve
 
-#: A relative error of zero has no place on a logarithmic axis: rounding.
+#: Errors are at least this, since a logarithmic axis cannot show zero; it is rounding.
 LEAST = 1e-16
 
 
 def save_error_plot(path: Path, curve: ErrorCurve) -> Path:
-    """Writes two charts side by side as PNG.
+    """Writes two charts, side by side, as PNG.
 
     Left: median and 90th percentile of the errors, and the median of the projections, over d.
     Right: the median error over the median milliseconds of a solve from the rest or mean shape.

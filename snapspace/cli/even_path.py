@@ -1,4 +1,4 @@
-"""The path of `snapspace blend --path` by even motion of the shape: traced finely, then divided."""
+"""The path of `snapspace blend --path` with even motion: traced finely, then divided."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from .even_walk import EvenWalk, Jump, PathPoint, ShapePath
 
 FloatArray = NDArray[np.float64]
 
-#: Steps of the trace for each frame: lengths between its places are interpolated.
+#: Steps of the trace per frame; lengths between its points are interpolated.
 FINER = 2
-#: Even steps of frames: what no step of the weights divides, and is farther, is a jump.
+#: A motion of more than this many even steps that no step of the weights divides is a jump.
 JUMP = 4
 
 
 @dataclass(frozen=True)
 class PathFrame:
-    """Weights (poses,) of a frame, and of the traced shape before it, with its coordinates (d,)."""
+    """Weights (poses,) of a frame; weights and coordinates (d,) of the traced shape before it."""
 
     weights: FloatArray
     start_weights: FloatArray
@@ -39,7 +39,7 @@ class PathJump:
 
 @dataclass(frozen=True)
 class EvenPath:
-    """Frames of even motion, and where the shape jumps all the same."""
+    """Frames of even motion, and the jumps that cannot be divided."""
 
     frames: list[PathFrame]
     jumps: list[PathJump]
@@ -47,9 +47,12 @@ class EvenPath:
 
 @dataclass(frozen=True)
 class Leg:
-    """The way from a pose to the next one: places, how far the shape has moved there, jumps.
+    """The traced path from a pose to the next one.
 
-    A jump does not count: no frame is in its middle.
+    places : points of the path
+    lengths : (len(places),), how far the shape has moved at each point; jumps do not count, so no
+        frame lies inside one
+    jumps : jumps of the shape
     """
 
     places: list[PathPoint]
@@ -58,14 +61,14 @@ class Leg:
 
 
 def even_path(model: InterpolationModel, session: BlendingSession, frames: int) -> EvenPath:
-    """`frames` shapes from the first pose through all poses to the last, evenly in their motion.
+    """`frames` shapes of even motion, from the first pose through all poses to the last.
 
-    The vertex that moves most moves as far from frame to frame. With as many frames as poses every
-    pose is a frame, so steps of different legs differ by what rounding to whole steps needs.
+    The largest motion of a vertex is the same from frame to frame. With at least as many frames as
+    poses every pose is a frame, so steps of different legs differ by rounding to whole steps.
     """
     legs = _traced(model, session, frames)
     poses = len(legs) + 1
-    places = [(k, *_place_at(legs[k], way)) for k, way in _divided(legs, frames)]
+    places = [(k, *_place_at(legs[k], moved)) for k, moved in _divided(legs, frames)]
     places.append((len(legs) - 1, 1.0, legs[-1].places[-1]))
     shown = [
         PathFrame(_weights(poses, k, share), _weights(poses, k, near.share), near.q)
@@ -81,7 +84,7 @@ def even_path(model: InterpolationModel, session: BlendingSession, frames: int) 
 
 
 def _divided(legs: list[Leg], frames: int) -> list[tuple[int, float]]:
-    """The leg of each frame except the last one, and how far the shape has moved on it."""
+    """The leg of each frame except the last, and how far the shape has moved along it."""
     lengths = np.array([leg.lengths[-1] for leg in legs])
     if frames > len(legs):
         counts = whole_steps(lengths, frames - 1)
@@ -91,23 +94,23 @@ def _divided(legs: list[Leg], frames: int) -> list[tuple[int, float]]:
             for step in range(count)
         ]
     ends = np.cumsum(lengths)
-    ways = np.linspace(0, ends[-1], frames)[:-1]
-    numbers = np.minimum(np.searchsorted(ends, ways, side="right"), len(legs) - 1)
-    return list(zip(numbers.tolist(), (ways - (ends - lengths)[numbers]).tolist(), strict=True))
+    moved = np.linspace(0, ends[-1], frames)[:-1]
+    numbers = np.minimum(np.searchsorted(ends, moved, side="right"), len(legs) - 1)
+    return list(zip(numbers.tolist(), (moved - (ends - lengths)[numbers]).tolist(), strict=True))
 
 
 def whole_steps(lengths: FloatArray, steps: int) -> NDArray[np.int64]:
-    """Steps of each leg, one at least, in proportion to their lengths; `steps` in all."""
+    """Numbers of steps of the legs, at least one each, in proportion to their lengths."""
     counts = np.ones(len(lengths), dtype=np.int64)
     for _ in range(steps - len(lengths)):
-        counts[np.argmax(lengths / counts)] += 1  # where steps are longest
+        counts[np.argmax(lengths / counts)] += 1  # the leg with the longest steps
     return counts
 
 
 def _traced(model: InterpolationModel, session: BlendingSession, frames: int) -> list[Leg]:
     poses = len(model.problem.poses)
     shapes = model.problem.pose_shapes.reshape(poses, -1, 3)
-    # no path is shorter than these straight ways
+    # no path is shorter than these straight lines
     straight = np.linalg.norm(np.diff(shapes, axis=0), axis=2).max(axis=1)
     even = max(float(straight.sum()), 1e-9 * model.problem.mesh.diagonal) / (frames - 1)
     basis = model.subspace.basis
@@ -147,15 +150,15 @@ def _traced(model: InterpolationModel, session: BlendingSession, frames: int) ->
     return legs
 
 
-def _place_at(leg: Leg, way: float) -> tuple[float, PathPoint]:
-    """The share of a leg where the shape has moved so far, and the place before it."""
-    if way <= 0:
-        return 0.0, leg.places[0]  # a pose exactly, also if the shape rests there
-    after = int(np.searchsorted(leg.lengths[1:], way, side="right")) + 1
+def _place_at(leg: Leg, moved: float) -> tuple[float, PathPoint]:
+    """The share of a leg where the shape has moved this far, and the traced point before."""
+    if moved <= 0:
+        return 0.0, leg.places[0]  # exactly a pose, even if the shape rests there
+    after = int(np.searchsorted(leg.lengths[1:], moved, side="right")) + 1
     if after >= len(leg.places):
         return leg.places[-1].share, leg.places[-1]
     first, last = leg.places[after - 1], leg.places[after]
-    part = (way - leg.lengths[after - 1]) / (leg.lengths[after] - leg.lengths[after - 1])
+    part = (moved - leg.lengths[after - 1]) / (leg.lengths[after] - leg.lengths[after - 1])
     return first.share + part * (last.share - first.share), first
 
 

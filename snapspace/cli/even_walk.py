@@ -1,4 +1,4 @@
-"""A walk by even motions of a shape, as web/ui/even_walk.ts."""
+"""EvenWalk: steps along a path with even motions of the shape, as web/ui/even_walk.ts."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-#: A step that moves the shape too far all the same, although it is no longer than this.
+#: Shortest step; one that still moves the shape too far is not halved again.
 LEAST_STEP = 1e-4
-#: Where the shape rests a step is no more of the way.
+#: Longest step, for example where the shape rests.
 MOST_STEP = 0.25
-#: Of an even step.
+#: Accepted motions of a step, relative to an even step.
 SMALL, LARGE = 0.8, 1.25
-#: Of one step: a pace that is too slow is found over a few.
+#: How often one step may grow: a pace that is too slow is corrected over a few steps.
 GROWTHS = 3
 
 
 @dataclass(frozen=True)
 class PathPoint:
-    """A shape on the way, by its coordinates q (d,), at a share of it between 0 and 1."""
+    """A shape with coordinates q (d,), at a share of the path between 0 and 1."""
 
     share: float
     q: FloatArray
@@ -30,9 +30,10 @@ class PathPoint:
 
 @dataclass(frozen=True)
 class ShapePath:
-    """What is walked: shapes by their share of it, solved for from one near, and how far they move.
+    """The path to walk along.
 
-    A motion is the largest of a vertex between two shapes.
+    solve : gives the coordinates of the shape at a share, starting from a nearby shape
+    motion : the largest motion of a vertex between two shapes
     """
 
     solve: Callable[[float, FloatArray], FloatArray]
@@ -41,7 +42,7 @@ class ShapePath:
 
 @dataclass(frozen=True)
 class Jump:
-    """Between two places that are LEAST_STEP apart the shape moves so far."""
+    """A large motion of the shape between two points that are LEAST_STEP apart."""
 
     before: PathPoint
     after: PathPoint
@@ -51,21 +52,21 @@ class Jump:
 class EvenWalk:
     """Walks from share 0 to 1, with a motion of about `even` in each step.
 
-    A step solves once or twice where the shape moves smoothly. One that moves it too far is halved
-    down to LEAST_STEP, so that none solves more than 18 times. What still moves it farther than
-    `jump` is a jump: the energy has no minimum between.
+    A step solves once or twice if the shape moves smoothly. A step that moves it too far is halved,
+    down to LEAST_STEP, so no step solves more than 18 times. If the shape still moves farther than
+    `jump`, this is a jump: the energy has no minimum in between.
     """
 
     def __init__(
-        self, way: ShapePath, start: FloatArray, *, length: float, even: float, jump: float
+        self, path: ShapePath, start: FloatArray, *, length: float, even: float, jump: float
     ):
-        self._way, self._even, self._jump = way, even, jump
+        self._path, self._even, self._jump = path, even, jump
         self._pace = 1 / length if length > 0 else np.inf
         self.at = PathPoint(0.0, start)
 
     def step(self) -> Jump | None:
-        """Takes a step, a shorter one at the end of the way; the jump in it, if there is one."""
-        start, way, even = self.at, self._way, self._even
+        """Takes a step, perhaps a shorter one at the end; returns the jump in it, if any."""
+        start, path, even = self.at, self._path, self._even
         last = min(start.share + MOST_STEP, 1.0)
 
         def within(step: float) -> float:
@@ -74,8 +75,8 @@ class EvenWalk:
         near, far, moved, growths = start, None, 0.0, 0
         share = within(self._pace * even)
         while True:
-            tried = PathPoint(share, way.solve(share, near.q))
-            motion = way.motion(start.q, tried.q)
+            tried = PathPoint(share, path.solve(share, near.q))
+            motion = path.motion(start.q, tried.q)
             is_first = far is None
             if motion > LARGE * even:
                 far = tried
@@ -87,7 +88,7 @@ class EvenWalk:
                 if far.share - near.share <= 1.001 * LEAST_STEP:
                     return self._cross(start, near, far)
                 middle = (near.share + far.share) / 2
-                # the first time as if it moved evenly; what jumps does not, and is halved
+                # at first as if it moved evenly; a jump does not, and is halved
                 share = within((share - start.share) * even / motion) if is_first else middle
                 if not near.share < share < far.share:
                     share = middle
@@ -100,12 +101,12 @@ class EvenWalk:
         return None
 
     def _cross(self, start: PathPoint, near: PathPoint, far: PathPoint) -> Jump | None:
-        """Between `near` and `far` there is no smaller step."""
-        gap = self._way.motion(near.q, far.q)
+        """Steps from `near` to `far`, which cannot be divided; returns the jump if it is one."""
+        gap = self._path.motion(near.q, far.q)
         if gap <= self._jump:
-            self._go(far, self._way.motion(start.q, far.q))
+            self._go(far, self._path.motion(start.q, far.q))
             return None
-        self._go(near, self._way.motion(start.q, near.q))  # a jump tells nothing of the pace
+        self._go(near, self._path.motion(start.q, near.q))  # a jump says nothing about the pace
         self.at = far
         return Jump(near, far, gap)
 

@@ -1,4 +1,4 @@
-"""`snapspace export`: a model as a page that can be mailed."""
+"""`snapspace export`: writes a model as a page that can be mailed."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def export(
 ) -> None:
     """Write a model as one HTML page, to be posed or blended in any browser.
 
-    The file needs no network and no server: mail it, or put it beside a paper. --dimension makes it
-    smaller.
+    The file needs no network and no server: mail it, or publish it with a paper. --dimension makes
+    it smaller.
 
     \b
     Example:

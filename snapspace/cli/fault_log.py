@@ -1,4 +1,4 @@
-"""A fault of snapspace itself: its traceback goes to a file, one line to the user."""
+"""A fault of snapspace itself: the traceback goes to a file, and one line to the user."""
 
 from __future__ import annotations
 
@@ -17,13 +17,15 @@ def fault_line(error: Exception, words: Sequence[str]) -> str:
     """Writes a report with the traceback, and returns the line that names the file.
 
     The file is snapspace-fault-*.log in the folder for temporary files (TMPDIR, usually /tmp), new
-    for each fault and readable by the user only. Where none can be written the traceback goes to
+    for each fault and readable by the user only. If it cannot be written, the traceback goes to
     standard error.
 
     Parameters
     ----------
     error : Exception
-    words : of the command line
+        The fault.
+    words : sequence of str
+        The arguments of the command line.
     """
     trace = "".join(traceback.format_exception(error))
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__

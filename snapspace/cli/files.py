@@ -1,4 +1,4 @@
-"""Extensions by what they hold; a test keeps them equal to those of the packages."""
+"""File extensions by content; a test keeps them equal to those of the packages."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ FILMS = (".gif", ".mp4")
 
 
 def make_folder(folder: Path, *, option: str) -> None:
-    """Makes a folder for files to be written; ValueError names the option if that fails."""
+    """Creates a folder for output files; ValueError names the option if that fails."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise ValueError(
-            f"{folder}: cannot make the folder ({error.strerror}); give another {option}"
+            f"{folder}: cannot create the folder ({error.strerror}); give another {option}"
         ) from None

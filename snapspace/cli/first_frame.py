@@ -1,4 +1,4 @@
-"""A model is called built once a frame of it was solved."""
+"""check_first_frame: a model counts as built only if a frame of it can be solved."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ..reduction import InterpolationModel, PosingModel
 
 
 def check_first_frame(model: PosingModel | InterpolationModel) -> None:
-    """Solves one frame, away from rest, as whoever opens the model will.
+    """Solves one frame away from rest, as the model's users will.
 
-    Of posing that is half of every bound, of blending the middle of the first two poses.
+    For posing the motion is half of every bound, for blending the middle of the first two poses.
 
     Raises
     ------
     ValueError
-        If the frame cannot be solved, or a number of it is not finite.
+        If the frame cannot be solved, or has a number that is not finite.
     """
     if isinstance(model, PosingModel):
         session = model.session()
@@ -29,6 +29,6 @@ def check_first_frame(model: PosingModel | InterpolationModel) -> None:
     if not finite or report.status == "not_finite":
         raise ValueError(
             f"the model is not written: its first frame, in {model.dimension} dimensions, is not "
-            f"finite (status {report.status}, energy {report.value:g}); its samples are kept, take "
+            f"finite (status {report.status}, energy {report.value:g}); its samples are kept; try "
             "a lower --dimension or another --material"
         )

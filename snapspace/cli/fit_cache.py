@@ -1,4 +1,4 @@
-"""Filled and fitted poses on disk, so that an interrupted `interpolate` can go on."""
+"""FitCache: filled and fitted poses on disk, so an interrupted `interpolate` can resume."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from ..snapshots import CheckpointNotice
 
 FloatArray = NDArray[np.float64]
 Settings = dict[str, Any]
-# What is raised by content that was not written by this version.
+# Errors that content raises which this version did not write.
 _UNREADABLE = (KeyError, TypeError, ValueError)
 
 
 class FitCache:
-    """A folder with one file for the tets and one for each fitted pose, named by what made them.
+    """A folder with one file for the tets and one for each fitted pose, named by their inputs.
 
-    A file is complete or not there, and has a checksum. One that is damaged is made again, with a
+    A file is complete or absent, and has a checksum. A damaged one is made again, with a
     `CheckpointNotice`.
     """
 
@@ -44,9 +44,9 @@ class FitCache:
     def load_tets(
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings
     ) -> TetMesh | None:
-        """The tets that fill a surface, if they are there."""
+        """The tets that fill a surface, or None if they are not saved."""
         path = self._path(_key("tets", settings, vertices, faces))
-        with _told(path, "the surface is filled again"):
+        with _skipping_unusable(path, "the surface is filled again"):
             arrays, _ = self._load(path)
             return TetMesh(arrays["vertices"], arrays["tets"])
         return None
@@ -54,16 +54,16 @@ class FitCache:
     def save_tets(
         self, vertices: FloatArray, faces: NDArray[np.int32], settings: Settings, mesh: TetMesh
     ) -> None:
-        """Keeps the tets that fill a surface."""
+        """Saves the tets that fill a surface."""
         key = _key("tets", settings, vertices, faces)
         self._save(key, {"vertices": mesh.vertices, "tets": mesh.tets}, {})
 
     def load_fit(
         self, mesh: TetMesh, surface: EmbeddedSurface, target: FloatArray, settings: Settings
     ) -> tuple[FloatArray, PoseFit] | None:
-        """The shape (n, 3) fitted to a target (s, 3), and its report, if they are there."""
+        """The shape (n, 3) fitted to a target (s, 3) and its report, or None if not saved."""
         path = self._path(_fit_key(mesh, surface, target, settings))
-        with _told(path, "its pose is fitted again"):
+        with _skipping_unusable(path, "its pose is fitted again"):
             arrays, header = self._load(path)
             shape, fit = arrays["shape"], PoseFit(**json.loads(header["fit"]))
             if shape.shape != mesh.vertices.shape:
@@ -80,12 +80,12 @@ class FitCache:
         shape: FloatArray,
         fit: PoseFit,
     ) -> None:
-        """Keeps a fitted shape and its report."""
+        """Saves a fitted shape and its report."""
         key = _fit_key(mesh, surface, target, settings)
         self._save(key, {"shape": shape}, {"fit": json.dumps(asdict(fit))})
 
     def remove(self) -> None:
-        """Deletes what is kept, after the result is safe elsewhere; files of others stay."""
+        """Deletes the saved files when the result is safe elsewhere; other files stay."""
         with contextlib.suppress(OSError):
             for path in self.folder.glob("*.safetensors"):
                 path.unlink()
@@ -95,12 +95,12 @@ class FitCache:
         return self.folder / f"{key}.safetensors"
 
     def _load(self, path: Path) -> tuple[dict[str, NDArray[Any]], dict[str, str]]:
-        """Arrays and header; FileNotFoundError, or ValueError for a damaged file or another's."""
+        """Arrays and header; FileNotFoundError, or ValueError if damaged or of other inputs."""
         if not path.is_file():
             raise FileNotFoundError(path)
         arrays, header = read_checked(path)
         if header["key"] != path.stem:
-            raise ValueError("it was made of something else")
+            raise ValueError("it was made from other inputs")
         return arrays, header
 
     def _save(self, key: str, arrays: dict[str, NDArray[Any]], header: dict[str, str]) -> None:
@@ -108,14 +108,14 @@ class FitCache:
             try:
                 self.folder.mkdir(parents=True, exist_ok=True)
             except OSError as error:
-                raise ValueError(f"{self.folder}: cannot make the folder ({error})") from None
+                raise ValueError(f"{self.folder}: cannot create the folder ({error})") from None
             flushed_folder(self.folder.parent)
         write_checked(self._path(key), arrays, {**header, "key": key})
 
 
 @contextlib.contextmanager
-def _told(path: Path, consequence: str) -> Iterator[None]:
-    """Leaves the block for a file that is missing, and with a notice for one that is damaged."""
+def _skipping_unusable(path: Path, consequence: str) -> Iterator[None]:
+    """Leaves the block silently if a file is missing, and with a notice if it is damaged."""
     try:
         yield
     except FileNotFoundError:
@@ -134,7 +134,7 @@ def _fit_key(
 
 
 def _key(kind: str, settings: Settings, *arrays: NDArray[Any]) -> str:
-    # another version may fill and fit in another way
+    # another version may fill and fit differently
     content = {**settings, "snapspace": __version__}
     digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode())
     for array in arrays:

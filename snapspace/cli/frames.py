@@ -1,4 +1,4 @@
-"""Where the frames of a path go: a folder of numbered files, or a film."""
+"""The output of a path's frames: a folder of numbered files, or a film."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ format_option = click.option(
     "--format",
     "kind",
     type=click.Choice(FORMATS),
-    help="Of the files in the folder of --path [default: obj].",
+    help="Format of the files in the folder of --path [default: obj].",
 )
 rate_option = click.option(
     "--fps",
@@ -35,7 +35,7 @@ def is_film(output: Path | None) -> bool:
 def check_frames_output(
     output: Path | None, *, kind: str | None, frames_per_second: float | None
 ) -> None:
-    """ValueError unless frames can be written there: before any is solved. Makes the folder."""
+    """Creates the folder; ValueError unless frames can be written, before any is solved."""
     film = is_film(output)
     if kind is not None and film:
         raise ValueError(f"--format {kind} is for files in a folder, but -o {output} is a film")
@@ -54,16 +54,16 @@ def check_frames_output(
 
 
 def _check_folder(output: Path) -> None:
-    """ValueError for a name with an extension, unless such a folder is there."""
+    """Raises ValueError for a name with an extension, unless it is an existing folder."""
     if output.suffix and not output.is_dir():
         raise ValueError(
-            f"{output}: frames go to a film, {' or '.join(FILMS)}, or to a folder; give a name "
+            f"{output}: frames go to a film ({' or '.join(FILMS)}) or to a folder; give a name "
             "without an extension for a new folder"
         )
 
 
 def notice_old_frames(folder: Path, frames: int) -> None:
-    """Says so where files of a longer path would follow those of this one."""
+    """Prints a notice if frames of an earlier, longer path would follow these."""
     old = [path for path in folder.glob("frame-*.*") if _number(path) >= frames]
     if old:
         notice(f"notice: {folder} also holds {len(old)} files of a longer path; delete them")

@@ -1,4 +1,4 @@
-"""given_options: what the user chose on the command line, for the record in a model."""
+"""given_options: the options on the command line, for the record in a model."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ _HOW = {"--threads", "--dask", "--json"}
 
 
 def given_options() -> dict[str, Any]:
-    """Options of the running command with their values, without files and folders.
+    """Options on the command line with their values, without files and folders.
 
-    With the names of the files they make the same model again; a flag has the value true.
+    Together with the names of the files they make the same model again. A flag has the value true.
     """
     given: dict[str, Any] = {}
     for option in chosen_parameters():
@@ -26,7 +26,7 @@ def given_options() -> dict[str, Any]:
 
 
 def chosen_parameters() -> list[click.Parameter]:
-    """Options and arguments of the running command that are on its command line."""
+    """Options and arguments of the running command that the user gave."""
     context = click.get_current_context()
     return [
         parameter

@@ -1,4 +1,4 @@
-"""`snapspace info`: what a file holds."""
+"""`snapspace info`: shows what a file contains."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from .problem_info import problem_file_info
 Facts = list[tuple[str, str]]
 
 
-@click.command(short_help="Show what a file holds.")
+@click.command(short_help="Show what a file contains.")
 @click.argument("file", type=FILE)
 @json_option
 def info(file: Path, as_json: bool) -> None:
-    """Show what a model, a mesh, a surface or a problem file holds.
+    """Show what a model, a mesh, a surface or a problem file contains.
 
-    Of a tet mesh that is not valid it says why, and what `build --repair` would do.
+    For an invalid tet mesh it says why, and what `build --repair` would do.
 
     \b
     Examples:

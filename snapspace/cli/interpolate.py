@@ -1,4 +1,4 @@
-"""`snapspace interpolate`: several poses become a model file."""
+"""`snapspace interpolate`: makes a model file from several poses."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from ..problem import InterpolationProblem, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build import check_output
-from .build_advice import Suggestions, tell_what_to_do
+from .build_advice import Suggestions, build_advice
 from .choices import WEIGHT_SAMPLINGS, Choices, choice_options
 from .console import console, notice, print_json, print_next
 from .dask_cluster import dask_executor
@@ -46,21 +46,22 @@ SAMPLES, DIMENSION = 40, 30
     "--tets",
     type=FILE,
     metavar="FILE",
-    help="Tet mesh of the first surface: its first vertices are the surface's, or it encloses it "
+    help="Tet mesh of the first surface: it begins with the surface's vertices, or encloses it "
     "[default: the surface is filled].",
 )
 @click.option(
     "--edge-length",
     type=float,
     metavar="SHARE",
-    help="Of the tets that fill the surface, relative to the diagonal.",
+    help="Edge length of the tets that fill the surface, relative to the diagonal.",
 )
 @click.option(
     "--deviation",
     type=float,
     default=DEVIATION,
     show_default=True,
-    help="Surface fits end at this rms distance, relative to the diagonal; a larger one is softer.",
+    help="Rms distance at which surface fits end, relative to the diagonal; a larger one is "
+    "softer.",
 )
 @click.option(
     "--scale",
@@ -71,7 +72,7 @@ SAMPLES, DIMENSION = 40, 30
     "is so large that the unit of length must differ (auto).",
 )
 @click.option(
-    "--accept-inverted", is_flag=True, help="Go on with inverted tets in poses after the first."
+    "--accept-inverted", is_flag=True, help="Accept inverted tets in poses after the first."
 )
 @click.option(
     "--save-poses", type=FILE, metavar="DIR", help="Also write the tets of every pose, as .msh."
@@ -81,7 +82,7 @@ SAMPLES, DIMENSION = 40, 30
     type=click.FloatRange(min=0.0),
     default=0.0,
     show_default=True,
-    help="Also sample outside of the simplex, enlarged by this share.",
+    help="Sample a simplex that is larger by this share.",
 )
 @click.option(
     "--material",
@@ -89,7 +90,7 @@ SAMPLES, DIMENSION = 40, 30
     type=click.Choice(sorted(MATERIALS)),
     default=StableNeoHookean.kind,
     show_default=True,
-    help="What the body is made of; stvk is the paper's.",
+    help="Material of the body; stvk is the paper's.",
 )
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
@@ -99,7 +100,7 @@ SAMPLES, DIMENSION = 40, 30
     default=BLENDS.target,
     show_default=True,
     metavar="SHARE",
-    help="Mean error of unseen blends. Decides samples and dimension where none of --samples, "
+    help="Mean error of unseen blends. Decides samples and dimension if none of --samples, "
     "--dimension, --energy-fraction, --sampling, --extrapolation, "
     "--cubature-tets is given, except for stvk.",
 )
@@ -107,11 +108,12 @@ SAMPLES, DIMENSION = 40, 30
     "--cubature-tets",
     type=TET_COUNT,
     metavar="N",
-    help="Of the reduced energy, a sum over few tets [default: 15 for each mode, at most 1000].",
+    help="Number of tets of the reduced energy, a sum over a few tets [default: 15 per mode, at "
+    "most 1000].",
 )
 @budget_option
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
-@click.option("--repair", is_flag=True, help="Mend curable faults of the mesh of --tets.")
+@click.option("--repair", is_flag=True, help="Repair the mesh of --tets if it can be repaired.")
 @threads_option
 @dask_option
 @json_option
@@ -140,13 +142,13 @@ def interpolate(
     """Build a model that blends poses of one object along elastic paths.
 
     Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
-    the same tets; vertex i of all poses is one point of the object. Each may be in a frame of its
-    own. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
+    the same tets; vertex i of all poses is the same point of the object. Each pose may have its own
+    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
 
-    Samples and dimension follow from the error of blends that the model was not made of, see
-    --target-error, unless you give them.
+    Samples and dimension follow from the error of unseen blends, see --target-error, unless you
+    give them.
 
-    Ctrl-C keeps finished poses and samples beside the model; the same command goes on from there.
+    Ctrl-C keeps finished poses and samples beside the model; the same command resumes from there.
 
     \b
     Examples:
@@ -159,8 +161,8 @@ def interpolate(
     if len(files) < 2:
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     if tets is not None and edge_length is not None:
-        raise ValueError("--edge-length is for tets that are made here; leave it or --tets out")
-    # what is wrong with an option is said before the work begins
+        raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
+    # faults of options are reported before the work begins
     material = material_class(kind).from_lame(lam=lam, mu=mu)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
@@ -170,14 +172,14 @@ def interpolate(
     exact = material.exact_degree == 4
     if exact and cubature_tets is not None:
         raise ValueError(
-            "--cubature-tets is for materials whose reduced energy is a sum over few tets; that of "
-            "stvk is exact"
+            "--cubature-tets is for materials whose reduced energy is a sum over a few tets, but "
+            "that of stvk is exact; leave it out"
         )
     by_hand = decided_by_hand(exact=exact, others=("extrapolation", "cubature_tets"))
     if not exact and choices.samples < FEWEST_BLENDS:
         raise ValueError(
-            f"the energy is a cubature, which is trained on {FEWEST_BLENDS} samples or more, but "
-            f"there is {choices.samples}; raise --samples, or take --material stvk"
+            f"the energy is a cubature, which needs at least {FEWEST_BLENDS} samples, but there is "
+            f"{choices.samples}; raise --samples, or use --material stvk"
         )
     check_deviation(deviation)
     if save_poses is not None:
@@ -234,7 +236,7 @@ def interpolate(
     cache.remove()
     print_summary(built, include_unconverged=choices.include_unconverged)
     inputs = [*files, *([] if tets is None else [tets])]
-    better = tell_what_to_do(built, folders=[file.parent for file in inputs], threads=threads)
+    better = build_advice(built, folders=[file.parent for file in inputs], threads=threads)
     _print_next(output, len(pose_set.poses), better)
     if as_json:
         print_json({**built.as_json(), "poses": len(pose_set.poses), "fits": source["fits"]})
@@ -255,7 +257,7 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
         table.add_column(name, justify="right")
     for fit in fits:
         table.add_row(
-            Text(printable(fit.name)),  # and no markup
+            Text(printable(fit.name)),  # not as markup
             f"{fit.rms:.2g}",
             f"{fit.max:.2g}",
             str(fit.inverted_tets),
@@ -283,7 +285,7 @@ def _print_next(output: Path, poses: int, better: Suggestions) -> None:
             ("how far it is from the full solution", ["validate", output]),
             ("one blend", ["blend", output, "--weights", equal, "-o", "blend.obj"]),
             (
-                "a path through all poses, beside the straight one",
+                "a path through all poses, with the linear one",
                 ["blend", output, "--path", "30", "-o", "frames", "--linear", "--png", "path.png"],
             ),
             *better,

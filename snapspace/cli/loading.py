@@ -1,4 +1,4 @@
-"""Model files as the commands take them."""
+"""Loading model files for the commands."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from ..reduction import InterpolationModel, PosingModel
 
 
 def load_leading(path: Path, dimension: int | None) -> PosingModel | InterpolationModel:
-    """The model of a file, on its first `dimension` modes if that is given."""
+    """Loads a model file, with its first `dimension` modes if that is given."""
     return leading_of(load(path), path, dimension)
 
 
 def leading_of(
     model: PosingModel | InterpolationModel, path: Path, dimension: int | None
 ) -> PosingModel | InterpolationModel:
-    """The model of a file on its first `dimension` modes if that is given, else itself."""
+    """A loaded model with its first `dimension` modes, or as it is if that is None."""
     if dimension is None:
         return model
     if dimension > model.dimension:
@@ -28,7 +28,7 @@ def leading_of(
 
 
 def load_posing(path: Path, dimension: int | None) -> PosingModel:
-    """A model with handles; ValueError for one of interpolation."""
+    """Loads a model with handles; ValueError for one that blends poses."""
     model = load_leading(path, dimension)
     if not isinstance(model, PosingModel):
         raise ValueError(
@@ -38,7 +38,7 @@ def load_posing(path: Path, dimension: int | None) -> PosingModel:
 
 
 def load_interpolation(path: Path, dimension: int | None) -> InterpolationModel:
-    """A model of several poses; ValueError for one with handles."""
+    """Loads a model that blends poses; ValueError for one with handles."""
     model = load_leading(path, dimension)
     if not isinstance(model, InterpolationModel):
         raise ValueError(

@@ -1,4 +1,4 @@
-"""The program `snapspace`: its commands, and what becomes of errors."""
+"""The program `snapspace`: its commands, and how it reports errors."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Runs the program and returns its exit code.
 
     Mistakes of the user (ValueError from the library, wrong usage) become one line on standard
-    error. Anything else is a fault of ours: also one line, which names a file with the traceback.
-    SIGTERM ends commands as Ctrl-C does.
+    error. Anything else is a fault of Snapspace: also one line, which names a file with the
+    traceback. SIGTERM ends commands as Ctrl-C does.
     """
     words = list(sys.argv[1:] if arguments is None else arguments)
     with terminated_as_interrupted() as termination:
@@ -83,11 +83,11 @@ def _run(words: list[str]) -> int:
     except ValueError as error:
         return _refuse(str(error))
     except MemoryError as error:
-        return _refuse(f"not enough memory ({error}); take fewer samples or a smaller dimension")
+        return _refuse(f"not enough memory ({error}); use fewer samples or a smaller dimension")
     except click.Abort:
         raise
     except BrokenPipeError:
-        # the reader has gone; Python would complain again when it closes the pipe
+        # the reader is gone; Python would report that again when it closes the pipe
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return BROKEN_PIPE
     except Exception as error:

@@ -1,4 +1,4 @@
-"""Figures of materials."""
+"""Numbers about materials, for `info`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..material import MATERIALS, Material
 
-#: Sets of moduli, by name: one number, or the least and the largest of all tets.
+#: The model, and moduli by name: one number, or the least and the largest of all tets.
 Figures = dict[str, Any]
 
 
@@ -27,7 +27,7 @@ def material_figures(material: Material) -> Figures:
 
 
 def material_text(figures: Figures) -> str:
-    """The same for people."""
+    """The same as text for the user."""
     moduli = [f"{name} {_text(value)}" for name, value in figures.items() if name != "model"]
     return ", ".join([MATERIALS[figures["model"]].title, *moduli])
 

@@ -1,4 +1,4 @@
-"""Figures of tet meshes and surfaces."""
+"""Numbers about tet meshes and surfaces, for `info`."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Info = tuple[dict[str, Any], list[tuple[str, str]]]
 
 
 def mesh_info(file: Path) -> Info:
-    """JSON content and facts of a tet mesh file; one that is not valid is described as repaired.
+    """JSON content and facts of a tet mesh file; an invalid one is described as repaired.
 
     Raises
     ------
     ValueError
-        If the file cannot be read, or holds what no repair can mend.
+        If the file cannot be read, or has faults that cannot be repaired.
     """
     fault: str | None = None
     repairs: list[str] = []
@@ -74,7 +74,7 @@ def mesh_figures(mesh: TetMesh) -> dict[str, Any]:
 
 
 def mesh_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    """The same for people."""
+    """The same as lines for the user."""
     surface, angles = figures["surface"], figures["dihedral_degrees"]
     sizes, (low, high) = figures["tet_volume"], figures["bounds"]
     slivers = angles["tets_below_5"]
@@ -121,7 +121,7 @@ def surface_info(file: Path) -> Info:
 
 
 def _is_closed(faces: NDArray[np.int32]) -> bool:
-    """Whether every directed edge comes as often as its reverse."""
+    """Whether every directed edge occurs as often as its reverse."""
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.int64)
     stride = int(faces.max()) + 1
     ahead = np.sort(edges[:, 0] * stride + edges[:, 1])

@@ -1,4 +1,4 @@
-"""Figures of model files."""
+"""Numbers about model files, for `info`."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def model_info(file: Path) -> Info:
 
 
 def energy_text(model: ReducedModel) -> str:
-    """What the reduced energy is."""
+    """The kind of the reduced energy, as text."""
     if model.cubature is not None:
         return f"cubature of {len(model.cubature.tets)} tets"
     if isinstance(model, InterpolationModel):
@@ -69,9 +69,9 @@ def energy_text(model: ReducedModel) -> str:
 
 
 def _decay(energies: NDArray[np.float64] | None, dimension: int) -> str:
-    """The snapshots' relative error beyond d modes: the root of the share of their energy."""
+    """Relative error of the snapshots' projections onto d modes, for some d, as text."""
     if energies is None:
-        return "not known: the basis is not from snapshots"
+        return "unknown: the basis is not from snapshots"
     tails = np.cumsum(energies[::-1])[::-1] / energies.sum()
     shown = sorted({d for d in _DIMENSIONS if d < dimension} | {dimension})
     errors = ((d, float(np.sqrt(tails[d])) if d < len(tails) else 0.0) for d in shown)
@@ -79,7 +79,7 @@ def _decay(energies: NDArray[np.float64] | None, dimension: int) -> str:
 
 
 def _provenance_facts(record: dict[str, Any]) -> list[tuple[str, str]]:
-    """What is recorded, for models of any origin: entries that are not there are left out."""
+    """The recorded facts, for models of any origin: missing entries are left out."""
     facts = []
     for key in ("problem", "mesh", "tets"):
         if isinstance(record.get(key), str):

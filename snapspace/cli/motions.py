@@ -22,17 +22,17 @@ _OPTIONS = ("handle", "euler", "translate")
 
 @dataclass(frozen=True)
 class Motion:
-    """Extrinsic Euler angles in degrees about x, y, z, and a translation; None was not given."""
+    """Extrinsic Euler angles in degrees about x, y, z, and a translation; None if not given."""
 
     euler: Vector | None = None
     translation: Vector | None = None
 
 
 class MotionCommand(click.Command):
-    """A command that remembers in which order --handle, --euler and --translate came."""
+    """A command that remembers the order of --handle, --euler and --translate."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Parses as usual, and notes the order of the three options."""
+        """Parses as usual, and records the order of the three options."""
         _, _, order = self.make_parser(ctx).parse_args(args=list(args))
         ctx.meta[_ORDER] = [option.name for option in order if option.name in _OPTIONS]
         return super().parse_args(ctx, args)
@@ -45,12 +45,12 @@ def motions_in_order(ctx: click.Context) -> dict[str, Motion]:
 
 
 def collect_motions(items: Sequence[tuple[str, Any]]) -> dict[str, Motion]:
-    """Motions by handle of ("handle", name), ("euler", vector), ("translate", vector) in order.
+    """Motions by handle, from ("handle", name), ("euler", vector), ("translate", vector) in order.
 
     Raises
     ------
     ValueError
-        For a handle given twice, a motion before any handle, or two of a kind for one handle.
+        For a handle given twice, a motion before any handle, or two of one kind for a handle.
     """
     motions: dict[str, Motion] = {}
     handle = None
@@ -78,11 +78,11 @@ def collect_motions(items: Sequence[tuple[str, Any]]) -> dict[str, Motion]:
 def as_parameters(
     problem: PosingProblem, motions: dict[str, Motion]
 ) -> tuple[FloatArray, FloatArray]:
-    """Parameters (dimension,) that deform alike, and the rigid map (3, 4) that carries the result.
+    """Parameters (dimension,) of the same deformation, and a rigid map (3, 4) of the result.
 
-    The map is that of the first handle: only motions relative to it deform. If the first handle
-    stays, it is the identity and the parameters are the motions themselves. ValueError for an
-    unknown handle.
+    The map is the motion of the first handle: only motions relative to it deform. If the first
+    handle does not move, the map is the identity and the parameters are the motions themselves.
+    ValueError for an unknown handle.
     """
     wanted = np.zeros((len(problem.handles), 6))
     for name, motion in motions.items():
@@ -97,7 +97,7 @@ def as_parameters(
     shift = centers[0] + wanted[0, :3] - turn.apply(centers[0])
     places = turn.inv().apply(centers[1:] + wanted[1:, :3] - shift)
     with warnings.catch_warnings():
-        # at a pitch of 90 degrees the angles are not unique, and any of them will do
+        # at a pitch of 90 degrees the angles are not unique; any of them are right
         warnings.filterwarnings("ignore", message="Gimbal lock")
         angles = (turn.inv() * turns[1:]).as_euler("xyz")
     carrier = np.column_stack([turn.as_matrix(), shift])
@@ -105,7 +105,7 @@ def as_parameters(
 
 
 def beyond_domain(problem: PosingProblem, parameters: FloatArray) -> list[str]:
-    """Moving handles whose motion is outside of the domain that was sampled."""
+    """Names of moving handles whose motion is outside the sampled domain."""
     outside = np.abs(parameters) > problem.domain.half_widths * (1 + 1e-9) + 1e-9
     rows = np.flatnonzero(outside.reshape(-1, 6).any(axis=1))
     return [problem.handles.names[1 + row] for row in rows]

@@ -1,4 +1,4 @@
-"""next_build: the command that builds the next better model."""
+"""next_build: the command that builds a better model."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .given_options import as_words
 
 Model = PosingModel | InterpolationModel
 
-#: The error that is aimed at, relative to the present one.
+#: The wanted error, relative to the current one.
 BETTER = 0.5
 _DECIDING = {f"--{name.replace('_', '-')}" for name in (*DECIDING, "energy", "tets")}
 
@@ -24,16 +24,20 @@ _DECIDING = {f"--{name.replace('_', '-')}" for name in (*DECIDING, "energy", "te
 def next_build(
     option: NextOption, model: Model, error: float, file: Path, *, folders: Sequence[Path] = ()
 ) -> list[str] | None:
-    """The words after `snapspace` for an option; None where the model does not tell its files.
+    """The words after `snapspace` for an option; None if the model does not name its files.
 
     Parameters
     ----------
-    option : NextOption of the model
+    option : NextOption
+        The option that improves the model most.
     model : PosingModel or InterpolationModel
-    error : typical error of unseen parameters, the median of motions or the mean of blends
+        The model to improve.
+    error : float
+        Typical error at unseen parameters, the median of motions or the mean of blends.
     file : Path
-        Of the model. The next one is written beside it, and its input is looked for there.
-    folders : of the input, beside this folder and the present one
+        The model's file. The next one is written beside it, and its input is looked for there.
+    folders : sequence of Path
+        Further folders of the input, besides the file's folder and the current one.
     """
     record = model.provenance
     inputs = _inputs(record, [*folders, file.parent, Path()])
@@ -48,7 +52,7 @@ def next_build(
 
 
 def _inputs(record: dict[str, Any], folders: Sequence[Path]) -> list[str] | None:
-    """The command with its files, None if one is not found."""
+    """The command with its files; None if a file is not found."""
     if isinstance(record.get("problem"), str):
         problem = _found(record["problem"], folders)
         if problem is None:
@@ -76,7 +80,7 @@ def _found(name: str, folders: Sequence[Path]) -> Path | None:
 def _options(
     option: NextOption, model: Model, error: float, given: dict[str, Any]
 ) -> dict[str, Any]:
-    """The options of the model with those that the advice changes."""
+    """The model's options, changed as the advice says."""
     given.pop("--budget", None)
     blends = isinstance(model, InterpolationModel)
     tets = "--cubature-tets" if blends else "--tets"
@@ -98,7 +102,7 @@ def _options(
 
 
 def _can_aim(model: Model, given: dict[str, Any]) -> bool:
-    """Whether --target-error may reach more: not where it failed, or where it is not possible."""
+    """Whether --target-error may help: not if it failed before or is not possible."""
     accurate = model.provenance.get("accurate")
     failed = isinstance(accurate, dict) and not accurate.get("reached", False)
     exact = model.problem.material.exact_degree == 4
@@ -106,7 +110,7 @@ def _can_aim(model: Model, given: dict[str, Any]) -> bool:
 
 
 def _target(model: Model, error: float) -> float:
-    """Half of the error in one digit, but no more than what is usual."""
+    """Half of the error, in one digit, but at most the usual target."""
     wanted = min(BETTER * error, plan_of(model.problem).target)
     digit = 10.0 ** floor(log10(wanted))
     return float(f"{floor(wanted / digit + 1e-9) * digit:.1g}")

@@ -1,4 +1,4 @@
-"""Options that several commands share, and the values they take."""
+"""Options that several commands share, and the values that they accept."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 Vector = tuple[float, float, float]
 
 FILE = click.Path(path_type=Path)
-# Whole numbers, with limits far above what anybody takes: larger ones do not fit in the core's
-# integers, or in any memory.
+# Whole numbers, with limits far above any use: larger ones do not fit in the core's integers, or in
+# any memory.
 SAMPLE_COUNT = click.IntRange(1, 1_000_000)
 MODE_COUNT = click.IntRange(1, 10_000)
 TET_COUNT = click.IntRange(1, 2**31 - 1)
@@ -58,7 +58,7 @@ def vector_option(name: str, text: str) -> Callable[[Command], Command]:
 
 
 def json_option(command: Command) -> Command:
-    """--json as the parameter as_json."""
+    """Adds --json, as the parameter as_json."""
     return click.option(
         "--json",
         "as_json",
@@ -68,17 +68,17 @@ def json_option(command: Command) -> Command:
 
 
 def threads_option(command: Command) -> Command:
-    """--threads, None for all."""
+    """Adds --threads, None for all."""
     return click.option(
         "--threads",
         type=THREAD_COUNT,
         metavar="N",
-        help="Threads [default: all]. The result does not depend on them.",
+        help="Number of threads [default: all]. The result does not depend on it.",
     )(command)
 
 
 def dask_option(command: Command) -> Command:
-    """--dask, None for this machine."""
+    """Adds --dask, None for this machine."""
     return click.option(
         "--dask",
         metavar="ADDRESS",
@@ -88,7 +88,7 @@ def dask_option(command: Command) -> Command:
 
 
 def leading_option(command: Command) -> Command:
-    """--dimension of a model that exists already."""
+    """Adds --dimension for an existing model."""
     return click.option(
         "--dimension",
         type=MODE_COUNT,
@@ -98,7 +98,7 @@ def leading_option(command: Command) -> Command:
 
 
 def up_option(command: Command) -> Command:
-    """--up of pictures."""
+    """Adds --up for pictures."""
     return click.option(
         "--up",
         type=click.Choice(["x", "y", "z"]),

@@ -32,7 +32,7 @@ from .unseen import judged, unseen_record, with_estimates
 class Built:
     """A model, the snapshots it comes from, its file, and seconds by stage.
 
-    validation : at unseen parameters; None if no full solution converged there
+    validation : its errors at unseen parameters; None if no full solution converged there
     """
 
     model: PosingModel | InterpolationModel
@@ -42,7 +42,7 @@ class Built:
     validation: Validation | None
 
     def as_json(self) -> dict[str, Any]:
-        """The figures with the keys of `snapspace build --json`."""
+        """The numbers with the keys of `snapspace build --json`."""
         problem, reports = self.model.problem, self.snapshots.reports
         return {
             "vertices": len(problem.mesh.vertices),
@@ -73,24 +73,24 @@ def build_model(
     begin: float | None = None,
     executor: Executor | None = None,
 ) -> Built:
-    """Solves the samples, makes subspace and reduced model, judges it, and writes the model file.
+    """Solves the samples, makes the reduced model, measures its errors and writes its file.
 
-    Finished samples are in a folder beside `output` until the file is written; the same call goes
-    on from them.
+    Finished samples are in a folder beside `output` until the file is written; the same call
+    resumes from them.
 
     Parameters
     ----------
     problem, recipe : what to build
     output : Path
-        Checked by the caller, since this takes long.
+        The model file; the caller checks it first, since the work takes long.
     source : dict
-        Names of the files it comes from, for the record.
+        Names of the files that the problem comes from, for the record.
     surface : EmbeddedSurface, optional
-        The user's surface in the tets.
+        The user's surface, embedded in the tets.
     begin : float, optional
         `time.perf_counter()` when the work began, for the total. Default: now.
     executor : Executor, optional
-        Its workers solve the samples. Default: this machine's threads.
+        An executor whose workers solve the samples. Default: this machine's threads.
 
     Raises
     ------
@@ -98,14 +98,14 @@ def build_model(
         If the energy is not possible, the basis cannot be made, or the first frame of the model is
         not finite; then the samples are kept.
     KeyboardInterrupt
-        On Ctrl-C, with a line that says what is kept.
+        On Ctrl-C, with a line that says how many samples are kept.
     """
     begin = time.perf_counter() if begin is None else begin
     choice = EnergyChoice(energy=recipe.energy, tets=recipe.tets, dimension=recipe.dimension)
     choice.check(problem, recipe.samples.count)
     checkpoint = Checkpoint.beside(output, recipe.samples.key(problem, recipe.solver))
     seconds: dict[str, float] = {}
-    with telling_what_is_kept(lambda: (recipe.samples.finished(checkpoint), recipe.samples.count)):
+    with report_kept_samples(lambda: (recipe.samples.finished(checkpoint), recipe.samples.count)):
         if isinstance(problem, InterpolationProblem):
             with stage(seconds, "mean shape"), spinner("mean shape"):
                 problem.solve_mean_shape(threads=recipe.threads)
@@ -141,8 +141,8 @@ def build_model(
 
 
 @contextmanager
-def telling_what_is_kept(finished: Callable[[], tuple[int, int]]) -> Iterator[None]:
-    """Ctrl-C in this block says how many samples are kept; `finished` gives them, and all."""
+def report_kept_samples(finished: Callable[[], tuple[int, int]]) -> Iterator[None]:
+    """On Ctrl-C in this block says how many samples are kept, of how many: `finished()`."""
     try:
         with ctrl_c_as_itself():
             yield
@@ -195,7 +195,7 @@ def _subspace(snapshots: Snapshots, recipe: Recipe) -> AffineSubspace:
 
 @contextmanager
 def stage(seconds: dict[str, float], name: str) -> Iterator[None]:
-    """Notes how long the block took."""
+    """Records how many seconds the block took."""
     begin = time.perf_counter()
     yield
     seconds[name] = time.perf_counter() - begin
@@ -203,5 +203,5 @@ def stage(seconds: dict[str, float], name: str) -> Iterator[None]:
 
 def _resume_line(kept: int, total: int) -> str:
     if not kept:
-        return f"none of {total} samples was finished yet"
-    return f"{kept} of {total} samples are kept; the same command goes on from there"
+        return f"none of {total} samples is finished yet"
+    return f"{kept} of {total} samples are kept; the same command resumes from there"

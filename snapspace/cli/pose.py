@@ -1,4 +1,4 @@
-"""`snapspace pose`: one pose of a model as a file."""
+"""`snapspace pose`: writes a pose of a model, or a path to it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ from .progress import spinner
     "frames",
     type=click.IntRange(2, 1_000_000),
     metavar="N",
-    help="N shapes on the way from rest to the motions, in place of the last one alone.",
+    help="N shapes on the path from rest to the motions, instead of only the last one.",
 )
 @format_option
 @rate_option
@@ -71,8 +71,8 @@ def pose(
 ) -> None:
     """Move handles and write the shape.
 
-    Motions are from rest and about the handle's centroid. Each --euler and --translate belongs to
-    the --handle before it; handles that are not named stay at rest.
+    Motions start at rest and are about the handle's centroid. Each --euler and --translate belongs
+    to the --handle before it; handles that are not named stay at rest.
 
     \b
     Examples:
@@ -81,8 +81,8 @@ def pose(
           -o hand.vtu --png hand.png
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 --path 60 -o nod.mp4
 
-    With --path centroids move straight and handles turn about one axis; the way begins and ends
-    slowly.
+    With --path centroids move in straight lines and handles turn about one axis; the motion starts
+    and ends slowly.
     """
     motions = motions_in_order(ctx)
     if frames is None:
@@ -104,7 +104,7 @@ def pose(
         rate = frames_per_second or 30.0
         shown_up = up or model.up
         with spinner("writing the frames"):
-            files = path.written(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
+            files = path.write(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
         path.print_report(files)
         if as_json:
             print_json({"dimension": model.dimension, **path.as_json(files)})
@@ -139,7 +139,7 @@ def pose(
 
 
 def _check_outputs(output: Path | None, png: Path | None) -> None:
-    """ValueError unless the files can be written: before anything is."""
+    """Raises ValueError unless the files can be written, before any work is done."""
     if output is not None:
         writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
     if png is not None:

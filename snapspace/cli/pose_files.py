@@ -1,4 +1,4 @@
-"""Poses as the user has them: tet meshes, or surfaces that are filled and fitted."""
+"""Reading the user's poses: tet meshes, or surfaces that are filled and fitted."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from .progress import spinner, step_progress
 
 FloatArray = NDArray[np.float64]
 
-#: A pose whose edges are longer or shorter than the first one's by more than this is pointed out.
+#: A pose whose edges differ from the first one's by more than this factor gets a notice.
 LARGE_CHANGE = 1.05
 
 
@@ -41,12 +41,14 @@ LARGE_CHANGE = 1.05
 class PoseOptions:
     """How poses are read.
 
-    tets : file with the tets of the first pose's surface; None fills it
-    edge_length : of the tets that fill it, relative to the diagonal; None for the default
-    deviation : rms distance from the surfaces, relative to the diagonal, that fits aim at
-    scale : when poses are brought to the size of the first one
+    tets : file with the tets of the first pose's surface; None fills the surface
+    edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
+        default
+    deviation : rms distance from the surfaces that fits aim at, relative to the diagonal
+    scale : when to scale poses to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted
-    repair : whether faults of the mesh of --tets are mended
+    repair : whether to repair faults of the mesh of --tets
+    threads : number of threads, None for all
     """
 
     tets: Path | None
@@ -60,7 +62,7 @@ class PoseOptions:
 
 @dataclass(frozen=True)
 class PoseSet:
-    """Poses with the surface that the user knows, how they were fitted, and seconds by stage."""
+    """Poses with the user's surface, how they were fitted, and seconds by stage."""
 
     poses: Poses
     surface: EmbeddedSurface
@@ -69,7 +71,7 @@ class PoseSet:
 
 
 def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> PoseSet:
-    """The poses of two or more files, all tet meshes or all surfaces.
+    """Reads the poses of two or more files, all tet meshes or all surfaces.
 
     Raises
     ------
@@ -85,19 +87,19 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
     kinds = {file.suffix.lower() in SURFACE_INPUTS for file in files}
     if len(kinds) == 2:
         raise ValueError(
-            "the poses are partly tets and partly surfaces; give all of one kind (with --tets the "
+            "some poses are tets and others surfaces; give all of one kind (with --tets the "
             "first surface's tets come from a file)"
         )
     if kinds == {True}:
         return _from_surfaces(files, names, options, cache)
     if options.tets is not None or options.edge_length is not None:
         name = "--tets" if options.tets is not None else "--edge-length"
-        raise ValueError(f"{name} is for poses that are surfaces; these have tets of their own")
+        raise ValueError(f"{name} is for poses that are surfaces, but these are tets; leave it out")
     return _from_tets(files, names, options)
 
 
 def pose_names(files: Sequence[Path]) -> list[str]:
-    """The files' names without extension, with their folder or number where they are alike."""
+    """The files' names without extension, with their folder or number if these are equal."""
     for names in (
         [file.stem for file in files],
         [f"{file.parent.name}/{file.stem}" for file in files],
@@ -110,8 +112,8 @@ def pose_names(files: Sequence[Path]) -> list[str]:
 def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions) -> PoseSet:
     if options.repair:
         raise ValueError(
-            "--repair would mend each pose in its own way, and they would no longer correspond; "
-            "mend the first one, and make the others from it"
+            "--repair would repair each pose differently, and they would no longer correspond; "
+            "repair the first one, and make the others from it"
         )
     meshes = [read_tet_arrays(file) for file in files]
     check_same_tets(meshes, names)
@@ -121,7 +123,7 @@ def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions
         tets = np.ascontiguousarray(tets[:, [0, 2, 1, 3]])
     shapes = _scaled(np.stack([vertices for vertices, _ in meshes]), tets, names, options)
     poses = Poses(shapes, tets, names=names, accept_inverted=options.accept_inverted)
-    _point_out_sizes(shapes, tets, names, options)
+    _notice_sizes(shapes, tets, names, options)
     return PoseSet(poses, boundary_surface(poses.reference))
 
 
@@ -147,7 +149,7 @@ def _from_surfaces(
         names=names,
         accept_inverted=options.accept_inverted,
     )
-    _point_out_sizes(targets, faces, names, options)
+    _notice_sizes(targets, faces, names, options)
     return PoseSet(poses, surface, fits, seconds)
 
 
@@ -164,19 +166,19 @@ def _scaled(
     return scaled
 
 
-def _point_out_sizes(
+def _notice_sizes(
     shapes: FloatArray,
     cells: NDArray[np.int32],
     names: Sequence[str],
     options: PoseOptions,
 ) -> None:
-    """A pose that is larger or smaller by a factor is elastic strain, unless the user says no."""
+    """A notice for each pose of another size, which is elastic strain, with --scale auto."""
     if options.scale == "auto":
         for name, factor in zip(names, scale_factors(shapes, cells), strict=True):
             if abs(np.log(factor)) > np.log(LARGE_CHANGE):
                 notice(
                     f"notice: the edges of {name} are {1 / factor:.3g} times as long as those of "
-                    f"{names[0]}; --scale match takes that away, --scale keep means it"
+                    f"{names[0]}; --scale match removes that, --scale keep accepts it"
                 )
 
 
@@ -199,7 +201,7 @@ def _tets_of(
 
 
 def _check_size(mesh: TetMesh, vertices: FloatArray, file: Path) -> None:
-    """ValueError for tets in another unit of length: the surface would lie in a corner of them."""
+    """Raises ValueError for tets in another unit of length than the surface."""
     diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
     if not 0.8 * diagonal <= mesh.diagonal <= 20.0 * diagonal:
         raise ValueError(
@@ -216,8 +218,8 @@ def _fitted(
     options: PoseOptions,
     cache: FitCache,
 ) -> tuple[FloatArray, list[PoseFit]]:
-    """Shapes (k, n, 3) of the targets, of which the cache may have some."""
-    settings = {"deviation": options.deviation}  # what the cache goes by
+    """Shapes (k, n, 3) fitted to the targets, some perhaps from the cache."""
+    settings = {"deviation": options.deviation}  # the cache depends on these
     found = {
         number: known
         for number, target in enumerate(targets)
@@ -249,9 +251,9 @@ def _fitted(
                 )
         except KeyboardInterrupt:
             raise KeyboardInterrupt(
-                f"{len(found)} of {len(targets)} fitted poses are kept; the same command goes on "
-                "from there"
+                f"{len(found)} of {len(targets)} fitted poses are kept; the same command "
+                "resumes from there"
             ) from None
-    # the names are of this run: the same target may have had another one
+    # names are those of this run: the same target may have had another name
     fits = [replace(found[number][1], name=name) for number, name in enumerate(names)]
     return np.stack([found[number][0] for number in range(len(targets))]), fits

@@ -23,16 +23,16 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PosedPath:
-    """Shapes (n, 3) of the tets, and how each was solved."""
+    """Shapes (n, 3) of a path, with a report of each solve."""
 
     model: PosingModel
     shapes: list[FloatArray]
     reports: list[FrameReport]
 
-    def written(
+    def write(
         self, output: Path | None, *, kind: str, frames_per_second: float, up: str
     ) -> list[Path]:
-        """Writes the shapes to a folder or a film, in which handles are tinted."""
+        """Writes the shapes to a folder, or to a film with tinted handles; returns the files."""
         if output is None:
             return []
         if is_film(output):
@@ -48,7 +48,7 @@ class PosedPath:
         return write_animation(output, self.model, self.shapes, kind=kind)
 
     def as_json(self, files: list[Path]) -> dict[str, Any]:
-        """With the keys of `snapspace pose --path --json`."""
+        """The numbers with the keys of `snapspace pose --path --json`."""
         inverted = self.model.problem.energy.inverted_tets
         frames = [
             {
@@ -63,7 +63,7 @@ class PosedPath:
         return {"frames": frames, "written": [str(file) for file in files]}
 
     def print_report(self, files: list[Path]) -> None:
-        """For people."""
+        """Prints a table for the user."""
         failed = [report for report in self.reports if not report.converged]
         if failed:
             notice(
@@ -75,13 +75,16 @@ class PosedPath:
         facts = [
             ("shapes", f"{len(self.shapes)}, {len(self.shapes) - len(failed)} converged"),
             ("solve", f"{solve:.2f} ms"),
-            ("written", f"{files[0]}{more}" if files else "nothing; -o DIR or -o FILE.gif does"),
+            (
+                "written",
+                f"{files[0]}{more}" if files else "nothing; -o DIR or -o FILE.gif keeps them",
+            ),
         ]
         print_facts("posed", facts)
 
 
 def posed_path(model: PosingModel, motions: Mapping[str, Motion], frames: int) -> PosedPath:
-    """Solves the way from rest to the motions."""
+    """Solves `frames` shapes on the path from rest to the motions."""
     session = model.session()
     key = {
         name: (np.deg2rad(motion.euler or (0.0,) * 3), motion.translation or (0.0,) * 3)

@@ -1,4 +1,4 @@
-"""Figures of interpolation problems."""
+"""Numbers about interpolation problems, for `info`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def poses_figures(model: InterpolationModel) -> dict[str, Any]:
 
 
 def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    """The same for people."""
+    """The same as lines for the user."""
     surface = figures["surface"]
     poses = [
         (
@@ -40,7 +40,7 @@ def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
     if figures["extrapolation"]:
         domain += f", in a simplex that is larger by {figures['extrapolation']:g}"
     if figures["poses"][0]["certain_weights"] is None:
-        domain += "; how far below zero blends have a minimum is not known for this material"
+        domain += "; how far below zero blends have a minimum is unknown for this material"
     return [
         *poses,
         ("parameters", f"{figures['parameters']}, {domain}"),
@@ -52,8 +52,8 @@ def poses_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
 def _poses(model: InterpolationModel) -> list[dict[str, Any]]:
     """Name, volume, inverted tets, rms distance from the mean shape relative to the diagonal.
 
-    And the least and greatest weight for which the model's energy certainly has a minimum, the
-    others in equal parts; None where no test is known, and for an end that is not there.
+    Also the least and greatest weight for which the model's energy certainly has a minimum, with
+    the other weights equal; None if no test is known, and for an end that does not exist.
     """
     problem = model.problem
     poses, certain = problem.poses, model.certain_range

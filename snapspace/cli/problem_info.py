@@ -1,4 +1,4 @@
-"""Figures of posing problems."""
+"""Numbers about posing problems, for `info`."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def problem_figures(problem: PosingProblem) -> dict[str, Any]:
 
 
 def problem_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    """The same for people."""
+    """The same as lines for the user."""
     handles = [
         (
             "" if number else "handles",

@@ -1,4 +1,4 @@
-"""The program as a process of its own."""
+"""The program as its own process."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from .main import main
 
 
 def program() -> NoReturn:
-    """Runs `main` on the words of the command line and ends the process with its exit code.
+    """Runs `main` on the command line, and ends the process with its exit code.
 
-    At once if work still runs that Ctrl-C has left alone. If it came back while Python shuts down,
-    Python would end its thread inside of compiled code, and with that the process by a signal.
+    If work that Ctrl-C abandoned still runs, the process ends at once. If that work returned while
+    Python shuts down, Python would end its thread inside compiled code, and that would end the
+    process by a signal.
     """
     code = main()
     if abandoned_work_runs():

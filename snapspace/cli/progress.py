@@ -1,4 +1,4 @@
-"""Progress of long work: a bar on a terminal, a line for every tenth in a log; a spinner."""
+"""Progress of long work: a bar on a terminal, a line per tenth in a log, or a spinner."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .console import console, notice
 from .units import in_time
 
 Report = Callable[[int, int], None]
-# Work ends in blocks, so the rate is taken over a long time.
+# Samples finish in blocks, so the rate is averaged over a long time, in seconds.
 _RATE_PERIOD = 600.0
 
 
@@ -24,7 +24,7 @@ _RATE_PERIOD = 600.0
 def step_progress(
     label: str, *, done: int = 0, total: int, unit: str = "samples"
 ) -> Iterator[Report]:
-    """Gives a callable(done, total) to be called now and then; `done` steps exist already."""
+    """Yields a callable(done, total) to call now and then; `done` steps exist already."""
     with _shown(label, done, total, unit) as show:
         yield lambda now, _: show(now, "")
 
@@ -33,7 +33,7 @@ def step_progress(
 def sample_progress(
     label: str, *, done: int = 0, total: int
 ) -> Iterator[Callable[[SolveProgress], None]]:
-    """Gives the `progress` callable of `solve_snapshots`; `done` samples exist already."""
+    """Yields a `progress` callable for `solve_snapshots`; `done` samples exist already."""
     with _shown(label, done, total, "samples") as show:
         yield lambda state: show(state.done, _held_out(state))
 
@@ -46,7 +46,7 @@ def _held_out(state: SolveProgress) -> str:
 
 @contextmanager
 def spinner(label: str) -> Iterator[None]:
-    """What is done in this block, for work that does not tell how far it is."""
+    """Shows what this block does, for work that does not report its progress."""
     with _displayed(console().status(label)):
         yield
 
@@ -72,7 +72,7 @@ def _shown(label: str, done: int, total: int, unit: str) -> Iterator[Callable[[i
 
 @contextmanager
 def _displayed(display: Progress | Status) -> Iterator[None]:
-    """Started and stopped as a whole: one that is half started leaves the cursor hidden."""
+    """Starts and stops a display completely: a half-started one leaves the cursor hidden."""
     try:
         with ctrl_c_at_checks():
             display.start()
@@ -83,7 +83,7 @@ def _displayed(display: Progress | Status) -> Iterator[None]:
 
 
 class _RateColumn(ProgressColumn):
-    """Time per sample, and the time that is left."""
+    """Time per sample, and remaining time."""
 
     def render(self, task: Task) -> Text:
         if task.finished:
@@ -96,7 +96,7 @@ class _RateColumn(ProgressColumn):
 
 
 class _Log:
-    """One line whenever another tenth is done."""
+    """Prints one line whenever another tenth is done."""
 
     def __init__(self, label: str, done: int, total: int, unit: str) -> None:
         self.label = label

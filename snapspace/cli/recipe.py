@@ -1,4 +1,4 @@
-"""Recipe: what a build does with a problem, and the record of it in the model."""
+"""Recipe: how to build a model of a problem, and its record in the model."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from .samples import Samples
 
 @dataclass(frozen=True, kw_only=True)
 class Recipe:
-    """What to do with a problem.
+    """How to build a model of a problem.
 
-    samples : where they come from
+    samples : the samples, given or chosen
     sampling : how they were chosen, for the record
-    solver : SolverOptions
+    solver : options of the solver
     dimension, energy_fraction : one of them; see `snapshot_pca`
     energy : as for `reduce`
-    tets : of the cubature, None for its default
+    tets : number of tets of the cubature, None for its default
     lumped, include_unconverged : as for `snapshot_pca`
-    threads : None for all
-    known : solutions that join the snapshots without solving, the poses of an interpolation
+    threads : number of threads, None for all
+    known : number of solutions that are known without solving, the poses of an interpolation
     """
 
     samples: Samples
@@ -52,7 +52,7 @@ class Recipe:
 
 
 def check_dimension(dimension: int, samples: int, *, known: int = 0) -> None:
-    """ValueError if there are fewer samples and known solutions than modes."""
+    """Raises ValueError if there are fewer samples and known solutions than modes."""
     if dimension > samples + known:
         poses = f" and {known} poses" if known else ""
         raise ValueError(
@@ -62,7 +62,7 @@ def check_dimension(dimension: int, samples: int, *, known: int = 0) -> None:
 
 
 def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
-    """What made the model; no names of machines or people."""
+    """How the model was made; no names of machines or people."""
     return {
         **made_by(recipe.solver, snapshots),
         "sampling": recipe.sampling,
@@ -76,7 +76,7 @@ def provenance(recipe: Recipe, snapshots: Snapshots) -> dict[str, Any]:
 
 
 def made_by(solver: SolverOptions, snapshots: Snapshots) -> dict[str, Any]:
-    """Versions, the solver's options and what became of the samples."""
+    """Versions, the solver's options, and how the solves ended."""
     return {
         "versions": {
             "snapspace": __version__,

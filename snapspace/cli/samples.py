@@ -1,4 +1,4 @@
-"""Where a build's samples come from: given beforehand, or chosen on the way."""
+"""The samples of a build: given beforehand, or chosen during the build."""
 
 from __future__ import annotations
 
@@ -24,20 +24,17 @@ from ..snapshots import (
 
 @dataclass(frozen=True)
 class GivenSamples:
-    """Samples that are known beforehand.
-
-    parameters : (k, p)
-    """
+    """Samples whose parameters (k, p) are given beforehand."""
 
     parameters: NDArray[np.float64]
 
     @property
     def count(self) -> int:
-        """How many there are at most."""
+        """Number of samples."""
         return len(self.parameters)
 
     def key(self, problem: PosingProblem | InterpolationProblem, options: SolverOptions) -> str:
-        """Hash of what their solutions depend on."""
+        """Hash of all that their solutions depend on."""
         return run_key(problem, self.parameters, solver_key(options, problem))
 
     def finished(self, checkpoint: Checkpoint) -> int:
@@ -68,14 +65,14 @@ class GivenSamples:
 
 @dataclass(frozen=True, kw_only=True)
 class ChosenSamples:
-    """Samples in batches, where the model so far is worst; as for `greedy_snapshots`."""
+    """Samples in batches, where the current model is worst; see `greedy_snapshots`."""
 
     count: int
     seed: int
     dimension: int
 
     def key(self, problem: PosingProblem | InterpolationProblem, options: SolverOptions) -> str:
-        """Hash of what the choice and its solutions depend on."""
+        """Hash of all that the choice and its solutions depend on."""
         return greedy_key(problem, options, seed=self.seed, batch=BATCH, candidates=CANDIDATES)
 
     def finished(self, checkpoint: Checkpoint) -> int:

@@ -1,4 +1,4 @@
-"""What `build` and `demo` say at the end."""
+"""The summary that `build`, `interpolate` and `demo` print at the end."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from .model_info import energy_text
 from .pipeline import Built
 from .units import in_bytes, in_time
 
-#: Share of the motion that samples may miss their handles by in the median.
+#: Largest median distance of samples from their handles' targets, as a share of the motion.
 MISSED = 0.01
 
 
 def print_summary(built: Built, *, include_unconverged: bool) -> None:
-    """What was built, on standard error."""
+    """Prints what was built on standard error."""
     figures = built.as_json()
     snapshots = figures["snapshots"]
     left_out = len(built.snapshots) - snapshots["converged"]
@@ -25,7 +25,7 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
         ("samples", built.snapshots.summary()),
     ]
     if left_out:
-        what = "used all the same" if include_unconverged else "left out of the basis"
+        what = "used anyway" if include_unconverged else "left out of the basis"
         facts.append(("", f"{left_out} unconverged, {what}"))
     seconds = ", ".join(f"{name} {in_time(value)}" for name, value in built.seconds.items())
     facts += [
@@ -37,15 +37,15 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
         ("energy", energy_text(built.model)),
         *accuracy_facts(built.model.provenance),
         ("time", seconds),
-        ("memory", f"{in_bytes(figures['peak_memory_bytes'])} at the most"),
+        ("memory", f"{in_bytes(figures['peak_memory_bytes'])} at most"),
         ("model", f"{built.path}, {in_bytes(figures['model_bytes'])}"),
     ]
     print_facts("built", facts)
-    _tell_missed_handles(built)
+    _notice_missed_handles(built)
 
 
-def _tell_missed_handles(built: Built) -> None:
-    """A notice where samples do not follow their handles: errors say nothing of that."""
+def _notice_missed_handles(built: Built) -> None:
+    """Prints a notice if samples do not follow their handles, which errors do not show."""
     problem, snapshots = built.model.problem, built.snapshots
     if not isinstance(problem, PosingProblem):
         return
@@ -53,7 +53,7 @@ def _tell_missed_handles(built: Built) -> None:
     if missed <= MISSED:
         return
     usual = usual_stiffness(problem.mesh, problem.material)
-    cure = f"a stiffness of {usual:.2g}, now {problem.stiffness:.2g}, is usual for this body"
+    cure = f"the stiffness is {problem.stiffness:.2g}, but {usual:.2g} is usual for this body"
     if problem.stiffness >= 0.5 * usual:
         cure = "make handles larger, or their motions smaller"
     notice(
@@ -63,5 +63,5 @@ def _tell_missed_handles(built: Built) -> None:
 
 
 def _percent(share: float) -> str:
-    """As many digits as tell the share from 100 %."""
+    """A share in percent, with enough digits to differ from 100 %."""
     return f"{100 * share:.6g} %"

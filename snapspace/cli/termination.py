@@ -12,9 +12,9 @@ from ..stopping import Termination
 
 @contextmanager
 def terminated_as_interrupted() -> Iterator[Termination]:
-    """In this block SIGTERM raises KeyboardInterrupt; what is given tells whether it came.
+    """In this block SIGTERM raises KeyboardInterrupt; the result says whether it came.
 
-    Not on other threads, and not where the program that runs this one ignores or handles it.
+    Does nothing on threads other than the main one, or if the signal is ignored or handled already.
     """
     termination = Termination()
     main = threading.current_thread() is threading.main_thread()

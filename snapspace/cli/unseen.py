@@ -1,4 +1,4 @@
-"""What every build ends with: its errors on parameters that it did not train on."""
+"""The end of every build: errors at parameters that it was not trained on."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from .progress import sample_progress
 
 Model = TypeVar("Model", bound=PosingModel | InterpolationModel)
 
-#: Full solutions that judge a model whose samples and dimension were given. They are solved as
-#: tightly as those of `validate`, each in two to four times the time of a sample.
+#: Number of full solutions that judge a model whose samples and dimension were given. They are
+#: solved as tightly as those of `validate`; each takes two to four times as long as a sample.
 COUNT = 8
 
 
 def judged(
     model: PosingModel | InterpolationModel, known: Snapshots | None, *, threads: int | None
 ) -> Validation | None:
-    """The validation by known full solutions, or else by eight new ones; None if none converges.
+    """Validates with known full solutions, or else with eight new ones; None if none converges.
 
-    The new ones are at the first parameters of `snapspace validate`, which no sample has.
+    The new ones are at the first parameters of `snapspace validate`, where there are no samples.
     """
     if known is None:
         try:
@@ -36,14 +36,14 @@ def judged(
                     model.problem, samples=COUNT, threads=threads, progress=progress
                 )
         except ValueError as error:
-            notice(f"notice: the errors of unseen samples are not known: {error}")
+            notice(f"notice: the errors of unseen samples are unknown: {error}")
             return None
     lowest, lower = with_lower_minima(model, known, threads=threads)
     return replace(validate(model, reference=lowest), lower_minima=lower)
 
 
 def with_estimates(model: Model, validation: Validation | None) -> Model:
-    """The model with error estimates for its frames, measured by what judged it."""
+    """The model with error estimates for its frames, calibrated with the validation."""
     if validation is None or len(validation.reference) < 2:
         return model
     return calibrate(model, reference=validation.reference, thorough=False)
@@ -57,8 +57,11 @@ def unseen_record(
     Parameters
     ----------
     model : PosingModel or InterpolationModel
-    validation : of unseen samples
-    snapshots : those that were solved to train on, and what else was solved with them
+        The model that was built.
+    validation : Validation
+        Its errors at unseen samples.
+    snapshots : Snapshots
+        All samples that were solved for it.
     """
     plan = plan_of(model.problem)
     full = [report.inverted_tets for report in validation.reference.reports]
@@ -79,7 +82,7 @@ def unseen_record(
 
 
 def _counts(inverted: list[int]) -> dict[str, float]:
-    """How many shapes have inverted tets, the median and the most of one shape."""
+    """How many shapes have inverted tets; their median and largest number in a shape."""
     return {
         "shapes": len(inverted),
         "with_some": sum(count > 0 for count in inverted),

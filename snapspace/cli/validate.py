@@ -1,4 +1,4 @@
-"""`snapspace validate`: how far a model is from the full problem."""
+"""`snapspace validate`: measures how far a model is from the full problem."""
 
 from __future__ import annotations
 
@@ -31,18 +31,18 @@ Model = PosingModel | InterpolationModel
 @click.option(
     "--samples",
     type=SAMPLE_COUNT,
-    help=f"Unseen parameters to compare at [default: {SAMPLES}].",
+    help=f"Number of unseen parameters to compare at [default: {SAMPLES}].",
 )
 @click.option(
     "--seed",
     type=SEED_NUMBER,
-    help=f"Of the unseen parameters, which no seed of build ever draws [default: {SEED}].",
+    help=f"Seed of the unseen parameters, which no build ever draws [default: {SEED}].",
 )
 @click.option(
     "--reference",
     type=FILE,
     metavar="R.samples",
-    help="Known full solutions in place of new ones, as --save-reference writes them.",
+    help="Known full solutions to use instead of new ones, written by --save-reference.",
 )
 @click.option(
     "--save-reference",
@@ -60,7 +60,7 @@ Model = PosingModel | InterpolationModel
     "--plot",
     type=FILE,
     metavar="FILE.png",
-    help="Picture of the error against the dimension and against milliseconds, with the same full "
+    help="Picture of the error over the dimension and over milliseconds, with the same full "
     "solutions for all dimensions.",
 )
 @leading_option
@@ -82,8 +82,8 @@ def validate(
 
     \b
     Errors are relative, in the mass norm: |reduced - full| / |full - rest|. The projection error is
-    the least that the subspace allows. A frame is a solve from rest and all vertices. Where the
-    median error is more than three times that of the projections, the next better option is named.
+    the least that the subspace allows. A frame is a solve from rest and all vertices. If the median
+    error is more than three times that of the projections, the next better option is named.
 
     \b
     Examples:
@@ -129,7 +129,7 @@ def _check_source(reference: Path | None, samples: int | None, seed: int | None)
     ]
     if reference is not None and given:
         raise ValueError(
-            f"the parameters come from --reference, so {given[0]} is of no effect; leave one of "
+            f"the parameters come from --reference, so {given[0]} has no effect; leave one of "
             "them out"
         )
 
@@ -144,7 +144,7 @@ def _validated(
     if found.lower_minima:
         notice(
             f"notice: {found.lower_minima} of {len(found.error)} full solutions were not the "
-            "lowest minimum: frames led to lower ones, which are compared with"
+            "lowest minimum; frames led to lower ones, which are used instead"
         )
     return found
 
@@ -168,9 +168,9 @@ def _split(
     fewer: bool,
     threads: int | None,
 ) -> tuple[ErrorSplit | None, Advice | None]:
-    """The parts of the error if they are asked for, or if an advice needs them; and that.
+    """The parts of the error, if asked for or needed for advice, and the advice.
 
-    `fewer` tells that the file has more modes than the model.
+    `fewer` says that the model has fewer modes than its file.
     """
     error, least = (float(np.median(e)) for e in (validation.error, validation.projection_error))
     needed = needs_advice(error, least)
@@ -183,10 +183,10 @@ def _split(
         return split, None
     notice(f"notice: the median error is {error / least:.2g} times that of the projections")
     if fewer:
-        notice("the model has more modes: give a larger --dimension, or leave it out")
+        notice("the file has more modes; give a larger --dimension, or leave it out")
         return split, None
     found = advice(model, validation, split, file)
-    found.tell()
+    found.print_notices()
     if found.suggestions:
         print_next(found.suggestions)
     return split, found

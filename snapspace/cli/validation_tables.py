@@ -21,14 +21,14 @@ _ROWS = {
     "frame_ms": "frame, ms",
 }
 _PARTS = {
-    "subspace": "subspace: shapes that it does not hold",
+    "subspace": "subspace: shapes that it cannot represent",
     "stiffness": "stiffness: it cannot relax as the full mesh does",
-    "cubature": "cubature: what few tets move",
+    "cubature": "cubature: the energy of only a few tets",
 }
 
 
 def print_validation(validation: Validation, dimension: int, *, asked: int) -> None:
-    """The figures of a validation, and a notice where samples did not converge."""
+    """Prints the numbers of a validation, and a notice if samples did not converge."""
     figures: dict[str, Any] = validation.as_json(dimension)
     used = figures["samples"]
     table = _table(f"{used} unseen samples, dimension {dimension}", ["", *_STATISTICS.values()])
@@ -46,7 +46,7 @@ def print_validation(validation: Validation, dimension: int, *, asked: int) -> N
 
 
 def print_split(split: ErrorSplit) -> None:
-    """The parts of the error."""
+    """Prints the parts of the error."""
     table = _table(f"parts of the error, {len(split.error)} unseen samples", ["", "median", "max"])
     rows = [(_PARTS[name], getattr(split, name)) for name in PARTS]
     rows += [("error with all tets", split.error_of_all_tets), ("error", split.error)]
@@ -56,7 +56,7 @@ def print_split(split: ErrorSplit) -> None:
 
 
 def print_curve(curve: ErrorCurve) -> None:
-    """Errors and times by dimension."""
+    """Prints errors and times by dimension."""
     title = f"errors by dimension, {len(curve.reference)} unseen samples"
     table = _table(title, ["d", "median", "90 %", "projection", "solve, ms"])
     for dimension, found in zip(curve.dimensions, curve.validations, strict=True):

@@ -1,4 +1,4 @@
-"""`snapspace view`: a model, or a mesh to choose handles on, in the browser."""
+"""`snapspace view`: shows a model in the browser, or a mesh to choose handles on."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ from .options import FILE, leading_option, up_option
 
 @click.command(short_help="Pose or blend in the browser, or choose handles there.")
 @click.argument("file", type=FILE, required=False)
-@click.option("--host", default=HOST, show_default=True, help="Address to listen at.")
+@click.option("--host", default=HOST, show_default=True, help="Address to listen on.")
 @click.option(
     "--port",
     type=click.IntRange(0, 65535),
     default=0,
-    help="Port to listen at [default: any free one].",
+    help="Port to listen on [default: any free one].",
 )
 @click.option("--no-browser", is_flag=True, help="Only print the address.")
 @click.option(
@@ -45,18 +45,19 @@ from .options import FILE, leading_option, up_option
     default=UPLOAD_LIMIT / 2**20,
     show_default=True,
     metavar="MB",
-    help="Of meshes that are dropped on the page.",
+    help="Largest size of meshes that are dropped on the page.",
 )
 @click.option(
     "--edge-length",
     type=click.FloatRange(min=0, max=0.5, min_open=True),
     metavar="SHARE",
-    help="Of the tets that fill a surface, of its diagonal [default: 0.025; exact: 0.02].",
+    help="Edge length of the tets that fill a surface, relative to its diagonal [default: 0.025, "
+    "with --exact 0.02].",
 )
 @click.option(
     "--exact",
     is_flag=True,
-    help="Fill surfaces with fTetWild, which keeps sharp edges: minutes, not seconds.",
+    help="Fill surfaces with fTetWild, which keeps sharp edges but takes minutes, not seconds.",
 )
 @leading_option
 @up_option
@@ -73,14 +74,14 @@ def view(
 ) -> None:
     """Pose or blend a model in the browser, or make one there.
 
-    FILE is a model; or a problem, tets or a closed surface, on which handles are chosen and models
-    computed; or nothing: then a mesh is dropped on the page. A surface is filled with tets first,
-    in seconds; where it is too thin for quick tets fTetWild does it, which takes minutes.
+    FILE is a model; or a problem, tets or a closed surface, to choose handles on and to compute
+    models. Without FILE, drop a mesh on the page. A surface is first filled with tets, in seconds;
+    if it is too thin for quick tets, fTetWild fills it, which takes minutes.
 
-    Opens the page, or prints its address where there is no browser; Ctrl-C ends it. Shapes are
-    solved in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` and
-    `snapspace view FILE --port 8000` over there. `--host 0.0.0.0` lets other machines in that know
-    the whole address.
+    Opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes are solved
+    in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` here and
+    `snapspace view FILE --port 8000` there. With `--host 0.0.0.0` other machines can open it if
+    they know the whole address.
 
     \b
     Examples:
@@ -100,7 +101,7 @@ def view(
         else:
             body = _body(file, filling)
     if model is None and dimension is not None:
-        raise ValueError("--dimension is for models; the page asks for it before it computes one")
+        raise ValueError("--dimension is for models; the page asks for it before it computes")
 
     def ready(address: str) -> None:
         opened = not no_browser and _has_display() and webbrowser.open(address)
@@ -123,7 +124,7 @@ def view(
 
 
 def _body(file: Path, filling: SurfaceFilling) -> SharedBody:
-    """What the page begins with; a problem or tets are read now, so that errors show here."""
+    """The body that the page starts with; a problem or tets are read now, to show errors here."""
     suffix = file.suffix.lower()
     if suffix == PROBLEM_SUFFIX:
         body = problem_body(file)
@@ -135,7 +136,7 @@ def _body(file: Path, filling: SurfaceFilling) -> SharedBody:
 
 
 def _has_display() -> bool:
-    """Whether a browser window could be seen; one in the terminal would not show the page."""
+    """Whether a browser window can be shown; a terminal browser could not show the page."""
     if sys.platform.startswith("linux"):
         return bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
     return True

@@ -1,4 +1,4 @@
-"""Cubature: elastic energies in reduced coordinates, summed over few tets."""
+"""Cubature: elastic energies in reduced coordinates, summed over a few tets."""
 
 from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature

@@ -1,4 +1,4 @@
-"""The blended energy of several poses in reduced coordinates, summed over few tets."""
+"""The blended energy of several poses in reduced coordinates, summed over a few tets."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FloatArray = NDArray[np.float64]
 
 
 class BlendedCubature:
-    """sum_k w_k E_k(tau + U q) as a sum over the same few tets of all poses.
+    """sum_k w_k E_k(tau + U q) as a sum over the same few tets for all poses.
 
     After An, Kim, James 2008, with positive weights. Where the density collapses (stable
     neo-Hookean) an evaluation costs 18 r d multiply-adds for r tets, for any number of poses.
@@ -30,18 +30,18 @@ class BlendedCubature:
     tets : (r,) int32
         Which tets of the mesh, ascending.
     weights : (r,) float64
-        The volume in the first pose that each stands for, > 0.
+        The volume that each tet stands for in the first pose, > 0.
     rows : (r, 9, d) float32
         Displacement gradients of the modes against the first pose, see `displacement_gradients`.
     material : Material
-        The density of these tets, with the same moduli in all of them or r of each.
+        The density of these tets, with constant moduli or r values of each.
     corners : (poses + 1, r, 4, 3) float64
-        Of the tets in every pose, and at last in the mean shape.
+        Corners of the tets in every pose, and last in the mean shape.
 
     Raises
     ------
     ValueError
-        If the sizes do not match, those of the moduli included, or a weight is not positive and
+        If sizes do not match, including those of the moduli, or a weight is not positive and
         finite.
     """
 
@@ -74,7 +74,7 @@ class BlendedCubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
     ) -> BlendedCubature:
-        """The cubature of some tets on a subspace attached to the mean shape.
+        """Makes the cubature of some tets for a subspace attached to the mean shape.
 
         With all tets, weighted by their volumes in the first pose, it is the exact energy.
 
@@ -90,12 +90,12 @@ class BlendedCubature:
         return cls(tets, weights, rows, problem.material.of_tets(tets), corners)
 
     def __reduce__(self) -> tuple[type[BlendedCubature], tuple[Any, ...]]:
-        """Pickles what defines it: the compiled part is made again."""
+        """Pickles the arguments; unpickling makes the compiled part again."""
         return type(self), (self.tets, self.weights, self.rows, self.material, self.corners)
 
     @property
     def core_arguments(self) -> tuple[NDArray[np.float32], FloatArray, core.Material, FloatArray]:
-        """What compiled cubatures take: rows, weights, material and corners (poses + 1, r, 12)."""
+        """Arguments of the compiled part: rows, weights, material, corners (poses + 1, r, 12)."""
         flat = self.corners.reshape(*self.corners.shape[:2], 12)
         return self.rows, self.weights, self.material.core, flat
 
@@ -126,12 +126,12 @@ class BlendedCubature:
         return hessian
 
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
-        """The same summed up in single precision, faster: see `summed_curvatures`."""
+        """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
         self._core.set_weights(weights)
         return summed_curvatures(self.rows, self._core.curvatures(np.asarray(q, np.float64)))
 
     def leading(self, dimension: int) -> BlendedCubature:
-        """The same tets on the first coordinates."""
+        """The cubature of the same tets for the first `dimension` coordinates."""
         rows = self.rows[:, :, :dimension]
         return BlendedCubature(self.tets, self.weights, rows, self.material, self.corners)
 

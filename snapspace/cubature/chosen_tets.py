@@ -1,4 +1,4 @@
-"""What all cubatures ask of the tets that they are given."""
+"""Checks of the tets that a cubature is given."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def check_chosen(
     *,
     who: str,
 ) -> None:
-    """ValueError of `who` unless sizes match and all weights are positive and finite."""
+    """Raises ValueError unless sizes match and all weights are positive and finite."""
     r = len(tets)
     if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
         raise ValueError(
@@ -35,6 +35,6 @@ def check_chosen(
 
 
 def check_in_mesh(tets: NDArray[np.int32], count: int, *, who: str) -> None:
-    """ValueError of `who` unless the mesh has all of these tets."""
+    """Raises ValueError unless the mesh has all of these tets."""
     if len(tets) and not 0 <= tets.min() <= tets.max() < count:
         raise ValueError(f"{who}: tets must be between 0 and {count - 1}")

@@ -1,4 +1,4 @@
-"""How far forces move the states that a cubature is trained on."""
+"""Compliances: how far forces move the states that a cubature is trained on."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .sampled_tets import sampled_tets
 
 FloatArray = NDArray[np.float64]
 
-#: Tets that stand for all in the Hessian of a state.
+#: Number of tets that a state's Hessian is estimated from.
 SAMPLED = 2000
-#: The least eigenvalue of a Hessian, as a share of the least one at tau. Sampling may leave a soft
-#: direction without stiffness, and compression may turn its sign.
+#: Lower bound of a Hessian's eigenvalues, as a share of the least one at tau. Sampling may leave a
+#: soft direction without stiffness, and compression may make it negative.
 LEAST = 0.3
 
 
@@ -27,17 +27,20 @@ def compliances(
 ) -> FloatArray:
     """Inverse reduced Hessians (s, d, d) of the objective at states.
 
-    What is soft differs from state to state: a bent part turns its soft directions along, and in
-    the Lion's tail blends differ by a factor of five along the same direction. With the compliance
-    of the rest or the mean shape for all states, cubatures of 500 tets leave the Dragon (d = 120)
-    twice the error, and those of four poses of the Lion as well. Hessians are estimated from half
-    the tets with the largest forces and half random ones.
+    Soft directions differ from state to state: they turn with a part that bends, and in the Lion's
+    tail blends differ by a factor of five along the same direction. With the compliance of the rest
+    or the mean shape for all states, cubatures of 500 tets have twice the error on the Dragon
+    (d = 120), and on four poses of the Lion. Hessians are estimated from a sample of tets: one half
+    has the largest forces, the other is random.
 
     Parameters
     ----------
-    states : ElasticStates, s of them
-    ordered : tets, see `tets_by_force`
-    threads : default all; the result is bitwise the same for any number
+    states : ElasticStates
+        The s states.
+    ordered : (m,) int32
+        Tets in the order of `tets_by_force`.
+    threads : int, optional
+        Default: all. The result is bitwise the same for any number.
     """
     sample = sampled_tets(ordered, SAMPLED, seed=0)
     volumes = sample.factors * states.problem.mesh.volumes[sample.tets]
@@ -59,9 +62,9 @@ def compliances(
 def judging_compliances(
     states: ElasticStates, ordered: NDArray[np.int32], *, threads: int | None = None
 ) -> FloatArray:
-    """The same for errors to be told: of posing that of the rest shape, for all states.
+    """Compliances (s, d, d) for error reports: for posing, that of the rest shape for all states.
 
-    Where a state is near buckling its own one is huge, and an error seems so.
+    Near buckling a state's own compliance is huge, and would make its error look huge.
     """
     if not isinstance(states, PosingStates):
         return compliances(states, ordered, threads=threads)

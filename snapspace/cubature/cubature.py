@@ -1,4 +1,4 @@
-"""The elastic energy in reduced coordinates, summed over few tets (cubature)."""
+"""The elastic energy in reduced coordinates, summed over a few tets (cubature)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Cubature:
 
     After An, Kim, James 2008, "Optimizing cubature for efficient integration of subspace
     deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material. Rows
-    are rounded to 5e-7 of their entries; value, gradient and Hessian belong together to full
+    are rounded to 5e-7 of their entries; value, gradient and Hessian are consistent to full
     precision.
 
     Parameters
@@ -31,16 +31,16 @@ class Cubature:
     tets : (r,) int32
         Which tets of the mesh, ascending.
     weights : (r,) float64
-        The volume that each stands for, > 0.
+        The volume that each tet stands for, > 0.
     rows : (r, 9, d) float32
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
     material : Material
-        The density of these tets, with the same moduli in all of them or r of each.
+        The density of these tets, with constant moduli or r values of each.
 
     Raises
     ------
     ValueError
-        If the sizes do not match, those of the moduli included, or a weight is not positive and
+        If sizes do not match, including those of the moduli, or a weight is not positive and
         finite.
     """
 
@@ -66,7 +66,7 @@ class Cubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
     ) -> Cubature:
-        """The cubature of some tets on a subspace attached to the rest shape.
+        """Makes the cubature of some tets for a subspace attached to the rest shape.
 
         With all tets, weighted by their volumes, it is the exact energy.
 
@@ -80,7 +80,7 @@ class Cubature:
         return cls(tets, weights, rows, problem.material.of_tets(tets))
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
-        """Pickles what defines it: the compiled part is made again."""
+        """Pickles the arguments; unpickling makes the compiled part again."""
         return type(self), (self.tets, self.weights, self.rows, self.material)
 
     @property
@@ -103,9 +103,9 @@ class Cubature:
         return hessian
 
     def rough_hessian(self, q: ArrayLike) -> FloatArray:
-        """The same summed up in single precision, faster: see `summed_curvatures`."""
+        """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
         return summed_curvatures(self.rows, self._core.curvatures(np.asarray(q, np.float64)))
 
     def leading(self, dimension: int) -> Cubature:
-        """The same tets on the first coordinates."""
+        """The cubature of the same tets for the first `dimension` coordinates."""
         return Cubature(self.tets, self.weights, self.rows[:, :, :dimension], self.material)

@@ -1,4 +1,4 @@
-"""Displacement gradients of modes in single tets."""
+"""Displacement gradients of modes, tet by tet."""
 
 from __future__ import annotations
 
@@ -14,10 +14,11 @@ FloatArray = NDArray[np.float64]
 def displacement_gradients(
     mesh: TetMesh, basis: FloatArray, tets: NDArray[np.int32], *, threads: int | None = None
 ) -> NDArray[np.float32]:
-    """d u_a / d x_b of every mode in tets (r,): (r, 9, d) float32, entry 3 a + b of the second.
+    """Gradients d u_a / d x_b of all modes in tets (r,), (r, 9, d) float32, entry 3 a + b.
 
-    The rows times q are the displacement gradient of U q, which is constant in a tet. Differences
-    of nodal values come first: sums over the four vertices would lose digits on slivers.
+    A tet's rows times q give the displacement gradient of U q, which is constant in the tet. They
+    are formed from differences of nodal values: sums over the four vertices would lose digits on
+    slivers.
     """
     modes = np.ascontiguousarray(basis.T)
     rows: NDArray[np.float32] = core.mode_gradients(

@@ -1,4 +1,4 @@
-"""States of a reduced body, and what its tets do there: what a cubature is trained on."""
+"""States of a reduced body with energies and forces of its tets, to train a cubature."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ States = TypeVar("States", bound="ElasticStates")
 
 @dataclass(frozen=True)
 class GroupForces:
-    """A few states: all tets together, and some of them alone.
+    """Energies and forces at g states, of all tets together and of some tets alone.
 
-    energies : (g,)
-    gradients : (g, 3n), of these
+    energies : (g,), of all tets together
+    gradients : (g, 3n), of these energies
     stresses : (g, c, 9), first Piola-Kirchhoff stress times volume of some tets
-    tet_energies : (g, c), of these tets
+    tet_energies : (g, c), energies of the same tets
     """
 
     energies: FloatArray
@@ -36,16 +36,16 @@ class GroupForces:
 
 
 class ElasticStates(Protocol):
-    """Some reduced states of a problem, with what the energy depends on besides."""
+    """Some reduced states of a problem, with all that its energy depends on."""
 
     @property
     def problem(self) -> PosingProblem | InterpolationProblem:
-        """Of all states."""
+        """The problem of all states."""
         ...
 
     @property
     def subspace(self) -> AffineSubspace:
-        """Attached to the problem's tau."""
+        """The subspace, attached to the problem's tau."""
         ...
 
     @property
@@ -57,7 +57,7 @@ class ElasticStates(Protocol):
 
     @property
     def floor(self) -> float:
-        """Errors of smaller energies are relative to this one."""
+        """Errors of smaller energies are relative to this energy."""
         ...
 
     def chosen(self: States, which: NDArray[np.intp]) -> States:
@@ -65,24 +65,25 @@ class ElasticStates(Protocol):
         ...
 
     def with_forces(self: States) -> States:
-        """States that tell how large forces are, these among them."""
+        """States, including these, whose forces show how large forces are."""
         ...
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
         """First Piola-Kirchhoff stress times volume of all tets, (m, 9), at a state.
 
-        `displacement` is basis @ coordinates of it, (3n,).
+        `displacement` is basis @ coordinates of the state, (3n,).
         """
         ...
 
     def evaluated(self, first: int, displacements: FloatArray, tets: IntArray) -> GroupForces:
-        """Of all tets and of some, at the states from `first` on, with displacements (g, 3n)."""
+        """Energies and forces at the states from `first`, with displacements (g, 3n)."""
         ...
 
     def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
-        """The Hessian (d, d) of the objective at a state, or at tau, where some tets stand for all.
+        """Estimates the Hessian (d, d) of the objective from some tets and their volumes.
 
-        Not for several threads at a time.
+        The returned function takes the index of a state, or None for tau. Only one thread may call
+        it at a time.
         """
         ...
 
@@ -91,7 +92,7 @@ class ElasticStates(Protocol):
 class PosingStates:
     """States of a posed body: its elastic energy does not depend on the handles.
 
-    handle_hessian : (d, d), of the handles' energy
+    handle_hessian : (d, d), Hessian of the handles' energy
     """
 
     problem: PosingProblem
@@ -113,7 +114,7 @@ class PosingStates:
         return replace(self, coordinates=np.zeros((1, self.subspace.dimension)))
 
     def with_forces(self) -> PosingStates:
-        """Themselves: elastic forces hold those of the handles."""
+        """The states themselves: elastic forces balance those of the handles."""
         return self
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
@@ -145,8 +146,8 @@ class PosingStates:
 class BlendingStates:
     """States of blended poses, each with its weights (s, poses).
 
-    Near a pose the energy vanishes: there errors are relative to a hundredth of the largest energy
-    of all states, which is `floor`.
+    The energy vanishes near a pose, so errors there are relative to `floor`, a hundredth of the
+    largest energy of all states.
     """
 
     problem: InterpolationProblem
@@ -165,8 +166,8 @@ class BlendingStates:
     def with_forces(self) -> BlendingStates:
         """Each state, and the same shape with weights halfway to those of the state before.
 
-        At a solution all forces balance, and any multiple of them would fit: the second one has
-        forces that do not.
+        At a solution all forces balance, so any multiple of them would fit. The second state has
+        forces that do not balance.
         """
         away = (self.weights + np.roll(self.weights, 1, axis=0)) / 2.0
         both = np.stack([self.weights, away], axis=1)

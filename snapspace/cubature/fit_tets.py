@@ -1,4 +1,4 @@
-"""fit_tets: the few tets of a cubature, chosen and weighted."""
+"""fit_tets: chooses and weights the few tets of a cubature."""
 
 from __future__ import annotations
 
@@ -20,23 +20,25 @@ from .training_rows import training_rows
 
 FloatArray = NDArray[np.float64]
 
-#: Rows of forces per wanted tet.
+#: Number of force rows per wanted tet.
 ROWS = 3
-#: Snapshots that are held out at the most.
+#: Most snapshots that are held out.
 HELD_OUT = 20
-#: But no more than this: their rows take 12 KB each.
+#: Most candidate tets: the rows of each take 12 KB.
 MOST_CANDIDATES = 10_000
-#: One snapshot in so many is held out, which takes as many at least.
+#: One snapshot in this many is held out, so at least this many are needed.
 FEWEST_SNAPSHOTS = 10
 
 
 @dataclass(frozen=True)
 class Budget:
-    """How many tets the user wants, or else are usual, and what they are chosen from.
+    """How many tets to choose, and what they are chosen from.
 
-    fewest_states : that a cubature needs
-    most_trained : states
-    candidates : tets for each wanted one
+    wanted : number of tets, or None for the usual number
+    usual : usual number of tets
+    fewest_states : fewest states that a cubature needs
+    most_trained : most states that it is trained on
+    candidates : number of candidate tets per wanted tet
     """
 
     wanted: int | None
@@ -48,10 +50,10 @@ class Budget:
 
 @dataclass(frozen=True)
 class Fit(Generic[States]):
-    """Chosen tets with the volumes that they stand for, and what was held out.
+    """Chosen tets with the volumes that they stand for, and the held-out states.
 
-    unseen : states
-    exact, compliances : of these
+    unseen : the held-out states
+    exact, compliances : their exact forces and energies, and their compliances
     """
 
     tets: NDArray[np.int32]
@@ -85,15 +87,15 @@ def fit_tets(
 ) -> Fit[States]:
     """Chooses tets and volumes by some of the states, and holds others out.
 
-    Raises ValueError for too few states, or a number of tets that the mesh does not have.
+    Raises ValueError for too few states, or for more tets than the mesh has.
     """
     begin = time.perf_counter()
     mesh, dimension = states.problem.mesh, states.subspace.dimension
     count = _checked_count(len(mesh.tets), budget.usual, budget.wanted)
     if len(states) < budget.fewest_states:
         raise ValueError(
-            f"reduce: {len(states)} snapshots that are not at rest are too few to train a cubature "
-            f"on, it takes {budget.fewest_states}; solve more samples"
+            f"reduce: {len(states)} snapshots that are not at rest are too few to train a "
+            f"cubature, which needs {budget.fewest_states}; solve more samples"
         )
     period = min(FEWEST_SNAPSHOTS, len(states))
     held = np.arange(len(states)) % period == period // 2
@@ -115,8 +117,8 @@ def fit_tets(
     picks, factors = nonnegative_fit(rows.columns, rows.target, count, threads=threads)
     if not len(picks):
         raise ValueError(
-            f"reduce: no tet carries a force at the {len(states)} snapshots that a cubature is "
-            "trained on; solve more samples"
+            f"reduce: no tet carries a force at the {len(states)} snapshots that train a cubature; "
+            "solve more samples"
         )
     picked = candidates[picks]
     return Fit(
@@ -133,7 +135,7 @@ def fit_tets(
 
 
 def _repeated(factors: FloatArray, count: int) -> FloatArray:
-    """Those of states for their `with_forces`, which has each state as often as any other."""
+    """Factors of states repeated for their `with_forces`, which repeats each state equally."""
     return np.repeat(factors, count // len(factors), axis=0)
 
 

@@ -1,4 +1,4 @@
-"""How well a cubature does on solutions that it was not trained on."""
+"""Errors of a cubature at solutions that it was not trained on."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CubatureErrors:
-    """Medians and maxima over held-out states, against the energy of all tets.
+    """Medians and maxima over held-out states, compared with the energy of all tets.
 
-    states : how many
+    states : number of states
     energy_* : |E_c - E| / E
     force_* : |f_c - f| / |f| of the reduced elastic forces
     displacement_* : |C (f_c - f)| / |q| with the compliance C of the state: about how far the
-    cubature alone moves a solution, relative to its displacement
+        cubature alone moves a solution, relative to its displacement
     """
 
     states: int
@@ -33,7 +33,7 @@ class CubatureErrors:
     displacement_max: float
 
     def as_json(self) -> dict[str, float]:
-        """The figures by name."""
+        """The numbers by name."""
         return asdict(self)
 
 
@@ -43,9 +43,12 @@ def held_out_errors(
     cubature: Callable[[int], tuple[float, FloatArray]],
     compliances: FloatArray,
 ) -> CubatureErrors:
-    """Errors at one state or more, (s, d), where `cubature` gives value and gradient (d,) of each.
+    """Errors of a cubature at s >= 1 states.
 
-    `exact` and `compliances` (s, d, d) are those of the states.
+    coordinates : (s, d), the reduced states
+    exact : forces and energies of all tets at the states
+    cubature : called with a state's index, returns its energy and gradient (d,)
+    compliances : (s, d, d), of the states
     """
     sizes = np.linalg.norm(coordinates, axis=1)
     sizes = np.maximum(sizes, 1e-3 * sizes.max())  # a blend may be the mean shape itself

@@ -1,4 +1,4 @@
-"""Few columns with positive weights that sum up to a target."""
+"""A few columns with positive weights whose sum fits a target."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from ..blas import single_threaded_blas
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.intp]
 
-#: Share of the wanted columns that joins before the weights are found anew.
+#: Share of the wanted columns that are added before the weights are recomputed.
 BATCH = 0.1
 #: Share that may be missing at the end: the last columns would take as many rounds as all others.
 MISSING = 0.02
-#: Columns whose products are taken together.
+#: Columns whose products are computed together.
 PART = 512
-#: Added to the diagonal of the scaled normal equations: columns that are nearly the same share.
+#: Added to the diagonal of the scaled normal equations: nearly equal columns share a weight.
 RIDGE = 1e-9
 
 
@@ -37,23 +37,29 @@ def nonnegative_fit(
     """Least squares with at most `count` positive weights.
 
     Greedy cubature (An, Kim, James 2008) as orthogonal matching pursuit with positive weights
-    (Bruckstein, Elad, Zibulevsky 2008): the columns with the largest products with the residual
-    join, a batch at a time, and the weights of all are found anew by non-negative least squares
-    (Lawson & Hanson 1974), which lets columns go again.
+    (Bruckstein, Elad, Zibulevsky 2008): each step adds a batch of columns, those with the largest
+    products with the residual. Then all weights are recomputed by non-negative least squares
+    (Lawson & Hanson 1974), which may remove columns again.
     Products are not divided by the columns' norms, so that tets that hardly carry a force cannot
     get huge weights.
 
     Parameters
     ----------
-    columns : (c, k) float32, each contiguous
+    columns : (c, k) float32
+        The candidate columns, each contiguous.
     target : (k,)
+        The vector to fit.
     count : int, >= 1
-    threads : default all; the result is bitwise the same for any number
+        Most columns to choose.
+    threads : int, optional
+        Default: all. The result is bitwise the same for any number.
 
     Returns
     -------
-    chosen : (r,) ascending indices, r <= count
-    weights : (r,) > 0
+    chosen : (r,)
+        Ascending indices, r <= count.
+    weights : (r,)
+        Their weights, > 0.
     """
     fit = _Columns(columns, target, count)
     chosen: IndexArray = np.zeros(0, np.intp)
@@ -85,7 +91,7 @@ def nonnegative_fit(
 
 
 class _Columns:
-    """The chosen columns in double precision, with their products; memory for all that may come."""
+    """The chosen columns in double precision, with their products, in preallocated memory."""
 
     def __init__(self, columns: NDArray[np.float32], target: FloatArray, count: int) -> None:
         most = min(2 * count, len(columns)) + 1
@@ -97,7 +103,7 @@ class _Columns:
 
     @property
     def gram(self) -> FloatArray:
-        """Products of the chosen ones with each other."""
+        """Products of the chosen columns with each other."""
         return self._gram[: self._count, : self._count]
 
     @property
@@ -106,7 +112,7 @@ class _Columns:
         return self._moments[: self._count]
 
     def products(self, residual: FloatArray, threads: int | None) -> NDArray[np.float32]:
-        """Of all columns with a residual, (c,); each is the same in any part."""
+        """Products (c,) of all columns with a residual, bitwise the same in any partition."""
         workers = threads or os.cpu_count() or 1
         vector = residual.astype(np.float32)
         edges = np.arange(0, len(self._columns) + PART, PART)
@@ -116,7 +122,7 @@ class _Columns:
         return np.concatenate(found)
 
     def add(self, fresh: IndexArray) -> None:
-        """Takes more columns."""
+        """Adds columns."""
         old, new = slice(0, self._count), slice(self._count, self._count + len(fresh))
         self._count += len(fresh)
         self._own[new] = self._columns[fresh]
@@ -126,7 +132,7 @@ class _Columns:
         self._moments[new] = self._own[new] @ self._target
 
     def keep(self, kept: NDArray[np.bool_]) -> None:
-        """Lets the others go."""
+        """Removes the columns outside a mask."""
         if kept.all():
             return
         places = np.flatnonzero(kept)
@@ -136,7 +142,7 @@ class _Columns:
         self._count = len(places)
 
     def sums(self, weights: FloatArray) -> FloatArray:
-        """The weighted sum of the chosen ones, (k,)."""
+        """The weighted sum of the chosen columns, (k,)."""
         return weights @ self._own[: self._count]
 
 
@@ -146,12 +152,12 @@ def nonnegative_weights(
     """Minimum of x.Gx / 2 - m.x over x >= 0 among the columns, from a start >= 0.
 
     The inner loop of Lawson & Hanson 1974, ch. 23: columns that would become negative leave at the
-    boundary, and do not come back. New columns start at zero. `settled` ones are free of the
-    rounding of those that have left.
+    boundary, and do not come back. New columns start at zero. With `settled`, the weights are
+    solved for once more at the end, without the rounding errors of the removed columns.
 
-    The matrix is factored once. With the columns R gone the minimum is that of all less
-    A_R (A_RR)^-1 x_R, where A is the inverse: a column that leaves takes one solve. Those that
-    would become negative are likely to leave next: they are solved for together.
+    The matrix is factored once. Without the columns R, the minimum is that of all columns minus
+    A_R (A_RR)^-1 x_R, where A is the inverse matrix, so each column that leaves takes one solve.
+    Columns that would become negative are likely to leave next, so they are solved for together.
     """
     scale = 1.0 / np.sqrt(np.diag(gram))
     matrix = gram * scale[:, None] * scale + RIDGE * np.eye(len(gram))
@@ -188,7 +194,7 @@ def nonnegative_weights(
 
 
 def _settled(matrix: FloatArray, moments: FloatArray, solution: FloatArray) -> FloatArray:
-    """The minimum among the columns of a solution, free of the rounding of those that have left."""
+    """The minimum for the columns in a solution, without rounding errors of removed columns."""
     free = np.flatnonzero(solution)
     factor = cho_factor(matrix[np.ix_(free, free)], overwrite_a=True, check_finite=False)
     settled = np.zeros(len(matrix))

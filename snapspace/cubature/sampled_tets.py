@@ -1,4 +1,4 @@
-"""Some tets for all, those with large forces and random others."""
+"""A sample of the tets: those with the largest forces, and random others."""
 
 from __future__ import annotations
 
@@ -10,32 +10,36 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class SampledTets:
-    """Some tets for all.
+    """A sample that stands for all tets.
 
     tets : (c,) int32, ascending
-    factors : (c,), how many tets each stands for; they sum to the number of all
+    factors : (c,), how many tets each stands for; they sum to the number of all tets
     """
 
     tets: NDArray[np.int32]
     factors: NDArray[np.float64]
 
 
-#: Share of the tets with the largest forces.
+#: Share of the sample that has the largest forces.
 LARGEST = 0.5
 
 
 def sampled_tets(ordered: NDArray[np.int32], count: int, *, seed: int) -> SampledTets:
-    """Half of them the first of some ordered tets, which stand for themselves, and random others.
+    """Draws a sample: half are the first of the ordered tets, and half are random others.
 
-    Forces of tets differ by many powers of ten: random tets alone leave the Dragon (d = 120) twice
-    the error, the Elephant as well. The largest alone leave parts without a candidate: a long bar
-    has then six times the error, and the Lion five times, where a pose squeezes a few tets.
+    The first ones stand only for themselves. Forces of tets differ by many powers of ten: with
+    random tets alone the error doubles on the Dragon (d = 120) and on the Elephant. The largest
+    alone leave parts without a candidate: a long bar then has six times the error, and the Lion,
+    where a pose squeezes a few tets, five times.
 
     Parameters
     ----------
-    ordered : (m,) int32, see `tets_by_force`
-    count : how many, at most m
-    seed : of the others
+    ordered : (m,) int32
+        Tets in the order of `tets_by_force`.
+    count : int
+        Size of the sample, at most m.
+    seed : int
+        Seed of the random tets.
     """
     largest = round(LARGEST * min(count, len(ordered)))
     others = np.random.default_rng(seed).permutation(ordered[largest:])[: count - largest]

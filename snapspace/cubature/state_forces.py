@@ -1,4 +1,4 @@
-"""Forces and energies of all tets together, and of some alone, at many states."""
+"""Forces and energies at many states, of all tets together and of some tets alone."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class StateForces:
-    """What is summed up at states, and what some tets add.
+    """Energies and forces at s states, and the contributions of some tets.
 
-    energies : (s,), of all tets
+    energies : (s,), of all tets together
     units : (s,), energies that errors are relative to
     forces : (s, d), reduced gradients of the energies
     stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets
-    tet_energies : (s, c), of these tets
+    tet_energies : (s, c), energies of the same tets
     """
 
     energies: FloatArray
@@ -38,7 +38,7 @@ class StateForces:
 def state_forces(
     states: ElasticStates, tets: NDArray[np.int32], *, threads: int | None = None
 ) -> StateForces:
-    """At all states, with the tets (c,) alone; bitwise the same for any number of threads."""
+    """Evaluates all states, and the tets (c,) alone; bitwise the same for any `threads`."""
     basis, count = states.subspace.basis, len(states)
     energies, forces = np.empty(count), np.empty((count, basis.shape[1]))
     stresses = np.empty((count, len(tets), 9), np.float32)

@@ -1,4 +1,4 @@
-"""Tets in the order of their forces."""
+"""Tets ordered by their forces."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates
 
-#: States whose forces decide.
+#: Number of states whose forces decide the order.
 PILOTS = 12
 
 
 @single_threaded_blas
 def tets_by_force(states: ElasticStates, *, threads: int | None = None) -> NDArray[np.int32]:
-    """Tets that carry a force at some of the states, the largest forces first."""
+    """Tets that carry a force at some states, in descending order of force."""
     pilots = range(0, len(states), max(1, len(states) // PILOTS))
     displacements = states.coordinates[pilots] @ states.subspace.basis.T
 

@@ -1,4 +1,4 @@
-"""train_cubature: few tets whose weighted energies are those of all, near some solutions."""
+"""train_cubature: a few weighted tets whose energy is that of all tets, near solutions."""
 
 from __future__ import annotations
 
@@ -18,39 +18,39 @@ from .held_out_errors import held_out_errors
 
 FloatArray = NDArray[np.float64]
 
-#: Tets per dimension by default. On the Dragon, d = 120, solutions are then as far from the full
-#: ones as those of the exact energy.
+#: Default number of tets per dimension. On the Dragon, d = 120, solutions are then as close to the
+#: full ones as those of the exact energy.
 TETS_PER_DIMENSION = 8
 #: The same for blends.
 TETS_PER_BLENDED_DIMENSION = 15
-#: But no more than this: an evaluation takes time in proportion.
+#: Most tets by default: the time of an evaluation is proportional to their number.
 MOST_TETS = 1000
-#: Motions that are trained on at the most, and candidates per wanted tet. Errors on Dragon, Spot,
-#: Elephant, Armadillo, dog head and hand are those of 200 motions and twice as many candidates,
-#: which take twice as long.
+#: Most motions to train on, and candidates per wanted tet. Errors on Dragon, Spot, Elephant,
+#: Armadillo, dog head and hand are the same as with 200 motions and twice as many candidates, which
+#: take twice as long.
 TRAINED, CANDIDATES = 60, 20
 #: The same for blends. Errors of Lion, Dog, Centaur, ten Lions, 11 and 20 poses are the same with
-#: 20 blends and with 200, which take four times as long; half as many candidates leave the Lion a
-#: third more.
+#: 20 blends and with 200, which take four times as long; with half as many candidates the Lion's
+#: errors grow by a third.
 TRAINED_BLENDS, BLEND_CANDIDATES = 40, 20
-#: How often a blended cubature gets half as many tets again, until the mean shape is a minimum.
+#: How often a blended cubature may get half as many tets again to make the mean shape a minimum.
 GROWTHS = 4
-#: Fewest blends that a cubature is trained on: one, and one to judge by.
+#: Fewest blends for a cubature: one to train on, and one to judge by.
 FEWEST_BLENDS = 2
-#: One blended state in so many says how large energies are.
+#: One blended state in this many is evaluated to find out how large energies are.
 PILOT_STEP = 8
 
 
 def default_tets(dimension: int) -> int:
-    """How many tets a cubature has by default: 8 d, but at most 1000, where the mesh has them."""
+    """Default number of tets of a cubature: 8 d, but at most 1000 and those of the mesh."""
     return min(TETS_PER_DIMENSION * dimension, MOST_TETS)
 
 
 def default_blended_tets(dimension: int) -> int:
-    """How many tets a blended cubature has by default: 15 d, but at most 1000.
+    """Default number of tets of a blended cubature: 15 d, but at most 1000.
 
-    Nothing holds blends as handles do, and they take more than posing. On Lion, Dog and Centaur
-    (d = 30, 20 and 50) errors are those of twice as many tets; with 10 d the Dog's and the Lion's
+    Blends take more tets than posing, since no handles hold them. On Lion, Dog and Centaur (d = 30,
+    20 and 50) errors are the same as with twice as many tets; with 10 d the Dog's and the Lion's
     are larger by half.
     """
     return min(TETS_PER_BLENDED_DIMENSION * dimension, MOST_TETS)
@@ -66,24 +66,25 @@ def train_cubature(
     seed: int = 0,
     threads: int | None = None,
 ) -> tuple[Cubature, dict[str, Any]]:
-    """A cubature (An, Kim, James 2008) with the forces and energies of all tets at given states.
+    """Trains a cubature (An, Kim, James 2008) to have the forces and energies of all tets.
 
     See `training_rows` and `nonnegative_fit` for the steps.
 
     Parameters
     ----------
     problem : PosingProblem
+        The full problem.
     subspace : AffineSubspace
-        Attached to the rest shape.
+        The subspace, attached to the rest shape.
     coordinates : (k, d)
-        Projected snapshots. One in ten is held out for the errors; those at rest say nothing and
-        do not count.
+        Projected snapshots, the states to train on. One in ten is held out to measure errors; those
+        at rest do not count.
     handle_hessian : (d, d)
         The Hessian of the handles' reduced energy, which is exact.
     tets : int, optional
-        The most that may be chosen. Default: `default_tets`.
+        Most tets to choose. Default: `default_tets`.
     seed : int, default 0
-        Seeds the random rows.
+        Seed of the random rows.
     threads : int, optional
         Default: all. The result is bitwise the same for any number.
 
@@ -92,14 +93,14 @@ def train_cubature(
     cubature : Cubature
         Bitwise the same for the same arguments.
     record : dict
-        For a model's provenance: numbers of tets, states and rows, the seed, the seconds, and in
-        "held_out" the errors, see `CubatureErrors`.
+        For a model's provenance: numbers of tets, states and rows, the seed, the seconds, and
+        the errors in "held_out", see `CubatureErrors`.
 
     Raises
     ------
     ValueError
-        For fewer than ten states that are not at rest, or a number of tets that is not between 1
-        and that of the mesh.
+        For fewer than ten states that are not at rest, or a number of tets below 1 or above that of
+        the mesh.
     """
     states = PosingStates(problem, subspace, coordinates[_moved(coordinates)], handle_hessian)
     budget = Budget(tets, default_tets(subspace.dimension), FEWEST_SNAPSHOTS, TRAINED, CANDIDATES)
@@ -124,11 +125,11 @@ def train_blended_cubature(
     seed: int = 0,
     threads: int | None = None,
 ) -> tuple[BlendedCubature, dict[str, Any]]:
-    """The same for blended poses: one set of tets for all of them.
+    """Trains a cubature for blended poses, with the same tets for all poses.
 
-    Arguments, result and errors as for `train_cubature`, but every state has its weights (k,
-    poses), the default of `tets` is `default_blended_tets`, and the subspace is attached to the
-    mean shape. The poses themselves, where all tets are at rest, do not count.
+    Arguments, result and errors are as for `train_cubature`, except that every state has its
+    weights (k, poses), the default of `tets` is `default_blended_tets`, and the subspace is
+    attached to the mean shape. The poses themselves, where all tets are at rest, do not count.
     """
     own = weights.max(axis=1, initial=0.0) < 1.0 - 1e-9
     states = BlendingStates(problem, subspace, coordinates[own], weights[own])
@@ -153,13 +154,13 @@ def train_blended_cubature(
 
 
 def _growing(count: int, most: int) -> list[int]:
-    """Numbers of tets, each half as many again, that are tried until a cubature is stable."""
+    """Numbers of tets to try until a cubature is stable; each is half as many again."""
     counts = [round(count * 1.5**power) for power in range(GROWTHS + 1)]
     return [count, *(c for c in counts[1:] if c <= most)]
 
 
 def _is_stable(cubature: BlendedCubature, mean: FloatArray) -> bool:
-    """Whether the mean shape is a minimum: where it is soft few tets may leave it a saddle."""
+    """Whether the mean shape is a minimum; if it is soft, few tets may make it a saddle."""
     hessian = cubature.hessian(np.zeros(cubature.dimension), mean)
     return bool(np.linalg.eigvalsh(hessian)[0] > 0.0)
 

@@ -1,4 +1,4 @@
-"""What a cubature is trained on: the forces and energies of single tets at solutions."""
+"""The equations that train a cubature: forces and energies of single tets at solutions."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .state_forces import StateForces
 
 FloatArray = NDArray[np.float64]
 
-#: Weight of the energy of a state, against the root mean square of all its force rows together. On
-#: the Dragon the energy's error falls from 4 % to 0.4 %, and the solutions stay where they are.
+#: Weight of the energy of a state, relative to the root mean square of all its force rows together.
+#: On the Dragon the energy's error falls from 4 % to 0.4 %, and the solutions stay as they are.
 ENERGY_WEIGHT = 0.5
 
 
@@ -24,7 +24,7 @@ ENERGY_WEIGHT = 0.5
 class TrainingRows:
     """A linear system for the weights that multiply the tets' volumes.
 
-    columns : (c, k) float32, the numbers of a candidate tet are contiguous
+    columns : (c, k) float32, contributions of the candidate tets, each contiguous
     target : (k,), the sums over all tets of the mesh
     """
 
@@ -43,28 +43,37 @@ def training_rows(
     seed: int,
     threads: int | None = None,
 ) -> TrainingRows:
-    """Equations of forces and energies at reduced states.
+    """Makes the equations of forces and energies at reduced states.
 
-    Those of energy-conserving sampling and weighting (Farhat, Avery, Chapman, Cortial 2014),
-    randomly compressed (Drineas, Mahoney, Muthukrishnan, Sarlos 2011): per state, `directions`
-    equations are the tets' reduced forces times the state's compliance times a standard normal
-    vector. A residual is so measured as the displacement that the forces' error makes, not as a
-    force: soft directions count most. One more per state is the energy.
+    These are the equations of energy-conserving sampling and weighting (Farhat, Avery, Chapman,
+    Cortial 2014), randomly compressed (Drineas, Mahoney, Muthukrishnan, Sarlos 2011): per state,
+    `directions` equations are the tets' reduced forces times the state's compliance times a
+    standard normal vector. So a residual is measured as the displacement that the error of the
+    forces causes, not as a force: soft directions count most. One more equation per state is the
+    energy.
 
     Parameters
     ----------
-    states : ElasticStates, s of them
-    found : StateForces, of these with the candidates alone
-    candidates : (c,) tets
-    compliances : (s, d, d), inverse Hessians of the objective at the states
-    directions : equations of forces per state
-    seed : of the random vectors
-    threads : default all; the result is bitwise the same for any number
+    states : ElasticStates
+        The s states.
+    found : StateForces
+        Forces and energies at these states, with the candidates alone.
+    candidates : (c,) int32
+        The candidate tets.
+    compliances : (s, d, d)
+        Inverse Hessians of the objective at the states.
+    directions : int
+        Number of force equations per state.
+    seed : int
+        Seed of the random vectors.
+    threads : int, optional
+        Default: all. The result is bitwise the same for any number.
 
     Returns
     -------
     TrainingRows
-        Of s * (directions + 1) equations. All-one weights of all tets would solve it exactly.
+        A system of s * (directions + 1) equations. With all tets as candidates, weights of one
+        would solve it exactly.
     """
     count, d = states.coordinates.shape
     modes = displacement_gradients(

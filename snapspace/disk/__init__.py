@@ -1,4 +1,4 @@
-"""Files that are complete or not there, also after a full disk, a kill or a power failure."""
+"""Files that are complete or absent, even after a full disk, a kill or a power failure."""
 
 from .atomic_file import atomic_file
 from .checked_file import ChangedFileError, read_checked, write_checked

@@ -1,4 +1,4 @@
-"""Writing a file so that it is either complete or not there."""
+"""Writing a file so that it is either complete or absent."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from .temporaries import swept_once, temporary_name
 
 @contextlib.contextmanager
 def atomic_file(path: Path) -> Iterator[Path]:
-    """Give a temporary path in the same folder; rename it to `path` when the block succeeds.
+    """Yields a temporary path in the same folder; renames it to `path` if the block succeeds.
 
-    If the block raises, or is interrupted, the temporary file is removed and a file that existed at
+    If the block raises, or is interrupted, the temporary file is removed and an existing file at
     `path` stays as it was. OSError (no permission, disk full) becomes ValueError with the path.
     A symbolic link is followed, so that it stays a link.
 
-    The content is on the disk before the name is, and the name before the block is left: a power
-    failure leaves the old file or the new one, and what is removed afterwards (checkpoints) is no
-    longer needed. A kill can leave a temporary file; the next process that writes to the folder
-    removes it, see `sweep`.
+    The content reaches the disk before the name does, and the name before the block ends. So a
+    power failure leaves the old file or the new one, and files that are removed after the block
+    (checkpoints) are no longer needed. A kill can leave a temporary file; the next process that
+    writes to the folder removes it, see `sweep`.
     """
     target = Path(os.path.realpath(path))
     swept_once(target.parent)

@@ -1,4 +1,4 @@
-"""Arrays and words in a file whose checksum tells later damage."""
+"""Arrays and a header in a file whose checksum reveals later damage."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _CHECKSUM = "crc32"
 
 
 class ChangedFileError(ValueError):
-    """The content of a file is not what was written."""
+    """The content of a file differs from what was written."""
 
 
 def write_checked(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
-    """Writes arrays, words and their checksum in safetensors layout; all of it or nothing.
+    """Writes arrays, a header and their checksum in safetensors layout, all or nothing.
 
     Raises
     ------
@@ -30,18 +30,18 @@ def write_checked(path: Path, arrays: Arrays, header: dict[str, str]) -> None:
         If the file cannot be written.
     """
     content = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
-    words = {**header, _CHECKSUM: _checksum(content, header)}
+    lines = {**header, _CHECKSUM: _checksum(content, header)}
     with atomic_file(path) as temporary:
-        temporary.write_bytes(safetensors_bytes(content, words))
+        temporary.write_bytes(safetensors_bytes(content, lines))
 
 
 def read_checked(path: Path) -> tuple[Arrays, dict[str, str]]:
-    """Arrays and words of a file of `write_checked`.
+    """Reads the arrays and the header of a file of `write_checked`.
 
     Raises
     ------
     ChangedFileError
-        If the checksum does not match; it is a ValueError.
+        If the checksum does not match; this is a ValueError.
     ValueError
         If it is not a complete file of this layout, or cannot be read.
     """
@@ -57,9 +57,9 @@ def read_checked(path: Path) -> tuple[Arrays, dict[str, str]]:
 
 
 def _checksum(arrays: Arrays, header: dict[str, str]) -> str:
-    """Of words and arrays, their names, types and shapes, so that none can take another's place."""
-    words = [f"{key}={header[key]}\n" for key in sorted(header)]
-    checksum = zlib.crc32("".join(words).encode())
+    """Checksum of header and arrays, with names, types and shapes, so that none can be swapped."""
+    lines = [f"{key}={header[key]}\n" for key in sorted(header)]
+    checksum = zlib.crc32("".join(lines).encode())
     for name in sorted(arrays):
         array = np.ascontiguousarray(arrays[name])
         checksum = zlib.crc32(f"{name} {array.dtype.str} {array.shape}\n".encode(), checksum)

@@ -1,4 +1,4 @@
-"""What was written reaches the disk itself, and not only the system's memory."""
+"""Flushing files and folders to the disk itself, not only to the system's cache."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import errno
 import os
 from pathlib import Path
 
-# File systems without fsync, as some that are mounted over a network.
+# Errors of file systems without fsync, such as some network file systems.
 _CANNOT = (errno.EINVAL, errno.ENOTSUP, errno.ENOSYS)
 
 
 def flushed_file(path: Path) -> None:
-    """Waits until the content of a file is on the disk; OSError if it cannot get there."""
+    """Waits until the content of a file is on the disk; OSError if that fails."""
     handle = os.open(path, os.O_RDWR | getattr(os, "O_BINARY", 0))
     try:
         os.fsync(handle)
@@ -26,7 +26,7 @@ def flushed_file(path: Path) -> None:
 def flushed_folder(path: Path) -> None:
     """Waits until the names in a folder are on the disk: new files, renamed and removed ones.
 
-    Does nothing where the system has no way to ask for it (Windows), or the folder cannot be read.
+    Does nothing if the system does not support it (Windows) or the folder cannot be read.
     """
     if os.name == "nt":
         return

@@ -11,7 +11,7 @@ from safetensors.numpy import save
 
 
 def safetensors_bytes(arrays: dict[str, NDArray[Any]], header: dict[str, str]) -> bytes:
-    """The bytes of a file; the library itself writes its header in a random order."""
+    """The bytes of a file, with sorted header keys: the library's own order is random."""
     content = save({name: np.ascontiguousarray(array) for name, array in arrays.items()}, header)
     size = int.from_bytes(content[:8], "little")
     text = json.dumps(json.loads(content[8 : 8 + size]), sort_keys=True).encode()

@@ -1,4 +1,4 @@
-"""Names of temporary files, and the removal of those that a dead process has left."""
+"""Names of temporary files, and removal of those that a dead process left behind."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _NAME = re.compile(r"\..{0,40}\.(?P<machine>[0-9a-f]{12})-(?P<process>\d{1,9})-[
 
 
 def temporary_name(path: Path) -> str:
-    """A name for a temporary file beside `path`, with the same extension: writers look at it.
+    """A name for a temporary file beside `path`, with the same extension, which writers need.
 
-    It holds the process, so that `sweep` knows whose it is.
+    It contains the process number, so that `sweep` knows whose file it is.
     """
     mark = f"{machine_mark()}-{os.getpid()}-{secrets.token_hex(4)}"
     return f".{path.stem[:40]}.{mark}{path.suffix}"
@@ -25,9 +25,9 @@ def temporary_name(path: Path) -> str:
 def sweep(folder: Path) -> list[Path]:
     """Removes temporary files in a folder whose process is certainly dead, and returns them.
 
-    A process is certainly dead if it ran since this system was started, among the processes that
-    are visible here, and none has its number now. Files of other machines and containers, and those
-    from before the last start of the system, stay. Outside of Linux nothing is removed.
+    A process is certainly dead if it ran after the last start of this system, would be visible
+    here, and no process has its number now. Files of other machines and containers, and those
+    from before the last start of the system, stay. Outside Linux nothing is removed.
     """
     removed: list[Path] = []
     if _boot() is None:
@@ -45,15 +45,15 @@ def sweep(folder: Path) -> list[Path]:
 
 @lru_cache(maxsize=1024)
 def swept_once(folder: Path) -> None:
-    """`sweep`, the first time that this process writes to a folder."""
+    """Calls `sweep` the first time that this process writes to a folder."""
     sweep(folder)
 
 
 @cache
 def machine_mark() -> str:
-    """12 hex digits that differ for other systems, containers, and after the system has restarted.
+    """12 hex digits that differ for other systems and containers, and after a restart.
 
-    Random where that cannot be known: such files are never anybody's.
+    Random if that is unknown; files with such a mark belong to no later process.
     """
     known = _boot()
     content = secrets.token_bytes() if known is None else known.encode()
@@ -62,7 +62,7 @@ def machine_mark() -> str:
 
 @cache
 def _boot() -> str | None:
-    """This start of the system and the space of its process numbers; None outside of Linux."""
+    """Identifies the system's start and its process namespace; None outside Linux."""
     try:
         boot = Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
         return f"{boot} {os.readlink('/proc/self/ns/pid')}"
@@ -71,11 +71,11 @@ def _boot() -> str | None:
 
 
 def _lives(process: int) -> bool:
-    """Whether a process of this number is there; another one may have got it since."""
+    """Whether a process has this number, perhaps another one than before."""
     try:
         os.kill(process, 0)
     except ProcessLookupError:
         return False
-    except OSError:  # it is somebody else's
+    except OSError:  # the process belongs to another user
         return True
     return True

@@ -1,4 +1,4 @@
-"""Displacements of many shapes: rows wherever they are stored, inner products, orthonormal ones."""
+"""Displacements of many shapes: rows in memory or files, inner products, orthonormalisation."""
 
 from .displacement_rows import BLOCK, DisplacementRows, shared_mass
 from .orthonormal import orthonormalise

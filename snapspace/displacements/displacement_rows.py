@@ -1,4 +1,4 @@
-"""DisplacementRows: displacements of many samples, wherever they are stored."""
+"""DisplacementRows: displacements of many samples, in memory or in files."""
 
 from __future__ import annotations
 
@@ -22,20 +22,21 @@ BLOCK = 3 * 1024
 class DisplacementRows(Sequence[FloatArray]):
     """A matrix (k, 3n) of displacements whose rows are separate arrays, in memory or in files.
 
-    Samples may take more room than the memory has. What works on all of them goes through blocks
-    of columns, so that only one block is in memory at a time.
+    Samples may take more memory than there is. Operations on all of them work on blocks of
+    columns, so that only one block is in memory at a time.
 
     Parameters
     ----------
     rows : iterable of (3n,) float64
-        Not copied; for instance mapped by a `Checkpoint`. A matrix (k, 3n) is one as well.
+        The rows, not copied; they may be mapped from a file by a `Checkpoint`. A matrix (k, 3n) is
+        accepted as well.
     size : int
-        3n, which no rows at all could not tell.
+        3n, needed in case there are no rows.
 
     Raises
     ------
     ValueError
-        If a row is not float64, has another size, or its entries are not side by side in memory.
+        If a row is not float64, has another size, or is not contiguous.
     """
 
     def __init__(self, rows: Iterable[FloatArray], size: int) -> None:
@@ -60,13 +61,13 @@ class DisplacementRows(Sequence[FloatArray]):
         return _read_only(row[:] if self._offset is None else row + self._offset)
 
     def select(self, which: ArrayLike) -> DisplacementRows:
-        """The rows of a mask (k,)."""
+        """The rows that a mask (k,) selects."""
         return self._with(tuple(self._rows[i] for i in np.flatnonzero(np.asarray(which, bool))))
 
     def followed_by(self, rows: Iterable[FloatArray]) -> DisplacementRows:
-        """These rows and more of them (3n,); what these are shifted by is added to all.
+        """These rows followed by others (3n,); the offset of these rows is added to all.
 
-        Raises ValueError for rows that are shifted already: copying them would fill the memory.
+        Raises ValueError if the others are shifted already: copying them would fill the memory.
         """
         if not isinstance(rows, DisplacementRows):
             rows = DisplacementRows(rows, self.size)
@@ -86,10 +87,10 @@ class DisplacementRows(Sequence[FloatArray]):
         return shifted
 
     def blocks(self) -> Iterable[tuple[slice, FloatArray]]:
-        """All columns in blocks of `BLOCK`: which they are, and those of all rows, until the next.
+        """Yields the rows in blocks of `BLOCK` columns, as the slice and the block.
 
-        Blocks (k, columns) are not to be written to. Only their columns are read. Of rows that lie
-        side by side in memory or in a file they are views.
+        A block (k, columns) is read-only, and valid until the next one. Only its columns are read.
+        If the rows are contiguous in memory or in a file, blocks are views.
         """
         memory = np.empty((len(self), min(BLOCK, self.size)))
         for start in range(0, self.size, BLOCK):
@@ -112,13 +113,13 @@ class DisplacementRows(Sequence[FloatArray]):
     ) -> FloatArray:
         """Products d_i^T M d_j of these rows with M times others, (k, len(others)).
 
-        `mass` is from `shared_mass`; M times the others is in memory meanwhile. A product is
-        bitwise the same whatever other rows there are, on any number of threads.
+        `mass` is from `shared_mass`; M times the others is kept in memory meanwhile. A product is
+        bitwise the same whatever the other rows, on any number of threads.
         """
         return mass.multiply(self._rows, self._offset, list(others), threads=threads)
 
     def combined(self, weights: FloatArray) -> FloatArray:
-        """Weights (j, k) times these rows: (j, 3n), bitwise the same whatever other weights."""
+        """Weights (j, k) times these rows: (j, 3n). A result does not depend on other weights."""
         combined = core.combine_rows(self._rows, self.size, np.ascontiguousarray(weights))
         if self._offset is not None:
             combined += weights.sum(axis=1)[:, None] * self._offset
@@ -133,7 +134,7 @@ class DisplacementRows(Sequence[FloatArray]):
 
     @cached_property
     def _side_by_side(self) -> FloatArray | None:
-        """The rows as a part of the matrix that owns their memory, if they are one."""
+        """The rows as a part of the matrix that owns their memory, if they are contiguous."""
         owner = self._rows[0].base if self._rows else None
         if not isinstance(owner, np.ndarray) or owner.ndim != 2 or not owner.flags.c_contiguous:
             return None

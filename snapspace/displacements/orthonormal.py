@@ -14,11 +14,11 @@ FloatArray = NDArray[np.float64]
 
 
 def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
-    """Restores U^T M U = I for rows (d, 3n), the columns of U, which are nearly orthonormal.
+    """Restores U^T M U = I for nearly orthonormal rows (d, 3n), the columns of U.
 
-    At most two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed
-    since the Gram matrix squares the condition number: a direction with eigenvalue lambda_i comes
-    out orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty.
+    Makes at most two Cholesky-QR passes; they are triangular, so bases stay nested. They are needed
+    because the Gram matrix squares the condition number: a direction with eigenvalue lambda_i is
+    orthonormal only to eps * lambda_1 / lambda_i, far from 1e-12 for the last of forty.
 
     Raises
     ------
@@ -37,7 +37,7 @@ def orthonormalise(directions: FloatArray, mass: csr_array) -> None:
     if _error(gram) > 1e-10:
         raise ValueError(
             f"pca: the basis is orthonormal only to {_error(gram):.1e}; the last directions are "
-            "noise, take a smaller dimension"
+            "noise; choose a smaller dimension"
         )
 
 

@@ -1,4 +1,4 @@
-"""SnapshotGram: inner products of snapshots, and what follows from them without the shapes."""
+"""SnapshotGram: inner products of snapshots, and errors that follow from them alone."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from .displacement_rows import DisplacementRows, shared_mass
 
 FloatArray = NDArray[np.float64]
 
-#: New rows whose products are formed in one call, which passes by all earlier rows once. Between
-#: two calls Ctrl-C is heard.
+#: New rows whose products are formed in one call, which reads all earlier rows once. Between two
+#: calls Ctrl-C is answered.
 TOGETHER = 32
 
 
@@ -32,7 +32,7 @@ class SnapshotGram:
     mass : csr_array, (n, n)
         Scalar mass matrix M of the norm.
     offset : (3n,), optional
-        Added to all displacements, so that they count from elsewhere. Default: nothing.
+        Added to all displacements, to measure them from another shape. Default: zero.
     """
 
     def __init__(self, mass: csr_array, *, offset: FloatArray | None = None) -> None:
@@ -43,7 +43,7 @@ class SnapshotGram:
 
     @classmethod
     def of(cls, problem: Problem, *, lumped: bool = False) -> SnapshotGram:
-        """Of displacements from a problem's `base`, as products of those from its `tau`."""
+        """For displacements from a problem's `base`; the products are of those from its `tau`."""
         return cls(problem.mass(lumped=lumped), offset=problem.base - problem.tau)
 
     def __len__(self) -> int:
@@ -51,13 +51,13 @@ class SnapshotGram:
 
     @property
     def matrix(self) -> FloatArray:
-        """The inner products of all rows, (k, k), exactly symmetric; not to be written to."""
+        """The inner products of all rows, (k, k), exactly symmetric, read-only."""
         matrix = self._matrix.view()
         matrix.flags.writeable = False
         return matrix
 
     def copy(self) -> SnapshotGram:
-        """One that can grow on its own."""
+        """A copy that can grow on its own."""
         twin = SnapshotGram(self.mass)
         twin._rows, twin._matrix = self._rows, self._matrix
         return twin
@@ -66,8 +66,8 @@ class SnapshotGram:
         """Appends displacements (3n,): their products with each other and with all earlier ones.
 
         The result is bitwise the same however the rows are split into calls, and on any number of
-        threads (0 for all). Rows are not copied, and are read again by later calls: mapped ones
-        keep the memory free.
+        threads (0 for all). Rows are not copied, and later calls read them again: rows mapped from
+        files keep the memory free.
 
         Raises
         ------
@@ -94,15 +94,15 @@ class SnapshotGram:
         Parameters
         ----------
         training, unseen : array_like of int, or masks (k,)
-            Which rows.
+            Indices or masks of the rows.
         dimension : int
-            d; training rows that span less give all directions that they have.
+            d; if the training rows span less, all their directions are used.
 
         Returns
         -------
         ndarray, one per unseen row
-            Between 0 and 1, and never larger for a larger d; 0 for a row that is zero. They come
-            from differences of squares: errors below 1e-7 are rounding.
+            Between 0 and 1, and never larger for a larger d; 0 for a zero row. They come from
+            differences of squares, so errors below 1e-7 are rounding.
 
         Raises
         ------
@@ -117,16 +117,16 @@ class SnapshotGram:
 
     @single_threaded_blas
     def held_out_errors(self, training: ArrayLike, unseen: ArrayLike) -> FloatArray:
-        """The same for all dimensions, (k + 1, unseen): row d for d directions.
+        """The same for all dimensions, (k + 1, unseen): row d is for d directions.
 
-        k is how many directions the training rows have; ValueError without training rows.
+        k is the number of directions of the training rows; ValueError without training rows.
         """
         known, new = (_indices(which, len(self)) for which in (training, unseen))
         if len(known) == 0:
-            raise ValueError("SnapshotGram: there are no training rows, but one at least is needed")
+            raise ValueError("SnapshotGram: there are no training rows, but at least one is needed")
         squared = self._matrix[new, new]
         eigenvalues, vectors = eigh(self._matrix[np.ix_(known, known)])
-        # rounding of the largest: directions below it are noise
+        # below the rounding of the largest, directions are noise
         real = eigenvalues > len(known) * np.finfo(float).eps * max(eigenvalues[-1], 0.0)
         directions = (vectors[:, real] / np.sqrt(eigenvalues[real]))[:, ::-1]
         held = np.cumsum((directions.T @ self._matrix[np.ix_(known, new)]) ** 2, axis=0)

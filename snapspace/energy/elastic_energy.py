@@ -23,12 +23,12 @@ class ElasticEnergy:
     mesh : TetMesh
         The rest shape.
     material : Material
-        With the same moduli everywhere, or those of every tet.
+        Its moduli may be constant, or given per tet.
 
     Raises
     ------
     ValueError
-        If the material is none of `MATERIALS`, or has moduli for another number of tets.
+        If the material is not one of `MATERIALS`, or has moduli for another number of tets.
 
     Notes
     -----
@@ -42,7 +42,7 @@ class ElasticEnergy:
 
     @cached_property
     def core(self) -> _core.ElasticEnergy:
-        """The compiled energy; it takes displacements."""
+        """The compiled energy, a function of displacements."""
         return _core.ElasticEnergy(self.mesh.vertices, self.mesh.tets, self.material.core)
 
     def value(self, x: ArrayLike) -> float:
@@ -65,7 +65,7 @@ class ElasticEnergy:
         return self._matrix(*self.core.hessian_blocks(self._displacement(x)))
 
     def clamped_hessian(self, x: ArrayLike, *, threshold: float) -> csr_array:
-        """Hessian with every tet at its signed singular values clamped to at least `threshold`.
+        """Hessian with the signed singular values of every tet clamped to at least `threshold`.
 
         The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian`
         where no singular value is below the threshold; for St.Venant-Kirchhoff positive
@@ -76,11 +76,12 @@ class ElasticEnergy:
         return self._projected(x, _core.Projection.stretches, threshold)
 
     def projected_hessian(self, x: ArrayLike, *, projection: str = "clamp") -> csr_array:
-        """Hessian with that of every tet made positive semi-definite, (3n, 3n) sparse symmetric.
+        """Sum of tet Hessians made positive semi-definite, (3n, 3n) sparse symmetric.
 
         Parameters
         ----------
         x : array_like, (3n,) or (n, 3)
+            The shape.
         projection : "clamp" or "absolute", default "clamp"
             Negative eigenvalues of a tet's Hessian become zero (Teran, Sifakis, Irving, Fedkiw
             2005), or change their sign (Chen et al. 2024).
@@ -88,7 +89,7 @@ class ElasticEnergy:
         Raises
         ------
         ValueError
-            For another projection.
+            For an unknown projection.
         """
         if projection not in ("clamp", "absolute"):
             raise ValueError(

@@ -10,7 +10,7 @@ from ..mesh.components import tet_components
 from .closed_input import check_share, closed_input
 from .ftetwild import ftetwild
 
-# Solids with less than this share of the volume are crumbs, which are dropped.
+# Solids with less than this share of the volume are ignored.
 _CRUMB = 1e-3
 
 
@@ -21,48 +21,48 @@ def fill_surface(
     edge_length: float = 0.02,
     tolerance: float = 5e-4,
 ) -> TetMesh:
-    """Fill a closed triangle surface with tets.
+    """Fills a closed triangle surface with tets.
 
     Parameters
     ----------
     vertices : array_like, (s, 3)
+        Points of the surface.
     faces : array_like of int, (f, 3)
         Closed and oriented alike, outward or inward. Self-intersections are allowed: inside is
-        where the winding number is positive, so that parts that overlap become one.
+        where the winding number is positive, so overlapping parts become one.
     edge_length : float, default 0.02
-        Wanted length of the tets' edges where the surface does not ask for shorter ones, as a share
+        Wanted length of the tets' edges where the surface does not need shorter ones, as a share
         of the diagonal of the surface's bounding box.
     tolerance : float, default 5e-4
-        How far the boundary of the tets may be from the surface, as a share of the diagonal. What
-        is thinner may be lost, and gaps that are narrower may be closed. Smaller values need more
-        tets and time.
+        How far the boundary of the tets may be from the surface, as a share of the diagonal.
+        Thinner parts may be lost, and narrower gaps may be closed. Smaller values need more tets
+        and time.
 
     Returns
     -------
     TetMesh
-        Its boundary is near the surface but has vertices of its own: `embed_surface` expresses the
+        Its boundary is near the surface but has its own vertices: `embed_surface` expresses the
         given surface by the tets.
 
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extra `snapspace[fill]`, which has fTetWild.
+        If the extra `snapspace[fill]`, which has fTetWild, is not installed; a ValueError.
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
         a surface that is not closed, not oriented alike or encloses no volume, options out of
-        range, if the tets are several separate solids, or if fTetWild fails.
+        range, if the tets form several separate solids, or if fTetWild fails.
 
     Notes
     -----
     Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral Meshing in the Wild", 2020 (package
     pytetwild). It takes from seconds to minutes, on one thread, and can be interrupted with Ctrl-C.
     **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
-    and offers no seed, so two runs differ in some tets. Write the mesh to a file to work with the
-    same one again.
+    and offers no seed, so two runs differ in some tets. Write the mesh to a file to keep it.
 
     See Also
     --------
-    stuff_surface : seconds instead of minutes, for surfaces without very thin parts.
+    stuff_surface : takes seconds instead of minutes, for surfaces without very thin parts.
     """
     surface = closed_input(vertices, faces, who="fill_surface")
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")
@@ -78,14 +78,14 @@ def fill_surface(
 def _check_one_solid(vertices: NDArray[np.float64], tets: NDArray[np.int32]) -> None:
     if not len(tets):
         raise ValueError(
-            "fill_surface: fTetWild found nothing inside of the surface: it may be thinner than "
-            "the tolerance everywhere, lower it"
+            "fill_surface: fTetWild found nothing inside the surface, which may be thinner than "
+            "the tolerance everywhere; lower the tolerance"
         )
     volumes = np.abs(tet_volumes(vertices, tets))
     share = np.bincount(tet_components(tets, len(vertices)), volumes) / volumes.sum()
     solids = int((share > _CRUMB).sum())
     if solids > 1:
         raise ValueError(
-            f"fill_surface: the tets are {solids} separate solids, but one is needed: join the "
+            f"fill_surface: the tets form {solids} separate solids, but one is needed; join the "
             "parts of the surface, or lower the tolerance if a thin bridge between them was lost"
         )

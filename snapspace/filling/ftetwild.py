@@ -1,4 +1,4 @@
-"""fTetWild in a process of its own."""
+"""fTetWild in its own process."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..stopping import check_stop
 
 _PROGRAM = Path(__file__).with_name("ftetwild_process.py")
 _WATCH = Path(__file__).with_name("ftetwild_watch.py")
-# Until what was told to end has ended, in seconds.
+# Seconds to wait for the watch process to end before it is killed.
 _PATIENCE = 10.0
 
 
@@ -29,34 +29,37 @@ def ftetwild(
     edge_length: float,
     tolerance: float,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Tetrahedralise a surface with fTetWild on one thread.
+    """Tetrahedralises a surface with fTetWild on one thread.
 
     Parameters
     ----------
     vertices : ndarray, (s, 3)
+        Points of the surface.
     faces : ndarray of int32, (f, 3)
+        Its triangles.
     edge_length, tolerance : float
         As shares of the diagonal of the bounding box.
 
     Returns
     -------
     vertices : ndarray, (n, 3)
+        Vertices of the tets.
     tets : ndarray of int32, (m, 4)
-        As they come, m = 0 included.
+        The tets, unchecked; m may be 0.
 
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extra `snapspace[fill]`.
+        If the extra `snapspace[fill]` is not installed; a ValueError.
     ValueError
         If the process fails; the message ends with the last line that it wrote.
 
     Notes
     -----
-    The C++ code prints, writes a file into the current folder, ends the process when it meets what
-    it cannot handle, and does not return for a signal. In a process and a folder of its own it
-    leaves nothing behind, takes nothing with it, and Ctrl-C stops it. It ends when this process is
-    killed as well, see `ftetwild_watch.py`.
+    The C++ code prints, writes a file into the current folder, ends the process on input that it
+    cannot handle, and ignores signals. In its own process and folder it leaves nothing behind, does
+    not end this process, and can be stopped by Ctrl-C. It also ends when this process is killed,
+    see `ftetwild_watch.py`.
     """
     need_extra("fill", who="fill_surface")
     with tempfile.TemporaryDirectory(prefix="snapspace-") as name:
@@ -81,8 +84,8 @@ def ftetwild(
 
 
 def _run(folder: Path) -> tuple[int, str]:
-    """Exit status and output of the program; its process is ended if this one is told to stop."""
-    watched, alive = os.pipe()  # `alive` closes when this process ends, however
+    """Exit status and output of the program; ends its process if this one is asked to stop."""
+    watched, alive = os.pipe()  # `alive` closes when this process ends in any way
     try:
         with subprocess.Popen(
             [sys.executable, str(_WATCH), str(folder), str(_PROGRAM)],
@@ -91,9 +94,9 @@ def _run(folder: Path) -> tuple[int, str]:
             stderr=subprocess.STDOUT,
             text=True,
             errors="replace",
-            # Ctrl-C in a terminal goes to all its processes, but this one decides what ends
+            # Ctrl-C in a terminal reaches all its processes, but only this one decides what ends
             start_new_session=True,
-            # packages are found there as they are here
+            # the process finds the same packages as this one
             env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
         ) as process:
             os.close(watched)

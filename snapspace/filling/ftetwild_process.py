@@ -1,4 +1,4 @@
-"""The program that runs fTetWild, in a process of its own (started by `ftetwild.py`).
+"""The program that runs fTetWild in its own process (started by `ftetwild.py`).
 
 Its only argument is a folder. It reads surface.npz there and writes tets.npz.
 """

@@ -1,9 +1,9 @@
-"""The program between snapspace and fTetWild: it ends fTetWild when snapspace ends, however.
+"""The program between snapspace and fTetWild: ends fTetWild when snapspace ends in any way.
 
-Arguments: a folder, and the program to run with it as its only argument. Its standard input is a
-pipe from snapspace, which closes when snapspace dies, killed or not. Then fTetWild, which does not
-listen to anything while it works, is killed, and the folder is removed. Otherwise the exit status
-is fTetWild's, and the folder stays.
+Arguments: a folder, and the program to run with this folder as its only argument. Standard input
+is a pipe from snapspace, which closes when snapspace ends, killed or not. Then fTetWild, which
+reacts to nothing while it works, is killed, and the folder is removed. Otherwise the exit status
+is that of fTetWild, and the folder stays.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ def main(folder: str, program: str) -> int:
     work = subprocess.Popen([sys.executable, program, folder], stdin=subprocess.DEVNULL, cwd=folder)
 
     def end_with_snapspace() -> None:
-        # not sys.stdin, whose lock Python would wait for at its own end
+        # not sys.stdin, whose lock Python would wait for at exit
         while os.read(0, 1):
             pass
         ending.set()
@@ -34,7 +34,7 @@ def main(folder: str, program: str) -> int:
     status = work.wait()
     if ending.is_set():
         watch.join()  # ends the process once the folder is gone
-    return status if status >= 0 else 128 - status  # as shells tell a signal
+    return status if status >= 0 else 128 - status  # as shells report a signal
 
 
 if __name__ == "__main__":

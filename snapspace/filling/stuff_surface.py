@@ -13,28 +13,29 @@ from ..stopping import check_stop
 from ..stuffing import stuff
 from .closed_input import check_share, closed_input
 
-# Vertices of the surface that are farther from the tets, in edge lengths, belong to a lost part.
+# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part.
 _LOST = 1.0
-# Of the edge length, where parts are too thin.
+# Factors of the edge length, tried in turn if parts are too thin.
 _SCALES = (1.0, 0.8, 0.6)
 
 
 def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float = 0.025) -> TetMesh:
-    """Fill a closed triangle surface with well-shaped tets of one size.
+    """Fills a closed triangle surface with well-shaped tets of one size.
 
     Parameters
     ----------
     vertices : array_like, (s, 3)
+        Points of the surface.
     faces : array_like of int, (f, 3)
         Closed and oriented alike, outward or inward; without self-intersections.
     edge_length : float, default 0.025
-        Of the longest edges inside, as a share of the diagonal of the surface's bounding box. Where
-        parts are too thin for that, 0.8 and 0.6 of it are tried.
+        Length of the longest edges inside, as a share of the diagonal of the surface's bounding
+        box. If parts are too thin for that, 0.8 and 0.6 of it are tried.
 
     Returns
     -------
     TetMesh
-        Its boundary has vertices of its own, which lie on the surface; sharp edges are cut off
+        Its boundary has its own vertices, which lie on the surface; sharp edges are cut off
         within an edge length. Dihedral angles are over 8 degrees. The same for the same input.
 
     Raises
@@ -43,12 +44,12 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
         a surface that is not closed, not oriented alike or encloses no volume, an edge length out
         of range, or if a part of the surface is lost or touches another because it is too thin for
-        the edge length: `fill_surface` is for these.
+        the edge length; use `fill_surface` for such surfaces.
 
     Notes
     -----
-    Isosurface stuffing (Labelle and Shewchuk 2007, see `stuffing.stuff`) of the signed distance:
-    seconds where `fill_surface`, which keeps to the surface within a tolerance, takes minutes.
+    Isosurface stuffing (Labelle and Shewchuk 2007, see `stuffing.stuff`) of the signed distance. It
+    takes seconds where `fill_surface`, which follows the surface within a tolerance, takes minutes.
     """
     surface = closed_input(vertices, faces, who="stuff_surface")
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")
@@ -72,12 +73,12 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
             return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
     raise ValueError(
         f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin parts "
-        f"or gaps of the surface ({fault}): take a shorter one, or fill_surface"
+        f"or gaps of the surface ({fault}); choose a shorter one, or use fill_surface"
     )
 
 
 def _lost_part(mesh: TetMesh, vertices: FloatArray, cell: float) -> str:
-    """What is missing of the surface, or an empty text."""
+    """Says which part of the surface is missing; empty if none is."""
     found, _ = closest_boundary_faces(mesh, vertices, limit=_LOST * cell)
     lost = np.flatnonzero(found < 0)
     return (

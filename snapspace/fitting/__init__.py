@@ -1,4 +1,4 @@
-"""Fitting: tet poses whose surfaces match given ones."""
+"""Fitting: poses of a tet mesh whose surfaces match given ones."""
 
 from .fit import DEVIATION, check_deviation, fit_poses
 from .pose_fits import PoseFit, PoseFits

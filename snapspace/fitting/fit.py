@@ -1,4 +1,4 @@
-"""fit_poses: poses of a tet mesh whose surfaces match given ones, without inverted tets."""
+"""fit_poses: finds poses of a tet mesh that match given surfaces, without inverted tets."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ FloatArray = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 OnFinished = Callable[[int, FloatArray, PoseFit], None]
 
-#: Default of `deviation`: a tenth of a percent, which in a picture of the whole shape is a pixel.
+#: Default of `deviation`: 0.1 %, one pixel in a picture of the whole shape.
 DEVIATION = 1e-3
-#: However small `deviation` allows it to be, the surface goes this share of its way at most astray:
-#: a smile moves the face by less than a thousandth of the diagonal of the whole figure.
+#: The deviation is also limited to this share of the surface's motion: a smile moves the face by
+#: less than a thousandth of the diagonal of the whole figure.
 SHARE_OF_MOTION = 0.05
-#: Stiffness of the first stage, in units of 1 / diagonal (the material's mu is one). The body is
-#: bent, but hardly stretched: poses whose limbs turn by half a turn find their way.
+#: Stiffness of the first stage, in units of 1 / diagonal (the material's mu is one). It bends the
+#: body, but hardly stretches it: this finds poses whose limbs turn by half a turn.
 FIRST_STIFFNESS = 0.01
-#: Stretch that tets stay below, and the same for surfaces that cannot be reached so.
+#: Limit of the stretch of tets, and the limit for surfaces that cannot be reached within it.
 STRETCHES = 10.0, 100.0
 
 
@@ -52,51 +52,51 @@ def fit_poses(
     Parameters
     ----------
     mesh : TetMesh
-        The rest shape.
+        The mesh in its rest shape.
     surface : EmbeddedSurface
         Points of the surface in the tets: attributes `faces`, `corners` and `weights`.
     targets : array_like, (k, s, 3)
-        Point i of the surface belongs at point i of each target, up to one rigid motion of the
+        Point i of the surface belongs at point i of each target, up to a rigid motion of the
         target. Targets may intersect themselves.
     deviation : float, default 1e-3
         Goal: root mean square distance between the surface and its target, relative to the diagonal
         of the rest shape. Surfaces that move little are fitted to 5 % of their motion instead.
     max_iterations : int, default 300
-        Newton steps per pose.
+        Most Newton steps per pose.
     threads : int, optional
         Default: as many as the machine has. The result is bitwise the same for any number.
     progress : callable(done, total), optional
-        Called now and then, from this thread.
+        Called now and then from this thread, with numbers of poses.
     names : sequence of str, optional
-        Of the poses, for the reports. Default: their indices.
+        Names of the poses, for the reports. Default: their indices.
     on_finished : callable(index, shape, report), optional
-        Called from this thread for each pose, soon after it is finished; on Ctrl-C too, and again
+        Called from this thread for each pose, soon after it is finished; also on Ctrl-C, and again
         for a pose whose call was interrupted.
 
     Returns
     -------
     PoseFits
-        Shapes in the frame of the rest shape, with a report each. None has inverted tets. Not each
-        has to be converged: a goal that cannot be reached leaves the surface off its target.
+        Shapes in the frame of the rest shape, each with a report. None has inverted tets. Some may
+        not have converged: their surfaces do not reach the goal.
 
     Raises
     ------
     ValueError
-        For targets that do not fit the surface or are not finite, a surface of another mesh or
+        For targets that do not match the surface or are not finite, a surface of another mesh or
         without area, or options out of range.
     KeyboardInterrupt
-        On Ctrl-C, after `on_finished` was called for the finished poses.
+        On Ctrl-C, after `on_finished` has been called for the finished poses.
 
     Notes
     -----
     Minimises the symmetric Dirichlet energy (Smith & Schaefer 2015), which resists inversion, plus
-    stiffness * sum_i area_i |surface_i - target_i|^2. The stiffness is raised in stages, and no
-    further once the goal is met: tets as little distorted as the goal allows make good rest shapes.
+    stiffness * sum_i area_i |surface_i - target_i|^2. The stiffness is raised in stages until the
+    goal is met, and no further: tets with the least distortion make good rest shapes.
 
-    The energy of a tet grows without end towards |F|^2 + |F^-1|^2 - 6 = 100: no stretch is beyond
-    10, nor below 0.1. Where folds of a surface would stretch single tets forty times, the surface
-    is left by a little instead. If the goal cannot be met so, the pose is fitted with bounds of 100
-    and 0.01.
+    The energy of a tet grows without bound towards |F|^2 + |F^-1|^2 - 6 = 100, so no stretch is
+    above 10 or below 0.1. Where folds of a surface would stretch single tets forty times, the fit
+    deviates a little from the surface instead. If the goal cannot be met within these bounds, the
+    pose is fitted with bounds of 100 and 0.01.
     """
     surfaces, labels = checked_targets(mesh, surface, targets, names)
     _check_options(deviation, max_iterations, threads)
@@ -108,7 +108,7 @@ def fit_poses(
         for index in sorted(set(fitted) - announced):
             if on_finished:
                 on_finished(index, *fitted[index])
-            announced.add(index)  # after: Ctrl-C may fall into the callback
+            announced.add(index)  # only now: Ctrl-C may interrupt the callback
 
     def show(_: int) -> None:
         announce()
@@ -134,7 +134,7 @@ def fit_poses(
 
 
 class _Fitting:
-    """What the poses of one call share."""
+    """What all poses of one call share."""
 
     def __init__(
         self, mesh: TetMesh, surface: EmbeddedSurface, deviation: float, max_iterations: int
@@ -157,7 +157,7 @@ class _Fitting:
         wanted = registered_targets(target[None], self.rest, self.areas)[0] - self.rest
         goal = self.deviation * self.mesh.diagonal
         moved = float(np.sqrt(self.areas @ (wanted**2).sum(axis=1) / self.areas.sum()))
-        # a target that is the rest shape up to rounding has no motion to speak of
+        # a target may be the rest shape up to rounding, which is no motion
         share = max(SHARE_OF_MOTION * moved, 1e-6 * goal)
         for stretch in STRETCHES:
             u, report = self.system.fit(
@@ -201,6 +201,6 @@ def _check_options(deviation: float, max_iterations: int, threads: int | None) -
 
 
 def check_deviation(deviation: float) -> None:
-    """ValueError unless the goal is positive."""
+    """Raises ValueError unless the goal is positive and finite."""
     if not (np.isfinite(deviation) and deviation > 0):
         raise ValueError(f"fit_poses: deviation is {deviation}, but it must be positive")

@@ -1,4 +1,4 @@
-"""PoseFits: poses of a tet mesh that match surfaces, and how well they do."""
+"""PoseFits: poses of a tet mesh that match surfaces, and how well they match."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ FloatArray = NDArray[np.float64]
 class PoseFit:
     """How the fit of one pose ended.
 
-    name : of the pose
+    name : name of the pose
     rms, max : distance between the fitted surface and its target, relative to the diagonal of the
         rest shape's bounding box; rms is weighted by area
-    inverted_tets : tets with det F <= 0; zero, whatever the status is
-    smallest_stretch, largest_stretch : of the singular values of F over all tets
-    stages : values of the surface stiffness that were tried
+    inverted_tets : number of tets with det F <= 0; zero, whatever the status
+    smallest_stretch, largest_stretch : extreme singular values of F over all tets
+    stages : number of values of the surface stiffness that were tried
     iterations : Newton steps of all stages
     seconds : wall time
-    status : one of converged, max_iterations, stiffness_limit, line_search_failed; the shape of one
-        that did not converge is valid, but its surface is further off than it was meant to be
+    status : one of converged, max_iterations, stiffness_limit, line_search_failed; a shape that did
+        not converge is valid, but its surface is farther from the target than the goal
     """
 
     name: str
@@ -40,11 +40,11 @@ class PoseFit:
 
     @property
     def converged(self) -> bool:
-        """Whether the surface came as near to its target as was asked."""
+        """Whether the surface came as close to its target as the goal asks."""
         return self.status == "converged"
 
     def summary(self) -> str:
-        """One line: distances, stretches, cost, and why it ended if it did not converge."""
+        """One line: distances, stretches, time, and the status if it did not converge."""
         text = (
             f"{self.name}: surface within {self.rms:.1e} rms, {self.max:.1e} max of the diagonal; "
             f"stretches {self.smallest_stretch:.2f} to {self.largest_stretch:.1f}, "

@@ -1,4 +1,4 @@
-"""Stretches of tets: how far a pose is from a rigid motion of the rest shape, tet by tet."""
+"""Stretches of tets: how far each tet is from a rigid motion of the rest shape."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ def stretches(mesh: TetMesh, shape: FloatArray) -> tuple[FloatArray, NDArray[np.
     Parameters
     ----------
     mesh : TetMesh
+        The mesh in its rest shape.
     shape : ndarray, (n, 3)
+        Vertices of the pose.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Target surfaces: checked, weighted by area, and brought into the frame of the rest shape."""
+"""Target surfaces: checked, weighted by area, and registered to the rest shape."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ FloatArray = NDArray[np.float64]
 def checked_targets(
     mesh: TetMesh, surface: EmbeddedSurface, targets: ArrayLike, names: Sequence[str] | None
 ) -> tuple[FloatArray, list[str]]:
-    """Targets as (k, s, 3) float64 and a name for each; ValueError where they do not fit.
+    """Targets as (k, s, 3) float64 and a name for each; ValueError if they do not match.
 
-    The surface must belong to the mesh: its corners are vertices of it.
+    The corners of the surface must be vertices of the mesh.
     """
     count = len(surface.corners)
     if surface.corners.max() >= len(mesh.vertices):
@@ -46,7 +46,7 @@ def checked_targets(
 
 
 def point_areas(vertices: FloatArray, faces: NDArray[np.integer]) -> FloatArray:
-    """A third of the area of the faces at each point, (s,)."""
+    """A third of the total area of the faces at each point, (s,)."""
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     thirds = np.repeat(np.linalg.norm(normals, axis=1) / 6.0, 3)
@@ -55,7 +55,7 @@ def point_areas(vertices: FloatArray, faces: NDArray[np.integer]) -> FloatArray:
 
 
 def registered_targets(targets: FloatArray, onto: FloatArray, areas: FloatArray) -> FloatArray:
-    """Each target after the rigid motion that brings it closest to the surface `onto` (s, 3)."""
+    """The targets, each moved rigidly as close as possible to the surface `onto` (s, 3)."""
     mass = csr_array(diags_array(areas))
     flat = onto.reshape(-1)
     return np.stack([rigid_registration(t.reshape(-1), flat, mass).apply(t) for t in targets])

@@ -19,7 +19,7 @@ def bar(
     width: float = 1.0,
     height: float = 1.0,
 ) -> TetMesh:
-    """Fill the box [0, length] x [0, width] x [0, height] with 6 nx ny nz tetrahedra.
+    """Fills the box [0, length] x [0, width] x [0, height] with 6 nx ny nz tetrahedra.
 
     Every grid cell is cut into the six tetrahedra of Kuhn (1960): one for each order in which the
     steps along x, y, z lead from the cell's lowest to its highest corner. All cells are cut alike

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-# Steps of the integration, whatever the mesh is: a pose is the same at all resolutions.
+# Number of integration steps, for any mesh: a pose is the same at all resolutions.
 _STEPS = 240
-# Bending stops short of this share of the curvature at which the inner side would fold.
+# Bending stays below this share of the curvature at which the inner side would fold.
 _FOLD = 0.55
-# The share of the length over which a limb starts to bend.
+# Share of the length, from the root, over which bending sets in.
 _ROOT = 0.2
 
 
@@ -23,7 +23,7 @@ def bent_rod(
     Parameters
     ----------
     coefficients : ndarray, (3, j)
-        Angles in radians: of the twist, and of the bends about the second and third axis. Column i
+        Angles of the twist and of the bends about the second and third axis, in radians. Column i
         is the amplitude of cos(i pi s / length).
     length : float
         Arc length of the centre line.
@@ -38,7 +38,7 @@ def bent_rod(
         The centre line; it starts at 0 along the first axis.
     frames : ndarray, (k, 3, 3)
         Rotations; the columns are the tangent and the two axes of the cross-section. Curvature
-        times radius stays below 0.55, so that no cross-section meets the next one.
+        times radius stays below 0.55, so no cross-section meets the next one.
     """
     u = (np.arange(_STEPS) + 0.5) / _STEPS
     root = np.clip(u / _ROOT, 0.0, 1.0)
@@ -67,7 +67,7 @@ def rod_points(
     index = np.minimum(np.searchsorted(places, s, side="right") - 1, len(places) - 2)
     share = ((s - places[index]) / (places[index + 1] - places[index]))[:, None]
     middle = (1.0 - share) * centre[index] + share * centre[index + 1]
-    # neighbouring frames differ by a few degrees at most, so that their mean is a rotation nearly
+    # neighbouring frames differ by a few degrees at most, so their mean is nearly a rotation
     blend = (1.0 - share)[..., None] * frames[index] + share[..., None] * frames[index + 1]
     points: FloatArray = middle + np.einsum("kij,kj->ki", blend[:, :, 1:], offsets)
     return points

@@ -20,12 +20,13 @@ class Part:
     Attributes
     ----------
     value : callable, (k, 3) -> (k,)
-        Negative inside; at least the distance to the ball.
+        Value of the shape, negative inside; at least the distance to the ball.
     centre : ndarray, (3,)
+        Centre of the ball.
     reach : float
-        The ball.
+        Radius of the ball.
     blend : float
-        As in `smooth_union`.
+        Width of the blend, as in `smooth_union`.
     """
 
     value: Callable[[FloatArray], FloatArray]
@@ -37,7 +38,7 @@ class Part:
 def limb(control: ArrayLike, *, blend: float) -> Part:
     """A `bent_cone` as a part; control points (c, 4) are x, y, z, radius."""
     balls = np.asarray(control, dtype=np.float64)
-    # A Bezier curve stays in the hull of its control points, so do its balls.
+    # A Bezier curve stays in the hull of its control points, and so do its balls.
     centre = 0.5 * (balls[:, :3].min(axis=0) + balls[:, :3].max(axis=0))
     reach = float(np.max(np.linalg.norm(balls[:, :3] - centre, axis=1) + balls[:, 3]))
     return Part(lambda points: bent_cone(points, balls), centre, reach, blend)
@@ -61,9 +62,9 @@ def lump(
 
 
 def blended(points: FloatArray, parts: tuple[Part, ...]) -> FloatArray:
-    """Value of the smooth union of parts, in their order, at points (k, 3).
+    """Value of the smooth union of parts, in order, at points (k, 3).
 
-    A part is evaluated only where it can matter: elsewhere it is farther off than the parts before
+    A part is evaluated only where it can matter. Elsewhere it is farther away than the parts before
     it by more than the blend, and the smooth union is the value so far.
     """
     result = np.full(len(points), np.inf)

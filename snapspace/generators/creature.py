@@ -13,13 +13,13 @@ from snapspace.stuffing.manifold import euler_characteristic, is_closed_manifold
 _TWELVE_VOLUMES, _SURFACE_LAYER = 12.0, 12.5
 _FEWEST, _MOST = 5_000, 1_500_000
 _TOLERANCE = 0.15
-# The first cell nearly always does. Below 7k tets, where horns and ears are as thin as the cells,
-# the surface sometimes touches itself: then a slightly different cell is tried.
+# The first cell nearly always works. Below 7k tets, where horns and ears are as thin as the cells,
+# the surface sometimes touches itself; then slightly different cells are tried.
 _SCALES = (1.0, 0.985, 1.015, 0.975, 1.025, 0.965, 1.035)
 
 
 def creature(tets: int = 25_000) -> TetMesh:
-    """Make a young horned animal of about `tets` well-shaped tetrahedra.
+    """Makes a young horned animal of about `tets` well-shaped tetrahedra.
 
     An implicit surface (`creature_shape`) filled by isosurface stuffing (`stuff`).
 
@@ -31,9 +31,9 @@ def creature(tets: int = 25_000) -> TetMesh:
     Returns
     -------
     TetMesh
-        Stands on z = 0 with its head towards +x and its back towards +z, about 3 long, 1.6 wide
-        and 2.3 high; the vertices are mirror-symmetric about y = 0. The surface is a sphere
-        topologically; dihedral angles are over 8 degrees (measured: over 10).
+        It stands on z = 0 with its head towards +x and its back towards +z, about 3 long, 1.6 wide
+        and 2.3 high; the vertices are mirror-symmetric about y = 0. The surface is
+        topologically a sphere; dihedral angles are over 8 degrees (measured: over 10).
 
     Raises
     ------
@@ -57,7 +57,7 @@ def creature(tets: int = 25_000) -> TetMesh:
 
 def _expected_cell(tets: int) -> float:
     cell = 0.0
-    for _ in range(4):  # a contraction: cell hardly enters on the right
+    for _ in range(4):  # a contraction: the right-hand side hardly depends on the cell
         cell = ((_TWELVE_VOLUMES + _SURFACE_LAYER * cell) / tets) ** (1.0 / 3.0)
     return cell
 

@@ -19,7 +19,7 @@ CREATURE_REGIONS: dict[str, dict[str, list[Any]]] = {
 
 
 def creature_handles(mesh: TetMesh) -> dict[str, NDArray[np.int32]]:
-    """Find the vertices of `mesh` in each of `CREATURE_REGIONS`.
+    """Finds the vertices of `mesh` in each of `CREATURE_REGIONS`.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""A coat for the creature: a colour for every vertex, for pictures."""
+"""A colour for every vertex of the creature, for pictures."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ _GLINT_BALL = ((1.07, 0.285, 1.785), 0.04)
 def creature_paint(mesh: TetMesh) -> FloatArray:
     """Colours of the vertices: russet fur, pale underside, dark eyes, nose and hooves, ivory horns.
 
-    The colours depend on the place only, and meet the finer the mesh is.
+    The colours depend on position only; finer meshes have sharper borders.
 
     Parameters
     ----------
     mesh : TetMesh
-        A mesh made by `creature`, at rest; the colours go with the vertices when it is posed.
+        A mesh made by `creature`, at rest; the colours stay with the vertices when it is posed.
 
     Returns
     -------

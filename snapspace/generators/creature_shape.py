@@ -57,7 +57,7 @@ def _ear() -> tuple[Part, ...]:
 
 
 # One half; the other is its mirror image. Parts that cross the plane y = 0 are symmetric. Nothing
-# is thinner than the cells of the coarsest mesh (0.14), but for the tips.
+# is thinner than the cells of the coarsest mesh (0.14), except the tips.
 _TRUNK = (
     limb(  # rump to chest
         [(-0.5, 0, 0.74, 0.28), (-0.2, 0, 0.84, 0.32), (0.05, 0, 0.68, 0.29), (0.33, 0, 0.8, 0.31)],

@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from snapspace.mesh.tet_mesh import TetMesh
 from snapspace.stuffing.arguments import require_count, require_positive
 
-# The even permutations 012, 120, 201, read as numbers in base 3.
+# The even permutations 012, 120, 201 as numbers in base 3.
 _EVEN_ORDERS = (5, 15, 19)
 
 
 def cylinder(
     radial: int = 2, along: int = 52, *, length: float = 8.0, radius: float = 0.35
 ) -> TetMesh:
-    """Fill a circular cylinder along z, from z = 0 to z = length, with tetrahedra.
+    """Fills a circular cylinder along z, from z = 0 to z = length, with tetrahedra.
 
     The cross-section is a disc of nearly equilateral triangles in concentric rings, 6k vertices
     on ring k; it is extruded in equal layers, and each prism is cut into three tets.
@@ -23,11 +23,12 @@ def cylinder(
     Parameters
     ----------
     radial : int, default 2
-        Rings of triangles from the axis to the surface, at least 1.
+        Number of rings of triangles from the axis to the surface, at least 1.
     along : int, default 52
-        Layers of prisms along the axis, at least 1.
+        Number of layers of prisms along the axis, at least 1.
     length, radius : float, default 8 and 0.35
-        Size. Tets are best shaped when ``length / along`` is near ``radius / radial``.
+        Size of the cylinder. Tets are best shaped if ``length / along`` is near
+        ``radius / radial``.
 
     Returns
     -------
@@ -68,7 +69,7 @@ def disc_triangles(rings: int) -> NDArray[np.int32]:
     for k in range(1, rings + 1):
         outer, inner = _ring(k), _ring(k - 1)
         sector, j = (a.reshape(-1) for a in np.divmod(np.arange(6 * k), k))
-        # k triangles of a sector stand on the outer ring, k - 1 hang from the inner one.
+        # k triangles of a sector have an edge on the outer ring, k - 1 on the inner one
         apex = inner[sector * (k - 1) + j]
         triangles.append(np.stack([outer[:-1], outer[1:], apex], axis=1))
         hanging = j < k - 1
@@ -79,7 +80,7 @@ def disc_triangles(rings: int) -> NDArray[np.int32]:
 
 
 def _ring(k: int) -> NDArray[np.intp]:
-    """Vertices of ring k in order, closed: the first one again at the end. Ring 0 is the centre."""
+    """Vertices of ring k in order, the first one repeated at the end. Ring 0 is the centre."""
     if k == 0:
         return np.zeros(1, dtype=np.intp)
     return 1 + 3 * k * (k - 1) + np.arange(6 * k + 1) % (6 * k)
@@ -88,8 +89,8 @@ def _ring(k: int) -> NDArray[np.intp]:
 def extruded_disc_tets(rings: int, layers: int) -> NDArray[np.int32]:
     """Tets (18 rings^2 layers, 4) of the extruded disc, positive when extruded along +z.
 
-    The quadrilateral over a disc edge (i, j), i < j, is cut from i below to j above: a rule that
-    sees only the edge, so that neighbouring prisms match; and no prism gets a cyclic choice.
+    The quadrilateral over a disc edge (i, j), i < j, is cut from i below to j above. This rule
+    depends only on the edge, so neighbouring prisms match, and no prism gets a cyclic choice.
     """
     triangles = disc_triangles(rings)
     order = np.argsort(triangles, axis=1)

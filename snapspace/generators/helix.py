@@ -1,4 +1,4 @@
-"""The cylinder of `cylinder`, bent to a helix: a far pose for shape interpolation."""
+"""The cylinder of `cylinder` bent to a helix: a distant pose for shape interpolation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def helix(
     coil_radius: float = 0.55,
     twist: float = 0.0,
 ) -> TetMesh:
-    """Bend the cylinder with the same `radial`, `along`, `length` and `radius` to a helix.
+    """Bends the cylinder with the same `radial`, `along`, `length` and `radius` to a helix.
 
     The centre line keeps its arc length; cross-sections stay plane, undistorted and normal to it,
     and follow a rotation-minimising frame (Bishop 1975), which for a helix is the Frenet frame
@@ -33,11 +33,11 @@ def helix(
     radial, along, length, radius
         As in `cylinder`; `length` is the arc length of the centre line.
     turns : float, default 2
-        Windings around the z axis, positive for a right-handed helix.
+        Number of windings around the z axis, positive for a right-handed helix.
     coil_radius : float, default 0.55
         Distance of the centre line from the z axis.
     twist : float, default 0, radians
-        Extra turn of the last cross-section about the centre line, growing evenly from the first.
+        Extra rotation of the last cross-section about the centre line; it grows evenly along it.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def helix(
     ------
     ValueError
         If a count or size is out of range, if `length` is too short for the windings, or if the
-        solid would overlap itself (in the inside of the bend, or from winding to winding).
+        solid would overlap itself (on the inside of the bend, or from winding to winding).
     """
     radial = require_count("helix", "radial", radial, at_least=1)
     along = require_count("helix", "along", along, at_least=1)
@@ -74,7 +74,7 @@ def helix(
 
 
 def _rise_per_radian(length: float, radius: float, turns: float, coil_radius: float) -> float:
-    """Rise of the centre line along z for each radian, from its arc length."""
+    """Rise of the centre line along z per radian, from its arc length."""
     if turns == 0.0:
         raise ValueError("helix: turns is 0, but must not be; call cylinder for a straight one")
     per_radian = length / (2.0 * math.pi * abs(turns))
@@ -90,7 +90,7 @@ def _rise_per_radian(length: float, radius: float, turns: float, coil_radius: fl
             f"helix: radius is {radius}, but the centre line bends with radius {bend_radius:.6g};"
             " lower radius or coil_radius"
         )
-    # Two windings, seen along the line, are as far apart as the pitch times the line's cosine.
+    # seen along the line, two windings are the pitch times the line's cosine apart
     gap = 2.0 * math.pi * rise * coil_radius / per_radian
     if abs(turns) > 1.0 and 2.0 * radius >= gap:
         raise ValueError(
@@ -105,7 +105,7 @@ def _bishop_frame(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Centre line and two unit normals, each (len(s), 3), at arc lengths `s`.
 
-    The normals and the tangent are right-handed in the order of x, y, z of the cylinder.
+    The two normals and the tangent are right-handed, like x, y, z of the cylinder.
     """
     per_radian = math.hypot(coil_radius, rise)
     theta = hand * s / per_radian

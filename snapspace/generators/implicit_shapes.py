@@ -1,6 +1,6 @@
-"""Implicit shapes to build with: negative inside, near the surface close to a signed distance.
+"""Implicit shapes as building blocks: negative inside, near the surface almost a distance.
 
-All functions take points as an array (k, 3) and give values (k,), in the length unit of the
+All functions take points as an array (k, 3) and return values (k,), in the length unit of the
 points. They are cheap to evaluate on many points and are combined by `smooth_union`.
 """
 
@@ -32,14 +32,17 @@ def ellipsoid(
 ) -> FloatArray:
     """Estimated distance to an ellipsoid; its zero set is exact.
 
-    The estimate is that of first order, (k - 1) / |grad k| with k the distance from the centre
-    in units of the radii, or the distance to the ball around the ellipsoid if that is more.
+    The estimate is of first order, (k - 1) / |grad k| with k the distance from the centre in units
+    of the radii, or the distance to the ball around the ellipsoid if that is larger.
 
     Parameters
     ----------
+    points : ndarray, (k, 3)
+        Where to evaluate.
     centre, radii : array_like, (3,)
+        Centre and semi-axes.
     axes : array_like, (3, 3), optional
-        Rows are the unit vectors of the three radii; x, y, z if left out.
+        Rows are the unit vectors of the three radii. Default: x, y, z.
     """
     local = points - np.asarray(centre, dtype=np.float64)
     if axes is not None:
@@ -52,13 +55,16 @@ def ellipsoid(
 
 
 def bent_cone(points: FloatArray, control: ArrayLike) -> FloatArray:
-    """Signed distance to balls swept along a Bezier curve, smooth where the curve is.
+    """Signed distance to balls swept along a Bezier curve, smooth where the curve is smooth.
 
-    The nearest ball is the best of `_SAMPLES`, refined by `_STEPS` Newton steps: near the surface
-    of a curve without sharp bends exact to about 1e-6 of its size, far off to about 1e-3.
+    The nearest ball is the best of `_SAMPLES`, refined by `_STEPS` Newton steps. For a curve
+    without sharp bends the value is exact to about 1e-6 of its size near the surface, and to about
+    1e-3 far away.
 
     Parameters
     ----------
+    points : ndarray, (k, 3)
+        Where to evaluate.
     control : array_like, (c, 4)
         Control points x, y, z, radius; at least 2.
     """
@@ -82,8 +88,8 @@ def bent_cone(points: FloatArray, control: ArrayLike) -> FloatArray:
         ax, ay, az, ar = _bezier(bend, t) if len(bend) else np.zeros((4, 1))
         px, py, pz = x - cx, y - cy, z - cz
         distance = _length(px, py, pz)
-        # Distance times the derivative of (distance - radius): smooth even where the point is on
-        # the curve. Its sign keeps the minimum bracketed when Newton's step leaves the bracket.
+        # distance times the derivative of (distance - radius): smooth even if the point is on
+        # the curve. Its sign keeps the minimum bracketed when Newton's step leaves the bracket
         along = px * vx + py * vy + pz * vz
         first = -along - distance * vr
         second = vx * vx + vy * vy + vz * vz - px * ax - py * ay - pz * az
@@ -107,7 +113,7 @@ def smooth_union(first: FloatArray, second: FloatArray, blend: float) -> FloatAr
 
 
 def _bezier(control: FloatArray, t: FloatArray) -> FloatArray:
-    """Bezier curve with control points (c, d) at parameters (k,), as (d, k), by its polynomial."""
+    """Points (d, k) of the Bezier curve with control points (c, d) at parameters (k,)."""
     degree = len(control) - 1
     coefficients = np.zeros_like(control)
     for i in range(degree + 1):

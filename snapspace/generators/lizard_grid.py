@@ -12,7 +12,7 @@ from snapspace.generators.bar import kuhn_paths
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
-# The torso is 4 x 3 x 2 blocks, x forward, y to the left, z up. Limbs are a block wide at the base.
+# The torso has 4 x 3 x 2 blocks, x forward, y to the left, z up. Limbs start one block wide.
 BLOCK = 0.25
 TORSO = (4, 3, 2)
 
@@ -24,11 +24,11 @@ class Limb:
     Attributes
     ----------
     block : (int, int, int)
-        The block.
+        Indices of the block along x, y, z.
     axis, sign : int
-        Direction: along x, y, z, up or down.
+        Direction: axis 0, 1 or 2, and 1 or -1 along it.
     length : float
-        From the torso's surface to the tip.
+        Length from the torso's surface to the tip.
     tip : float
         Width of the tip relative to the base.
     bend, twist : float
@@ -57,12 +57,14 @@ LIMBS = (
 
 @dataclass(frozen=True)
 class LizardGrid:
-    """Vertices at rest, tets, and where the limbs are.
+    """Vertices at rest, tets, and the vertices of the limbs.
 
     Attributes
     ----------
     vertices : ndarray, (n, 3)
+        Rest positions.
     tets : ndarray, (m, 4) int32
+        Vertex indices.
     limbs : tuple of int arrays
         Vertices of each of `LIMBS`, without those on the torso's surface.
     """
@@ -73,7 +75,7 @@ class LizardGrid:
 
 
 def lizard_grid(tets: int) -> LizardGrid:
-    """The grid with about `tets` tets: whole cells across the blocks, then layers to match."""
+    """Makes the grid with about `tets` tets: whole cells across blocks, then layers to match."""
     across, layers = _resolution(tets)
     lowest = _cells(across, layers)
     steps = np.array(np.meshgrid(*[[0, 1]] * 3, indexing="ij")).reshape(3, -1).T
@@ -94,7 +96,7 @@ def _resolution(tets: int) -> tuple[IntArray, list[int]]:
         across = np.array([1 + (level + 2 - axis) // 3 for axis in range(3)])
         torso = int(np.prod(TORSO) * np.prod(across))
         width = [int(np.prod(np.delete(across, limb.axis))) for limb in LIMBS]
-        # layers as thick as cells are wide at the base; more of them until the number is met
+        # layers as thick as cells are wide at the base; then more until the number is met
         cubes = [limb.length / BLOCK * np.cbrt(np.prod(across)) for limb in LIMBS]
         more = (tets / 6 - torso) / np.dot(width, cubes)
         if chosen is not None and more < 1.0:

@@ -14,14 +14,14 @@ FloatArray = NDArray[np.float64]
 
 _FEWEST, _MOST = 500, 500_000
 _STRONGEST = 2.0
-# How much the bends of a limb vary along it: amplitudes of the constant and two cosines.
+# How bends vary along a limb: amplitudes of the constant and of two cosines.
 _MODES = np.array([1.0, 0.8, 0.5])
 
 
 def lizard_poses(
     count: int, tets: int = 4_000, *, seed: int = 0, bend: float = 1.0
 ) -> list[TetMesh]:
-    """Make poses of a lizard of blocks: tail, neck and legs bend and twist, differently in each.
+    """Makes poses of a lizard of blocks: tail, neck and legs bend and twist at random.
 
     The torso is a box of 1 x 0.75 x 0.5; the tail is 2.5 long and tapers to a quarter of its width.
     Limbs are rods whose cross-sections stay plane and undistorted. All cells are cut as in `bar`.
@@ -29,11 +29,11 @@ def lizard_poses(
     Parameters
     ----------
     count : int
-        How many poses, at least 1. The first one is straight.
+        Number of poses, at least 1. The first one is straight.
     tets : int, default 4000
         Wanted number of tets, from 500 to 500000; met within 10 %.
     seed : int, default 0
-        Of the bends, not negative.
+        Seed of the bends, not negative.
     bend : float, default 1
         Scales all bends and twists, in (0, 2]. At 1 a typical bend of the tail is 1.6 radians about
         either axis, and of a leg 0.9.
@@ -42,7 +42,7 @@ def lizard_poses(
     -------
     list of TetMesh
         Vertex i and tet i correspond; `Poses.of` takes them. No tet is inverted. Poses may touch
-        or cross themselves. Pose k depends on seed, k and bend alone, and the shape is the same at
+        or cross themselves. Pose k depends only on seed, k and bend, and the shape is the same at
         all resolutions.
 
     Raises
@@ -61,17 +61,17 @@ def lizard_poses(
     grid = lizard_grid(tets)
     poses = [TetMesh(grid.vertices, grid.tets)]
     for pose in range(1, count):
-        chance = np.random.default_rng([seed, pose])
-        poses.append(TetMesh(_posed(grid, chance, bend), grid.tets))
+        rng = np.random.default_rng([seed, pose])
+        poses.append(TetMesh(_posed(grid, rng, bend), grid.tets))
     return poses
 
 
-def _posed(grid: LizardGrid, chance: np.random.Generator, bend: float) -> FloatArray:
+def _posed(grid: LizardGrid, rng: np.random.Generator, bend: float) -> FloatArray:
     vertices = grid.vertices.copy()
     for limb, points in zip(LIMBS, grid.limbs, strict=True):
         angles = bend * np.array([limb.twist, limb.bend, limb.bend])
-        coefficients = chance.standard_normal((3, len(_MODES))) * _MODES * angles[:, None]
-        # an angle beyond two standard deviations is rare, and would coil the limb
+        coefficients = rng.standard_normal((3, len(_MODES))) * _MODES * angles[:, None]
+        # angles above two standard deviations are rare, and would coil the limb
         coefficients = np.clip(coefficients, -2.0 * angles[:, None], 2.0 * angles[:, None])
         vertices[points] = _bent(grid.vertices[points], limb, coefficients)
     return vertices
@@ -83,7 +83,7 @@ def _bent(rest: FloatArray, limb: Limb, coefficients: FloatArray) -> FloatArray:
     rod = bent_rod(coefficients, limb.length, (radius, limb.tip * radius))
     base = BLOCK * (np.array(limb.block) + 0.5)
     base[limb.axis] = BLOCK * TORSO[limb.axis] if limb.sign > 0 else 0.0
-    # right-handed: the direction of the limb, then two axes of its cross-section
+    # the direction of the limb, then two axes of its cross-section, right-handed
     axes = np.roll(np.eye(3), -limb.axis, axis=0)
     if limb.sign < 0:
         axes[:2] *= -1.0

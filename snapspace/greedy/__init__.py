@@ -1,4 +1,4 @@
-"""Greedy sampling: the next samples are those that the present model is worst at."""
+"""Greedy sampling: the next samples are those where the current model is worst."""
 
 from .batch_checkpoints import batch_checkpoint, finished_samples, greedy_key
 from .error_estimates import after_steps, estimated_errors, reduced_solutions

@@ -1,4 +1,4 @@
-"""The checkpoints of a run that comes in batches: one folder each, in the folder of the run."""
+"""Checkpoints of a run in batches: one folder per batch, in the folder of the run."""
 
 from __future__ import annotations
 
@@ -20,8 +20,8 @@ def batch_checkpoint(
 ) -> Checkpoint | None:
     """The checkpoint of the batch that begins with sample `begin`; None if the run has none.
 
-    Its name has the key of the batch: a batch that was chosen differently, by another processor
-    for instance, does not take its samples for its own.
+    Its name has the key of the batch. So a batch that was chosen differently, for instance on
+    another processor, does not use its samples.
     """
     if whole is None:
         return None
@@ -32,9 +32,9 @@ def batch_checkpoint(
 def greedy_key(
     problem: Problem, options: SolverOptions, *, seed: int, batch: int, candidates: int
 ) -> str:
-    """Hash of what the choice depends on, 16 hex digits.
+    """Hash of all that the choice of samples depends on, 16 hex digits.
 
-    The number of samples and the target are not in it: a run for more samples goes on from the
+    The number of samples and the target are not in it: a run for more samples continues from the
     batches of a shorter one.
     """
     choice = {"seed": seed, "batch": batch, "candidates": candidates}
@@ -43,5 +43,5 @@ def greedy_key(
 
 
 def finished_samples(whole: Checkpoint) -> int:
-    """How many samples of all batches are saved."""
+    """Number of saved samples in all batches."""
     return sum(len(Checkpoint(batch).numbers()) for batch in whole.folder.glob("batch-*"))

@@ -1,4 +1,4 @@
-"""BatchProgress: the progress of batches as that of one run."""
+"""BatchProgress: reports the progress of batches as that of one run."""
 
 from __future__ import annotations
 
@@ -8,18 +8,19 @@ from ..snapshots import Progress, SolveProgress
 
 
 class BatchProgress:
-    """The `progress` callable for the run of each batch; tells of all batches together.
+    """The `progress` callable for the run of each batch; reports on all batches together.
 
     Parameters
     ----------
     progress : callable(SolveProgress)
+        Gets the reports.
     total : int
-        Samples of all batches, as far as they are needed.
+        Largest number of samples of all batches.
 
     Attributes
     ----------
-    held_out_error : of the last finished batch against those before; that of a batch's own run
-        would not know the others
+    held_out_error : error of the last finished batch, given those before; the run of a batch does
+        not know the other batches
     """
 
     def __init__(self, progress: Progress, total: int) -> None:
@@ -32,17 +33,17 @@ class BatchProgress:
 
     def __call__(self, state: SolveProgress) -> None:
         self._last = state
-        self._tell(self._done + state.done, self._solved + state.solved)
+        self._report(self._done + state.done, self._solved + state.solved)
 
     def finish_batch(self, held_out_error: float | None) -> None:
-        """Counts what the batch's run told last, and tells the error that is known by now."""
+        """Counts what the batch's run reported last, and reports the error known by now."""
         if self._last is not None:
             self._done += self._last.done
             self._solved += self._last.solved
         self._last = None
         self.held_out_error = held_out_error
-        self._tell(self._done, self._solved)
+        self._report(self._done, self._solved)
 
-    def _tell(self, done: int, solved: int) -> None:
+    def _report(self, done: int, solved: int) -> None:
         seconds = time.perf_counter() - self.begin
         self.progress(SolveProgress(done, self.total, seconds, solved, self.held_out_error))

@@ -1,4 +1,4 @@
-"""greedy_snapshots: samples where the model of those before is worst, until it is good enough."""
+"""greedy_snapshots: solves samples where the model of earlier ones is worst, up to a target."""
 
 from __future__ import annotations
 
@@ -45,64 +45,67 @@ def greedy_snapshots(
     executor: Executor | None = None,
     known: Snapshots | None = None,
 ) -> Snapshots:
-    """Solves batch after batch, each where a reduced model of the samples before is worst.
+    """Solves batches of samples, each where a reduced model of the earlier ones is worst.
 
-    The first batch begins a scrambled Sobol sequence. For each batch after it a reduced model with
-    d <= 20 is made, and solved at the next `candidates * batch` points of the sequence. Of these
-    the batch takes points whose `estimated_errors` are large and differ from each other, see
-    `largest_pivots`; or the first points, while there are too few samples to train a cubature on,
-    ten, where the model needs one. It is the greedy method of reduced bases (Veroy, Prud'homme,
-    Rovas & Patera 2003) with another indicator, and in batches.
+    The first batch is the beginning of a scrambled Sobol sequence. For each later batch a reduced
+    model with d <= 20 is made, and solved at the next `candidates * batch` points of the sequence.
+    The batch takes the points whose `estimated_errors` are large and differ from each other, see
+    `largest_pivots`. If the model needs a cubature and there are fewer than ten samples to train
+    it on, the batch takes the first points. This is the greedy method of reduced bases (Veroy,
+    Prud'homme, Rovas & Patera 2003) with another indicator, and in batches.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
+        The problem to sample.
     count : int
-        The most samples that are solved.
+        Largest number of samples to solve.
     target : float, optional
-        Ends after the first batch whose median held-out error is below: the relative error in the
-        M-norm of its projection onto the best subspace of the samples before. Tight solutions at
-        unseen parameters have more: new samples start from blends of earlier ones, and stay near.
+        Ends after the first batch whose median held-out error is below this. It is the relative
+        error in the M-norm of projections onto the best subspace of the earlier samples. Tight
+        solutions at unseen parameters have larger errors: new samples start from blends of earlier
+        ones, and stay near them.
     dimension : int, default 40
-        Of that subspace. It bounds what error can be reached.
+        Dimension of that subspace, which limits the error that can be reached.
     batch : int, default 32
+        Number of samples per batch.
     candidates : int, default 3
-        Points that each sample is chosen from. 1 takes the sequence as it comes, and needs no
-        model: Sobol sampling that ends at the target.
+        Number of points that each sample is chosen from. With 1 the sequence is taken as it is,
+        without a model: Sobol sampling that ends at the target.
     seed : int, default 0
-        Of the sequence.
+        Seed of the sequence.
     options, threads, progress, executor : as for `solve_snapshots`
     checkpoint : Checkpoint, optional
-        As for `solve_snapshots`; each batch has a folder in that of the checkpoint.
+        As for `solve_snapshots`; each batch has its own folder inside that of the checkpoint.
     known : Snapshots, optional
-        Of the same problem, solved or carried over. The model counts them as samples, so that
-        even the first batch is chosen, and they are starts.
+        Samples of the same problem, solved or carried over. The model uses them, so even the first
+        batch is chosen, and solves start from them.
 
     Returns
     -------
     Snapshots
-        In the order of the choice, without the known ones; all parameters differ. The same
+        The samples in the order of choice, without the known ones; all parameters differ. The same
         arguments give the same bits for any number of threads, executor or interruption.
 
     Raises
     ------
     ValueError
-        For a number out of its range, known snapshots of another problem, or a first batch without
-        a usable sample.
+        For a number out of range, known snapshots of another problem, or a first batch without a
+        usable sample.
     Interrupted
-        On Ctrl-C, after the finished samples were saved.
+        On Ctrl-C, after the finished samples have been saved.
 
     Notes
     -----
-    With the same number of samples it is some percent better or worse than the sequence itself, and
-    in the same time it is worse, see docs/notes/sampling.md: PCA minimises a mean over the samples,
-    and for the mean over the domain those are best that are spread like the domain.
+    For the same number of samples the result is a few percent better or worse than the sequence
+    itself, and for the same time it is worse, see docs/notes/sampling.md. PCA minimises a mean over
+    the samples, so samples spread over the whole domain are best for the mean over the domain.
     """
     _check(problem, known, count=count, dimension=dimension, batch=batch, candidates=candidates)
     check_target(target)
     options = options or SolverOptions()
     so_far = SolvedSoFar(problem, known, dimension)
-    told = BatchProgress(progress, count) if progress else None
+    batch_progress = BatchProgress(progress, count) if progress else None
     sizes = _sizes(count, batch, candidates, chosen=so_far.snapshots is not None)
     sequence = sample(problem.domain, sum(sizes), method="sobol", seed=seed)
     done = 0
@@ -114,15 +117,15 @@ def greedy_snapshots(
                 wanted,
                 options=options,
                 threads=threads,
-                progress=told,
+                progress=batch_progress,
                 checkpoint=batch_checkpoint(checkpoint, done, problem, wanted, options),
                 executor=executor,
                 known=so_far.snapshots,
             )
             so_far.add(solved)
             done += len(solved)
-            if told:
-                told.finish_batch(so_far.held_out_error)
+            if batch_progress:
+                batch_progress.finish_batch(so_far.held_out_error)
         except KeyboardInterrupt as stop:
             raise Interrupted(_interruption(done, count, stop)) from None
         error = so_far.held_out_error
@@ -132,10 +135,10 @@ def greedy_snapshots(
 
 
 def check_target(target: float | None) -> None:
-    """ValueError unless the target is None or between 0 and 1."""
+    """Raises ValueError unless the target is None or between 0 and 1."""
     if target is not None and not 0.0 < target < 1.0:
         raise ValueError(
-            f"greedy_snapshots: the target error is {target}, but it must be between 0 and 1: it "
+            f"greedy_snapshots: the target error is {target}, but it must be between 0 and 1; it "
             "is relative to the displacement"
         )
 
@@ -151,7 +154,7 @@ def _check(
 
 
 def _sizes(count: int, batch: int, candidates: int, *, chosen: bool) -> list[int]:
-    """Points of the sequence that each batch takes its samples from; the first may have to."""
+    """How many points of the sequence each batch chooses from; the first may take all."""
     batches = -(-count // batch)
     return [batch if k == 0 and not chosen else candidates * batch for k in range(batches)]
 
@@ -163,7 +166,7 @@ def _worst(
     options: SolverOptions,
     threads: int | None,
 ) -> FloatArray:
-    """The points (batch, p) of some where the model's estimated errors are largest, and differ."""
+    """The points (batch, p) where the model's estimated errors are largest, and differ."""
     if len(points) <= batch or not so_far.enough:
         return points[:batch]
     problem = so_far.problem

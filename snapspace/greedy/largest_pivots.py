@@ -1,4 +1,4 @@
-"""largest_pivots: a choice of vectors that are long and differ from each other."""
+"""largest_pivots: chooses vectors that are long and differ from each other."""
 
 from __future__ import annotations
 
@@ -9,24 +9,24 @@ FloatArray = NDArray[np.float64]
 
 
 def largest_pivots(gram: FloatArray, count: int) -> list[int]:
-    """Again and again the vector that is longest without its part in the span of those chosen.
+    """Repeatedly chooses the vector with the longest part outside the span of those chosen.
 
-    The pivots of the Cholesky factorisation with complete pivoting (Higham 2002, Accuracy and
-    Stability of Numerical Algorithms, sec. 10.3), or of QR with column pivoting on the vectors. Of
-    many neighbours with the same error it takes one.
+    These are the pivots of the Cholesky factorisation with complete pivoting (Higham 2002, Accuracy
+    and Stability of Numerical Algorithms, sec. 10.3), or of QR with column pivoting on the vectors.
+    Among many similar vectors it chooses one.
 
     Parameters
     ----------
     gram : (k, k)
         Inner products of the vectors.
     count : int
-        How many, <= k.
+        How many vectors to choose, <= k.
 
     Returns
     -------
     list of int
-        Distinct, in the order of choice; a longer list begins with the shorter one. Among equals,
-        and when all that is left is rounding, those with small numbers come first.
+        Distinct indices in the order of choice; a longer list begins with the shorter one. Among
+        equals, and when only rounding is left, smaller indices come first.
     """
     left = gram.copy()
     noise = len(gram) * np.finfo(float).eps * max(float(np.diag(gram).max(initial=0.0)), 0.0)

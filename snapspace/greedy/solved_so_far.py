@@ -13,24 +13,25 @@ from ..subspace import snapshot_pca
 
 FloatArray = NDArray[np.float64]
 
-#: Dimension of the models that choose samples. Coefficients cost d^4: on the Dragon, at 20, as much
-#: as a dozen samples.
+#: Dimension of the models that choose samples. Coefficients cost d^4: on the Dragon with d = 20, as
+#: much as a dozen samples.
 MODEL_DIMENSION = 20
-#: Eigenvalues of the Gram matrix below this share of the largest are not worth a dimension: a path
-#: between two poses has only some directions.
+#: Eigenvalues of the Gram matrix below this share of the largest do not count as directions: a path
+#: between two poses has only a few.
 _NEGLIGIBLE = 1e-8
 
 
 class SolvedSoFar:
-    """What is solved, and what follows from it.
+    """The solved samples, with their errors and a reduced model.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
+        The problem that is sampled.
     known : Snapshots, optional
-        Of the problem; they count as solved. Those that are not usable do not.
+        Samples of the problem that count as solved, if they are usable.
     dimension : int
-        Of the subspaces whose error is estimated.
+        Dimension of the subspaces whose error is estimated.
     """
 
     def __init__(
@@ -50,23 +51,23 @@ class SolvedSoFar:
 
     @property
     def all(self) -> Snapshots:
-        """What is known and then what is solved; there must be some."""
+        """The known samples, then the solved ones; there must be some."""
         assert self.snapshots is not None
         return self.snapshots
 
     def add(self, batch: Snapshots) -> None:
-        """Adds a batch, after its error against everything before was noted."""
+        """Adds a batch, and sets `held_out_error` to its error given all earlier samples."""
         self._append(batch)
         self.held_out_error = self._errors.of_last(self.all.usable, len(batch))
 
     @property
     def enough(self) -> bool:
-        """Whether there are as many samples as the energy of a model asks for."""
+        """Whether there are enough samples for the energy of a model."""
         fewest = fewest_snapshots(self.problem, MODEL_DIMENSION)
         return int(self.all.usable.sum()) >= fewest
 
     def model(self, *, threads: int | None) -> PosingModel | InterpolationModel:
-        """A small reduced model of it; ValueError if no sample is usable."""
+        """A small reduced model of all samples; ValueError if none is usable."""
         everything = self.all
         dimension = min(MODEL_DIMENSION, max(1, self._directions() // 2))
         subspace = snapshot_pca(everything, dimension=dimension, gram=self._errors.gram)
@@ -74,7 +75,7 @@ class SolvedSoFar:
         return reduce(self.problem, subspace, snapshots=used, threads=threads)
 
     def result(self) -> Snapshots:
-        """The solved samples, without what was known before."""
+        """The solved samples, without the known ones."""
         everything, begin = self.all, self.known
         return Snapshots(
             self.problem,
@@ -89,7 +90,7 @@ class SolvedSoFar:
         self._errors.add(list(batch.displacements))
 
     def _directions(self) -> int:
-        """How many directions the usable samples have that are more than negligible."""
+        """How many directions of the usable samples are more than negligible."""
         usable = np.flatnonzero(self.all.usable)
         eigenvalues = np.linalg.eigvalsh(self._errors.gram.matrix[np.ix_(usable, usable)])
         return int((eigenvalues > _NEGLIGIBLE * eigenvalues.max(initial=0.0)).sum())

@@ -104,7 +104,7 @@ def test_a_budget_ends_it_with_the_best_so_far(problem: PosingProblem) -> None:
     built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=told.append)
     assert not built.reached and len(built.snapshots) == 96, "the first stage is always solved"
     assert built.step.error < 0.1, "and makes a model"
-    assert any("would take longer than the budget of 0.001 s" in line for line in told)
+    assert any("would exceed the budget of 0.001 s" in line for line in told)
     roomy = accurate_model(problem, target_error=0.05, budget=1000.0)
     assert roomy.steps == accurate_model(problem, target_error=0.05).steps
 

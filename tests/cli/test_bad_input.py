@@ -238,7 +238,7 @@ def test_info_of_a_mesh_beyond_repair(run: Run, tmp_path: Path) -> None:
 
 def test_demo(run: Run, tmp_path: Path) -> None:
     (tmp_path / "taken").write_text("a file")
-    assert "taken: cannot make the folder" in run("demo", "--output", tmp_path / "taken").error
+    assert "taken: cannot create the folder" in run("demo", "--output", tmp_path / "taken").error
     output = tmp_path / "new"
     error = run("demo", "--output", output, "--samples", 5).error
     assert "dimension 40 needs at least as many samples" in error

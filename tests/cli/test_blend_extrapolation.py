@@ -35,7 +35,7 @@ def test_beyond_the_certain_range_there_is_a_notice(run: Run, blend_model: Path)
     beyond = run(*words, weights_at(certain, 1.25))
     assert beyond.json["frames"][0]["certain"] is False
     told = " ".join(beyond.err.split())
-    assert "the energy need not have a minimum there, and the shape may be a poor one" in told
+    assert "the energy need not have a minimum there, and the shape may be poor" in told
     assert "up to 80 % of the way from equal weights it certainly has one" in told
 
 
@@ -63,7 +63,7 @@ def test_info_says_so_where_no_test_is_known(
     result = run("info", path, "--json")
     assert [pose["certain_weights"] for pose in result.json["poses"]] == [None] * 3
     told = " ".join(result.err.split())
-    assert "how far below zero blends have a minimum is not known for this material" in told
+    assert "how far below zero blends have a minimum is unknown for this material" in told
     beyond = run("blend", path, "--weights", "-0.1,1.1,0", "--extrapolate", "--json")
     assert beyond.json["frames"][0]["certain"] is None
     assert "notice" not in beyond.err

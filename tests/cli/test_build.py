@@ -139,7 +139,7 @@ def test_unconverged_samples_are_left_out_but_kept_for_another_try(
     result = run(*words, "--include-unconverged", "--json")
     assert result.json["snapshots"]["converged"] == 0
     assert "resuming: 24 of 24 samples were finished before" in result.err
-    assert "24 unconverged, used all the same" in result.err
+    assert "24 unconverged, used anyway" in result.err
     assert not list(tmp_path.glob("m.snapspace.partial-*"))
 
 

@@ -64,7 +64,7 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     words = ("--target-error", 1e-6, "--budget", 0.01)
     result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
     told = " ".join(result.err.split())
-    assert "would take longer than the budget of 0.01 s" in told and "raise --budget" in told
+    assert "would exceed the budget of 0.01 s" in told and "raise --budget" in told
     record = load(path).provenance["accurate"]
     assert not record["reached"] and record["step"]["samples"] == 96
 

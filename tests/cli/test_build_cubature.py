@@ -81,8 +81,8 @@ def test_an_energy_that_is_not_possible_is_said_before_the_work(run: Run, tmp_pa
     problem, path = default_material(tmp_path), tmp_path / "m.snapspace"
     for options, message in (
         (("--energy", "exact"), "stable neo-Hookean is not a polynomial of degree four"),
-        (("--samples", 9, "--dimension", 3), "trained on 10 samples or more, but there are 9"),
-        (("--samples", 9, "--energy-fraction", 0.9), "trained on 10 samples or more"),
+        (("--samples", 9, "--dimension", 3), "needs at least 10 samples, but there are 9"),
+        (("--samples", 9, "--energy-fraction", 0.9), "needs at least 10 samples"),
     ):
         result = run("build", "--problem", problem, *options, "-o", path)
         assert (result.code, message in result.error) == (2, True)

@@ -116,7 +116,7 @@ def test_an_address_where_nobody_answers_is_refused(
 @pytest.mark.parametrize("address", ["127.0.0.1", "tcp://localhost", "nonsense", ""])
 def test_what_is_no_address_is_refused(run: Run, tmp_path: Path, address: str) -> None:
     error = run(*build_words(tmp_path), "--dask", address).error
-    assert error == f"--dask {address}: this is no address such as tcp://127.0.0.1:8786"
+    assert error == f"--dask {address}: this is not an address such as tcp://127.0.0.1:8786"
 
 
 def test_an_unknown_scheme_is_refused(run: Run, tmp_path: Path) -> None:

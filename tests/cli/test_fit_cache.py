@@ -173,7 +173,7 @@ def test_the_file_of_another_pose_is_not_taken_for_its_own(cache: FitCache) -> N
     cache.save_fit(MESH, SURFACE, other, SETTINGS, 2.0 * SHAPE, FIT)
     first, second = sorted(cache.folder.glob("pose-*"))
     first.write_bytes(second.read_bytes())
-    with pytest.warns(CheckpointNotice, match="it was made of something else"):
+    with pytest.warns(CheckpointNotice, match="it was made from other inputs"):
         found = [cache.load_fit(MESH, SURFACE, target, SETTINGS) for target in (TARGET, other)]
     assert found.count(None) == 1
 
@@ -196,6 +196,8 @@ def test_files_of_the_user_in_its_folder_stay(cache: FitCache) -> None:
 
 def test_a_folder_that_cannot_be_made_is_an_error(cache: FitCache) -> None:
     cache.folder.write_text("a file")
-    with pytest.raises(ValueError, match=r"m\.snapspace\.poses: cannot make the folder") as caught:
+    with pytest.raises(
+        ValueError, match=r"m\.snapspace\.poses: cannot create the folder"
+    ) as caught:
         keep(cache)
     assert "\n" not in str(caught.value)

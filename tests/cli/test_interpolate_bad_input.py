@@ -149,10 +149,10 @@ CASES: dict[str, tuple[Case, str]] = {
     ),
     "no extension": (lambda f: surfaces(f, f / "a"), "a: no extension; known are .obj"),
     "folder": (folder_as_pose, "folder.mesh: this is a folder; a file is needed"),
-    "mixture": (mixture, "the poses are partly tets and partly surfaces; give all of one kind"),
+    "mixture": (mixture, "some poses are tets and others surfaces; give all of one kind"),
     "tets for tets": (
         lambda f: tets(f, "--tets", f / "rest.mesh"),
-        "--tets is for poses that are surfaces; these have tets of their own",
+        "--tets is for poses that are surfaces, but these are tets",
     ),
     "no tets": (
         lambda f: [*surfaces(f)[:-1], f / "none.mesh"],
@@ -200,7 +200,7 @@ CASES: dict[str, tuple[Case, str]] = {
         lambda f: tets(f, "-o", f / "none" / "m.snapspace"),
         "none does not exist",
     ),
-    "saved poses": (taken_folder, "taken: cannot make the folder"),
+    "saved poses": (taken_folder, "taken: cannot create the folder"),
     "usage": (lambda f: tets(f, "--handle", "head"), no_such_option("--handle")),
 }
 

@@ -40,7 +40,7 @@ def test_the_summary_says_what_the_energy_is(
         (("--mu", -1), "StableNeoHookean: mu is -1.0, but it must be positive"),
         (("--material", "stvk", "--cubature-tets", 9), "that of stvk is exact"),
         (("--target-error", 0.01, "--cubature-tets", 9), "chooses what --cubature-tets decides"),
-        (("--samples", 1, "--dimension", 1), "trained on 2 samples or more, but there is 1"),
+        (("--samples", 1, "--dimension", 1), "needs at least 2 samples, but there is 1"),
     ],
 )
 def test_bad_options_are_refused(

@@ -32,7 +32,7 @@ OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
     "samples": (["--samples", 4, "--dimension", 9], "dimension 9 needs at least as many samples"),
     "tolerance": (["--tolerance", "nan"], "tolerance is nan, but it must be positive"),
     "clamp": (["--clamp", 2], "clamp is 2.0, but it must be in (0, 1]"),
-    "edge length of tets": (["--edge-length", 0.1], "--edge-length is for tets that are made here"),
+    "edge length of tets": (["--edge-length", 0.1], "--edge-length is for filling the surface"),
 }
 
 
@@ -76,8 +76,8 @@ def test_tet_poses_are_not_mended(run: Run, tmp_path: Path) -> None:
     poses = write_tet_poses(tmp_path)
     before = contents(tmp_path)
     error = run("interpolate", *poses, *SMALL, "--repair", "-o", tmp_path / "m.snapspace").error
-    assert error.startswith("--repair would mend each pose in its own way")
-    assert error.endswith("mend the first one, and make the others from it")
+    assert error.startswith("--repair would repair each pose differently")
+    assert error.endswith("repair the first one, and make the others from it")
     assert contents(tmp_path) == before
 
 

@@ -70,7 +70,7 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
     assert (result.code, result.out) == (code, "")
     line = result.err.splitlines()[-1]
     told = re.fullmatch(
-        rf"snapspace: {word}: ([12]) of 2 fitted poses are kept; the same command goes on "
+        rf"snapspace: {word}: ([12]) of 2 fitted poses are kept; the same command resumes "
         "from there",
         line,
     )
@@ -169,7 +169,7 @@ def test_a_full_disk_while_fitting_is_one_line(
     (tmp_path / "m.snapspace.poses").write_text("a file where the folder would be")
     result = run(*surface_words, "-o", tmp_path / "m.snapspace")
     assert result.code == 2
-    assert "m.snapspace.poses: cannot make the folder" in result.err.splitlines()[-1]
+    assert "m.snapspace.poses: cannot create the folder" in result.err.splitlines()[-1]
     assert "Traceback" not in result.err
 
 

@@ -54,7 +54,7 @@ def test_an_interrupted_build_resumes_to_the_same_model(run: Run, tmp_path: Path
     assert "Traceback" not in err
     last = err.splitlines()[-1]
     kept = re.fullmatch(
-        rf"snapspace: interrupted: (\d+) of {SAMPLES} samples are kept; the same command goes on "
+        rf"snapspace: interrupted: (\d+) of {SAMPLES} samples are kept; the same command resumes "
         "from there",
         last,
     )

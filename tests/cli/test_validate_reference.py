@@ -89,7 +89,7 @@ def test_the_advised_command_runs_and_lowers_the_error(
 
 def test_fewer_modes_than_there_are_ask_for_no_other_model(run: Run, few_tets: Path) -> None:
     result = run("validate", few_tets, "--samples", 8, "--dimension", 20, "--json")
-    assert "the model has more modes: give a larger --dimension" in result.err
+    assert "the file has more modes; give a larger --dimension" in result.err
     assert result.json["next"] is None
 
 
@@ -107,7 +107,7 @@ def test_without_the_files_the_advice_is_in_python(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--reference", "r.samples", "--seed", 3), "--seed is of no effect"),
+        (("--reference", "r.samples", "--seed", 3), "--seed has no effect"),
         (("--reference", "none.samples"), "none.samples: there is no such file"),
         (("--plot", "error.jpg"), "error.jpg"),
         (("--save-reference", "r.npz"), "r.npz"),

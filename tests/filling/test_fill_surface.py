@@ -76,7 +76,7 @@ def test_separate_parts_are_refused_and_nothing_is_left_behind(
     monkeypatch.chdir(tmp_path)
     vertices, faces = surface_of(bar(1, 1, 1, length=1.0, width=1.0, height=1.0))
     both = np.concatenate([vertices, vertices + 3.0]), np.concatenate([faces, faces + 8])
-    with pytest.raises(ValueError, match="the tets are 2 separate solids, but one is needed"):
+    with pytest.raises(ValueError, match="the tets form 2 separate solids, but one is needed"):
         fill_surface(*both, **COARSE)
     assert capfd.readouterr() == ("", "")
     assert list(tmp_path.iterdir()) == []
