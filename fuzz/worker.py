@@ -11,8 +11,10 @@ from random import Random
 
 from .targets import TARGETS, FaultError, run
 
-#: A reader that takes longer than so many seconds hangs.
+#: A reader that takes more processor seconds than this on one file hangs.
 SECONDS = 5.0
+#: So does one that has not returned after this time, whatever else the machine does.
+WALL_SECONDS = 60.0
 #: Bytes that reading one file may take beyond those in use before.
 MEMORY = 1 << 30
 
@@ -32,9 +34,11 @@ def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float, execu
         at = random.randrange(len(seeds))
         data = target.mutated(contents[at], random, contents)
         path = _written(folder, seeds[at], data, seeds)
-        faulthandler.dump_traceback_later(SECONDS, exit=True)
+        faulthandler.dump_traceback_later(WALL_SECONDS, exit=True)
+        begin = time.process_time()
         try:
             taken += run(target, path)
+            _check_time(time.process_time() - begin)
         except FaultError as fault:
             faulthandler.cancel_dump_traceback_later()
             print(f"{count + 1} {taken} {' '.join(str(fault).split())[:600]}", flush=True)
@@ -45,6 +49,11 @@ def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float, execu
             print(f"{count} {taken}", flush=True)
     print(f"{count} {taken}", flush=True)
     return 0
+
+
+def _check_time(seconds: float) -> None:
+    if seconds > SECONDS:
+        raise FaultError(f"one file took {seconds:.1f} s of processor time")
 
 
 def _taken(name: str, path: Path) -> bool:

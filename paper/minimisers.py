@@ -25,6 +25,7 @@ def minimisers(
     no evaluation is approximated, so that only subspaces are compared.
     """
     problem = reference.problem
+    assert isinstance(problem, ss.PosingProblem | ss.InterpolationProblem)
     exact = problem.material.exact_degree == 4 and subspace.dimension <= MOST_EXACT
     model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
     session = model.session(tolerance=tolerance, minimizer="newton")
