@@ -1,4 +1,4 @@
-"""Problems hold their whole material: one place per tet, the fingerprint, and what solvers do."""
+"""The whole material counts: in moduli per tet, in the fingerprint, and in solver options."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def posing(material: Material | None = None) -> PosingProblem:
     return PosingProblem(PROBLEM.mesh, PROBLEM.handles, domain=domain, material=material)
 
 
-def test_the_default_holds() -> None:
+def test_the_default_is_stable_neo_hookean() -> None:
     assert posing().material == StableNeoHookean(lam=1.0, mu=1.0)
     assert InterpolationProblem(bar_poses()).material == StableNeoHookean(lam=1.0, mu=1.0)
 
