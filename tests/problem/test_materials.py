@@ -77,7 +77,7 @@ def test_samples_settle_where_only_shapes_count_and_are_tight_where_forces_do(ki
 
 
 def test_nearly_incompressible_materials_are_solved_more_tightly() -> None:
-    """By how much the scalar factor underestimates what shear still gives: (2 mu + lam) / mu."""
+    """The scalar factor's steps are too small by (2 mu + lam) / mu, the ratio of moduli."""
     tolerances = [
         SolverOptions().resolved(posing(material)).tolerance
         for material in (
