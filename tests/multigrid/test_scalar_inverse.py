@@ -6,39 +6,22 @@ import numpy as np
 import pytest
 
 from snapspace import (
-    HandleBox,
-    Handles,
     InterpolationProblem,
     Poses,
     PosingProblem,
     SolverOptions,
-    StVK,
     sample,
     solve_snapshots,
 )
 from snapspace._core import InverseKind, PosingSystem, SolveControl
-from snapspace.generators import creature
-from snapspace.mesh import TetMesh
 
 from ..snapshots.creatures import posing_creature
-
-
-def solid_block(*, flat: float = 1.0) -> PosingProblem:
-    """A full body with so many vertices that its factor is dense; flat < 1 makes it thinner.
-
-    The material is the paper's. Its samples stop by settling, and the bound on evaluations
-    assumes that."""
-    mesh = creature(110_000)
-    vertices = mesh.vertices * (1.0, 1.0, flat)
-    x = vertices[:, 0]
-    handles = Handles([x < np.quantile(x, 0.1), x > np.quantile(x, 0.9)])
-    domain = HandleBox(translation=0.1, angle=0.3)
-    return PosingProblem(TetMesh(vertices, mesh.tets), handles, domain=domain, material=StVK())
+from .solids import solid_cube
 
 
 @pytest.fixture(scope="module")
 def solid() -> PosingProblem:
-    return solid_block()
+    return solid_cube()
 
 
 def test_small_bodies_have_a_factor() -> None:
@@ -53,7 +36,7 @@ def test_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
 
 
 def test_flat_tets_get_a_factor() -> None:
-    flat = solid_block(flat=0.05)
+    flat = solid_cube(flat=0.05)
     assert flat.system.inverse == InverseKind.factor
     assert flat.system.inverse_products > 200 * len(flat.mesh.vertices)
 
