@@ -85,7 +85,7 @@ def test_flat_elements_make_the_cycle_worse() -> None:
 
 
 def test_the_lowest_eigenvalue_is_nearly_that_of_the_dense_matrices() -> None:
-    A = mesh_matrix(bar(10, 5, 5))
+    A = mesh_matrix(bar(8, 4, 4))
     M = dense_cycle(A)
     dense = sparse.csc_array(A).toarray()
     exact = eigh(0.5 * (M + M.T), np.linalg.inv(dense), eigvals_only=True)[0]

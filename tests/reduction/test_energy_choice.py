@@ -49,7 +49,7 @@ def test_a_material_is_exact_where_its_density_is_a_quartic(kind: str) -> None:
 
 
 def test_large_quartics_cost_more_than_they_are_worth() -> None:
-    """At most twice the multiply-adds of a cubature of 8 d tets: d^4 / 8 and 2 * 18 * 8 d^2."""
+    """They cost twice the multiply-adds of a cubature of 8 d tets: d^4 / 8 > 2 * 18 * 8 d^2."""
     problem = posing_bar()
     kinds = [chosen_energy(problem, d) for d in range(1, 300)]
     assert kinds == ["exact"] * 48 + ["cubature"] * 251

@@ -58,7 +58,7 @@ def test_a_path_does_not_depend_on_its_direction(lizards: InterpolationModel, se
 
 @pytest.mark.parametrize("seed", range(6))
 def test_no_step_is_long(lizards: InterpolationModel, seed: int) -> None:
-    """With St.Venant-Kirchhoff tails snap; see docs/notes/blend-paths.md."""
+    """With St.Venant-Kirchhoff, tails snap; see docs/notes/blend-paths.md."""
     forth = shapes_along(lizards.session(), *ends(seed))
     steps = np.linalg.norm(np.diff(forth, axis=0), axis=2).max(axis=1)
     assert steps.max() < 4.0 * np.median(steps)
