@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import signal
-import socket
+import socket as tcp
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -16,7 +16,8 @@ from snapspace.cli import main
 from snapspace.page import packed
 from snapspace.server import serve
 
-from .running import Running
+from .in_process import socket, started
+from .running import Page, Running
 
 
 @pytest.fixture(scope="module")
@@ -65,8 +66,8 @@ def test_the_page_works_in_a_browser(
     assert page.faults == []
 
 
-def test_ctrl_c_ends_the_server_cleanly(saved: Path) -> None:
-    server = Running(saved)
+def test_ctrl_c_ends_the_server_cleanly(blending_model: InterpolationModel, tmp_path: Path) -> None:
+    server = Running(blending_model.save(tmp_path / "blend.snapspace"))
     assert server.get()[0] == 200
     code, rest = server.stop()
     assert code == 0
@@ -109,18 +110,14 @@ def test_shapes_of_the_model_are_polished(running: Running, posing_model: Posing
 
 
 def test_blends_are_polished(blending_model: InterpolationModel, tmp_path: Path) -> None:
-    server = Running(blending_model.save(tmp_path / "blend.snapspace"))
-    session = blending_model.session()
-    session.blend([0.2, 0.5, 0.3])
+    weights, session = [0.2, 0.5, 0.3], blending_model.session()
+    session.blend(weights)
     expected = blending_model.surface.vertices(session.polish(iterations=3).vertices)
-    try:
-        with server.page() as page:
-            weights, q = [0.2, 0.5, 0.3], session.q.tolist()
-            page.ask("polish", "polished", model=0, weights=weights, q=q, iterations=3)
-            shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
-            np.testing.assert_allclose(shown, expected, atol=1e-5)
-    finally:
-        server.kill()
+    with socket(started(model=blending_model, folder=tmp_path)) as opened:
+        page, q = Page(opened), session.q.tolist()
+        page.ask("polish", "polished", model=0, weights=weights, q=q, iterations=3)
+        shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
+        np.testing.assert_allclose(shown, expected, atol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -140,7 +137,7 @@ def test_what_cannot_be_viewed_is_reported_at_once(
 
 
 def test_a_port_in_use_is_reported(posing_model: PosingModel) -> None:
-    with socket.socket() as other:
+    with tcp.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import threading
 import time
 from collections.abc import Iterator
 from urllib.parse import urlsplit
@@ -11,8 +10,9 @@ from urllib.parse import urlsplit
 import pytest
 from websockets.sync.client import connect
 
-from snapspace.server.serve import serve
 from snapspace.server.slow_headers import PromptHeaders
+
+from .in_process import started
 
 SECONDS = 0.3
 
@@ -22,18 +22,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of a server without a mesh, on a thread, that waits for headers only briefly."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(PromptHeaders, "header_seconds", SECONDS)
-        addresses: list[str] = []
-        started = threading.Event()
-
-        def ready(address: str) -> None:
-            addresses.append(address)
-            started.set()
-
-        folder = tmp_path_factory.mktemp("slow")
-        options = {"title": "slow", "folder": folder, "ready": ready}
-        threading.Thread(target=serve, kwargs=options, daemon=True).start()
-        assert started.wait(30)
-        yield addresses[0]
+        yield started(title="slow", folder=tmp_path_factory.mktemp("slow"))
 
 
 def seconds_until_closed(stream: socket.socket) -> float:

@@ -25,14 +25,14 @@ def test_a_solid_is_filled_by_stuffing() -> None:
 
 def test_a_plate_too_thin_for_stuffing_is_filled_exactly() -> None:
     """Its thickness is a tenth of the edge length, so no tet of that size fits."""
-    plate = bar(2, 2, 1, length=1.0, width=1.0, height=0.03)
+    plate = bar(1, 1, 1, length=1.0, width=1.0, height=0.03)
     mesh, stages = filled(plate, SurfaceFilling(edge_length=0.3))
     assert stages == ["filling", "filling exactly"]
     assert mesh.volume == pytest.approx(plate.volume, rel=0.1)
 
 
 def test_a_surface_is_filled_exactly_on_request() -> None:
-    block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
+    block = bar(1, 1, 1, length=1.0, width=1.0, height=1.0)
     mesh, stages = filled(block, SurfaceFilling(edge_length=0.3, exact=True))
     assert stages == ["filling exactly"]
     assert np.allclose(np.ptp(mesh.vertices, axis=0), 1.0, atol=0.01)

@@ -7,22 +7,20 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
 from snapspace import PosingModel
 from snapspace.server import workspace as module
 from snapspace.server.body import Body
-from snapspace.server.serve import serve
 from snapspace.server.settings import PageTimeouts
 from snapspace.server.shared_body import SharedBody
 
 from ..shapes import bar_problem
+from .in_process import socket, started
 from .running import Page
 
 KEPT = {
@@ -45,21 +43,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("workspaces")
 
 
-def started(**options: Any) -> str:
-    """The address of a server on a daemon thread of this process."""
-    addresses: list[str] = []
-    ready = threading.Event()
-
-    def record(address: str) -> None:
-        addresses.append(address)
-        ready.set()
-
-    options |= {"title": "bar", "ready": record}
-    threading.Thread(target=serve, kwargs=options, daemon=True).start()
-    assert ready.wait(30)
-    return addresses[0]
-
-
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
     problem = bar_problem()
@@ -67,12 +50,6 @@ def address(folder: Path) -> Iterator[str]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(PageTimeouts.__init__, "__kwdefaults__", {"alone": 1.0, "waited_for": 0.2})
         yield started(body=SharedBody(lambda stage: body), folder=folder)
-
-
-def socket(address: str, id: str | None = None) -> Any:
-    where = urlsplit(address)
-    query = where.query if id is None else f"{where.query}&workspace={id}"
-    return connect(f"ws://{where.netloc}/live?{query}", max_size=None)
 
 
 def test_a_page_that_returns_finds_its_choices_and_its_computation(address: str) -> None:
