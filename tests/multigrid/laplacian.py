@@ -11,8 +11,9 @@ from snapspace.mesh import TetMesh
 
 
 def laplacian(mesh: TetMesh, *, scale: tuple[float, float, float] = (1.0, 1.0, 1.0)) -> Any:
-    """Of the mesh scaled along the axes, with a tenth of its vertices held softly; vertices in an
-    order in which neighbours are near each other."""
+    """The Laplacian of the mesh scaled along the axes, with a tenth of its vertices held softly.
+
+    The vertices are ordered such that neighbours are near each other."""
     vertices, tets = mesh.vertices * scale, mesh.tets
     edges = vertices[tets[:, 1:]] - vertices[tets[:, :1]]
     gradients = np.linalg.inv(edges).transpose(0, 2, 1)

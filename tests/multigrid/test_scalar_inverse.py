@@ -1,4 +1,4 @@
-"""Factor or cycle: what problems choose, and that solutions do not depend on it."""
+"""Factor or cycle: which one a problem chooses, and that solutions do not depend on it."""
 
 from __future__ import annotations
 
@@ -6,39 +6,22 @@ import numpy as np
 import pytest
 
 from snapspace import (
-    HandleBox,
-    Handles,
     InterpolationProblem,
     Poses,
     PosingProblem,
     SolverOptions,
-    StVK,
     sample,
     solve_snapshots,
 )
 from snapspace._core import InverseKind, PosingSystem, SolveControl
-from snapspace.generators import creature
-from snapspace.mesh import TetMesh
 
 from ..snapshots.creatures import posing_creature
-
-
-def solid_block(*, flat: float = 1.0) -> PosingProblem:
-    """A full body of so many vertices that its factor is dense; thinner for flat < 1.
-
-    The material is the paper's: its samples settle by default, and evaluations are bounded for
-    that."""
-    mesh = creature(110_000)
-    vertices = mesh.vertices * (1.0, 1.0, flat)
-    x = vertices[:, 0]
-    handles = Handles([x < np.quantile(x, 0.1), x > np.quantile(x, 0.9)])
-    domain = HandleBox(translation=0.1, angle=0.3)
-    return PosingProblem(TetMesh(vertices, mesh.tets), handles, domain=domain, material=StVK())
+from .solids import solid_cube
 
 
 @pytest.fixture(scope="module")
 def solid() -> PosingProblem:
-    return solid_block()
+    return solid_cube()
 
 
 def test_small_bodies_have_a_factor() -> None:
@@ -46,20 +29,20 @@ def test_small_bodies_have_a_factor() -> None:
 
 
 def test_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
-    """Of well-shaped tets: the factor has more than 140 entries per column, so that its two solves
-    would multiply by 280; a cycle multiplies by a few dozen."""
+    """The tets are well shaped. The factor has more than 140 entries per column, so its two solves
+    would take 280 multiplications per vertex; a cycle takes a few dozen."""
     assert solid.system.inverse == InverseKind.cycle
     assert solid.system.inverse_products < 60 * len(solid.mesh.vertices)
 
 
 def test_flat_tets_get_a_factor() -> None:
-    flat = solid_block(flat=0.05)
+    flat = solid_cube(flat=0.05)
     assert flat.system.inverse == InverseKind.factor
     assert flat.system.inverse_products > 200 * len(flat.mesh.vertices)
 
 
 def test_both_lead_to_the_same_shapes() -> None:
-    """What stands for the inverse decides on the way, not on where it ends."""
+    """The approximate inverse changes the solver's path, not its solution."""
     problem = posing_creature(8000)
     samples = sample(problem.domain, 3, seed=2)
     shapes = []
@@ -88,7 +71,7 @@ def test_both_lead_to_the_same_shapes() -> None:
 
 
 def test_samples_end_where_the_gradient_vanishes(solid: PosingProblem) -> None:
-    """With the cycle and its soft modes, in few evaluations."""
+    """The cycle and its soft modes take few evaluations."""
     samples = sample(solid.domain, 2, seed=1)
     tight = solve_snapshots(solid, samples, options=SolverOptions(tolerance=1e-9))
     assert tight.converged.all()
@@ -101,7 +84,7 @@ def test_samples_end_where_the_gradient_vanishes(solid: PosingProblem) -> None:
 
 
 def test_blends_of_large_solid_bodies_have_a_cycle(solid: PosingProblem) -> None:
-    """For the poses and, adapted, near a blend; both lead to the same minimum."""
+    """The system of the poses and the one adapted near a blend lead to the same minimum."""
     mesh = solid.mesh
     x = mesh.vertices[:, 0] / np.ptp(mesh.vertices[:, 0])
     bent = mesh.vertices + np.outer(0.2 * x**2, [0.0, 0.0, 1.0])

@@ -39,18 +39,18 @@ class Entry:
             elastic = model.elastic
             if isinstance(elastic, ss.Cubature):
                 create = library.snapspace_create_posing_cubature
-                first = self._to(cubature(elastic))
+                first = self.reference(cubature(elastic))
             else:
                 create, first = library.snapspace_create_posing, address(elastic.coefficients)
             handles = [address(array) for array in vars(model.handles).values()]
             made = create(
-                d, len(model.problem.handles), first, *handles, self._basis(), self._to(error)
+                d, len(model.problem.handles), first, *handles, self._basis(), self.reference(error)
             )
         else:
             assert isinstance(model, InterpolationModel)
             count = len(model.problem.poses)
             made = library.snapspace_create_blending(
-                d, count, address(model.blends.coefficients), self._basis(), self._to(error)
+                d, count, address(model.blends.coefficients), self._basis(), self.reference(error)
             )
         assert error.value == 0
         self.session = ctypes.c_void_p(made)
@@ -59,7 +59,7 @@ class Entry:
         return ctypes.byref(self.basis)
 
     @staticmethod
-    def _to(value: Any) -> Any:
+    def reference(value: Any) -> Any:
         return ctypes.byref(value)
 
     def call(self, name: str, *arguments: Any) -> int:
@@ -73,7 +73,7 @@ class Entry:
         for key, value in changes.items():
             setattr(options, key, value)
         report = Report()
-        assert self.call("solve", self._to(options), self._to(report)) == 0
+        assert self.call("solve", self.reference(options), self.reference(report)) == 0
         return report
 
     def read(self, name: str, size: int) -> FloatArray:

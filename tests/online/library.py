@@ -1,4 +1,4 @@
-"""core/online compiled by itself, as a program in C would have it, and called through ctypes."""
+"""core/online compiled on its own, as for a C program, and called through ctypes."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ UNIT = "".join(
     f'#include "online/{path.name}"\n' for path in sorted((CORE / "online").glob("*.cpp"))
 )
 
-#: Counts what the library takes from the heap.
+#: Counts the library's heap allocations.
 COUNTER = """
 #include <cstdlib>
 #include <new>
-static long taken = 0;
-extern "C" long allocations() { return taken; }
-void* operator new(std::size_t size) { ++taken; return std::malloc(size); }
+static long count = 0;
+extern "C" long allocations() { return count; }
+void* operator new(std::size_t size) { ++count; return std::malloc(size); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++taken;
+  ++count;
   const auto unit = static_cast<std::size_t>(alignment);
   return std::aligned_alloc(unit, (size + unit - 1) / unit * unit);
 }
@@ -39,7 +39,7 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::fre
 
 
 def compiler() -> list[str]:
-    """The C++ compiler, of the environment or the system; the test is skipped without one."""
+    """The C++ compiler that CXX or the system names; the test is skipped without one."""
     if wanted := os.environ.get("CXX"):
         return shlex.split(wanted)
     for candidate in ("c++", "g++", "clang++"):
@@ -56,7 +56,7 @@ def run(command: list[str], source: str) -> None:
 def compiled(folder: Path) -> ctypes.CDLL:
     """All of core/online as one translation unit without exceptions and run-time types."""
     target = folder / "online.so"
-    options = ["-std=c++20", "-O2", "-Wall", "-Wextra", "-fno-exceptions", "-fno-rtti"]
+    options = ["-std=c++20", "-O1", "-Wall", "-Wextra", "-fno-exceptions", "-fno-rtti"]
     linked = ["-shared", "-fPIC", "-Wl,-Bsymbolic", f"-I{CORE}", "-x", "c++", "-"]
     run([*compiler(), *options, *linked, "-o", str(target)], UNIT + COUNTER)
     library = ctypes.CDLL(str(target))

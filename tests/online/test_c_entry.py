@@ -1,4 +1,4 @@
-"""The plain C entry point gives what a session gives."""
+"""The plain C interface gives the same results as a session."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def posing(library: ctypes.CDLL, posing_model: PosingModel) -> Any:
 
 
 @pytest.mark.parametrize(("method", "minimizer"), [(0, "newton"), (1, "bfgs")])
-def test_a_drag_is_that_of_the_session(posing: Entry, method: int, minimizer: str) -> None:
+def test_a_drag_agrees_with_the_session(posing: Entry, method: int, minimizer: str) -> None:
     problem = posing.model.problem
     session = posing.model.session(tolerance=1e-10, minimizer=minimizer)
     for share in (0.2, 0.5, 0.9):
@@ -49,12 +49,12 @@ def test_a_drag_is_that_of_the_session(posing: Entry, method: int, minimizer: st
         assert posing.read("get_q", 20) == pytest.approx(session.q, abs=1e-6)
 
 
-def test_a_drag_with_a_cubature_is_that_of_the_session(
+def test_a_drag_with_a_cubature_agrees_with_the_session(
     library: ctypes.CDLL, cubature_model: PosingModel
 ) -> None:
     entry, problem = Entry(library, cubature_model), cubature_model.problem
     session, d = cubature_model.session(tolerance=1e-10), cubature_model.dimension
-    taken = library.allocations()
+    allocated = library.allocations()
     for dimension in (d, 8):
         assert entry.call("set_dimension", dimension) == 0
         session.dimension = dimension
@@ -68,11 +68,11 @@ def test_a_drag_with_a_cubature_is_that_of_the_session(
             scale = cubature_model.coordinate_scale
             assert entry.read("get_q", dimension) == pytest.approx(session.q, abs=1e-5 * scale)
     assert entry.call("set_weights", address(np.ones(3))) == WRONG_KIND
-    assert library.allocations() == taken
+    assert library.allocations() == allocated
     library.snapspace_destroy(entry.session)
 
 
-def test_blends_are_those_of_the_session(
+def test_blends_agree_with_the_session(
     library: ctypes.CDLL, blending_model: InterpolationModel
 ) -> None:
     entry = Entry(library, blending_model)
@@ -88,23 +88,23 @@ def test_blends_are_those_of_the_session(
     library.snapspace_destroy(entry.session)
 
 
-def test_the_value_is_told_at_any_coordinates(posing: Entry) -> None:
+def test_the_value_is_computed_at_any_coordinates(posing: Entry) -> None:
     model, q = posing.model, np.linspace(-0.1, 0.1, 20)
     assert isinstance(model, PosingModel)
     w = 0.5 * model.problem.domain.half_widths
     offsets = np.ascontiguousarray(model.problem.offsets(w))
     posing.call("set_offsets", address(offsets))
     value = ctypes.c_double(np.nan)
-    assert posing.call("value", address(q), posing._to(value)) == 0
+    assert posing.call("value", address(q), posing.reference(value)) == 0
     assert value.value == pytest.approx(model.value(q, offsets), rel=1e-9)
-    assert not posing.read("get_q", 20).any(), "asking does not move the shape"
-    assert posing.call("value", address(np.full(20, np.nan)), posing._to(value)) == NOT_FINITE
-    assert posing.call("value", None, posing._to(value)) == BAD_ARGUMENT
+    assert not posing.read("get_q", 20).any(), "computing a value does not move the shape"
+    assert posing.call("value", address(np.full(20, np.nan)), posing.reference(value)) == NOT_FINITE
+    assert posing.call("value", None, posing.reference(value)) == BAD_ARGUMENT
 
 
-def test_only_creating_takes_memory(posing: Entry) -> None:
+def test_only_creating_allocates_memory(posing: Entry) -> None:
     before = posing.library.allocations()
-    assert before > 0, "what creating took was counted"
+    assert before > 0, "allocations on creation were counted"
     domain = posing.model.problem.domain
     out = np.zeros(3 * len(posing.model.problem.mesh.vertices))
     for share in np.linspace(-1, 1, 7):
@@ -153,7 +153,7 @@ def test_wrong_arguments_are_refused_and_change_nothing(posing: Entry) -> None:
     assert posing.solve().value == pytest.approx(value, rel=1e-12)
 
 
-def test_work_is_bounded_and_huge_motions_are_told(posing: Entry) -> None:
+def test_work_is_bounded_and_huge_motions_are_reported(posing: Entry) -> None:
     problem = posing.model.problem
     posing.call(
         "set_offsets", address(np.ascontiguousarray(problem.offsets(problem.domain.half_widths)))

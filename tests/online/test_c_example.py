@@ -1,4 +1,4 @@
-"""The C program of the docs gives the shape of a session."""
+"""The C program in the docs gives the same shape as a session."""
 
 from __future__ import annotations
 

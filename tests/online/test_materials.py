@@ -1,4 +1,4 @@
-"""Every registered material behind the C entry, with other moduli in every tet."""
+"""Every registered material through the C interface, with different moduli in every tet."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ pytestmark = pytest.mark.skipif(
 BAD_ARGUMENT, NOT_FINITE, WRONG_KIND, UNKNOWN_MATERIAL = -1, -2, -4, -5
 
 
-def probe_of(probe: ResidualProbe, model: PosingModel | InterpolationModel) -> tuple[Probe, Any]:
-    """The struct, and the arrays that it points at."""
+def c_probe(probe: ResidualProbe, model: PosingModel | InterpolationModel) -> tuple[Probe, Any]:
+    """The C struct, and the arrays that it points to."""
     modes = model.subspace.basis.reshape(-1, 3, model.dimension)[probe.corners]
     arrays = {
         "tau": np.ascontiguousarray(model.subspace.tau.reshape(-1, 3)[probe.corners]),
@@ -69,12 +69,12 @@ def test_value_and_residual_are_those_of_python(entry: Entry) -> None:
     assert isinstance(model, PosingModel) and model.error_estimator is not None
     probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
     assert len(probe.pinned) > 0
-    given, kept = probe_of(probe, model)
+    given, kept = c_probe(probe, model)
     assert entry.call("residual", ctypes.byref(ctypes.c_double())) == WRONG_KIND, "not set yet"
     assert entry.call("set_probe", ctypes.byref(given)) == 0
     for array in kept.values():
         array.fill(0)  # the session has copies
-    taken = entry.library.allocations()
+    allocated = entry.library.allocations()
     rng = np.random.default_rng(1)
     for size in (0.0, 0.01, 0.1):
         q = size * model.coordinate_scale * rng.normal(size=model.dimension)
@@ -87,7 +87,7 @@ def test_value_and_residual_are_those_of_python(entry: Entry) -> None:
         assert residual(entry) == pytest.approx(probe.norm(q, offsets), rel=1e-12, abs=1e-12)
     assert entry.call("set_dimension", 5) == 0
     assert residual(entry) == pytest.approx(probe.norm(q[:5], offsets), rel=1e-12)
-    assert entry.library.allocations() == taken, "only setting the probe takes memory"
+    assert entry.library.allocations() == allocated, "only setting the probe allocates memory"
 
 
 def test_a_blend_sums_the_residuals_of_its_poses(
@@ -96,7 +96,7 @@ def test_a_blend_sums_the_residuals_of_its_poses(
     entry, model = Entry(library, blending_model), blending_model
     sample = some_estimator(model).sample
     probe = BlendingProbe(model.problem, model.subspace, sample)
-    given, kept = probe_of(probe, model)
+    given, kept = c_probe(probe, model)
     assert entry.call("set_probe", ctypes.byref(given)) == 0 and kept
     q = 0.05 * model.coordinate_scale * np.linspace(1, -1, model.dimension)
     assert entry.call("set_q", address(q)) == 0
@@ -114,12 +114,12 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(entry: Entry) -> Non
     model = entry.model
     assert isinstance(model, PosingModel) and model.error_estimator is not None
     probe = PosingProbe(model.problem, model.subspace, model.error_estimator.sample)
-    given, arrays = probe_of(probe, model)
+    given, arrays = c_probe(probe, model)
     assert entry.call("set_probe", ctypes.byref(given)) == 0
     before = residual(entry)
 
     def refused(**fields: Any) -> int:
-        wrong, kept = probe_of(probe, model)
+        wrong, kept = c_probe(probe, model)
         assert kept
         for name, value in fields.items():
             setattr(wrong, name, value)

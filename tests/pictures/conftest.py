@@ -1,4 +1,4 @@
-"""Generated meshes for the pictures: an icosphere, a box and a disc-like fan."""
+"""Generated meshes for the pictures: icospheres and a box."""
 
 from __future__ import annotations
 

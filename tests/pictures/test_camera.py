@@ -1,4 +1,4 @@
-"""The camera frames what it is given, and projects it as a pinhole does."""
+"""The camera frames its points, and projects them as a pinhole does."""
 
 from __future__ import annotations
 

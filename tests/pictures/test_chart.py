@@ -1,4 +1,4 @@
-"""Charts: points are where their values are, and ticks are round numbers."""
+"""Charts: points lie where their values put them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def drawn(*curves: Curve) -> NDArray[np.uint8]:
 
 
 def dots(image: NDArray[np.uint8]) -> NDArray[np.float64]:
-    """Pixels (k, 2) as x and y that have the first colour, without those of the legend."""
+    """Pixels of the first colour outside the legend, (k, 2) as x and y."""
     y, x = np.nonzero((np.abs(image.astype(int) - BLUE) < 12).all(axis=2))
     inside = ~((y > 240) & (x < 120))
     return np.stack([x[inside], y[inside]], axis=1).astype(float)
@@ -39,7 +39,7 @@ def test_the_same_curves_give_the_same_bytes() -> None:
     assert (drawn(curves[0]) != first).any()
 
 
-def test_one_point_has_a_place() -> None:
+def test_one_point_is_drawn() -> None:
     assert len(dots(drawn(Curve("a", [7], [0.1]))))
 
 
@@ -54,6 +54,6 @@ def test_one_point_has_a_place() -> None:
         ([Curve("a", [1, 2], [1, np.nan])], "'a' has a value that is not positive"),
     ],
 )
-def test_what_has_no_place_is_refused(curves: list[Curve], message: str) -> None:
+def test_curves_that_cannot_be_drawn_are_refused(curves: list[Curve], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         drawn(*curves)

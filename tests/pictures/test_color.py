@@ -18,7 +18,7 @@ def test_srgb_follows_its_standard():
     np.testing.assert_allclose(to_srgb(to_linear(value)), value, atol=1e-7)
 
 
-def test_oklab_of_grey_has_no_chroma_and_the_way_back_is_the_inverse():
+def test_oklab_of_grey_has_no_chroma_and_from_oklab_is_the_inverse():
     grey = to_oklab([(0.5, 0.5, 0.5), (1.0, 1.0, 1.0)])
     np.testing.assert_allclose(grey[:, 1:], 0.0, atol=1e-4)
     assert grey[1, 0] == pytest.approx(1.0, abs=1e-4)

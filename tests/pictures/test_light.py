@@ -30,7 +30,7 @@ def test_area_of_a_slanted_shadow_is_the_closed_form(box):
     x, y = np.meshgrid(np.linspace(-2, 2, 401), np.linspace(-1, 2, 301))
     ground = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)]).astype(np.float32)
     dark = (1.0 - shadow.beside(ground)).sum() * 0.01**2
-    # The unit footprint and the smear of the height: 1 * 0.6 / 0.8.
+    # The unit footprint plus the smear of the unit height, 0.6 / 0.8.
     assert dark == pytest.approx(1.75, rel=0.02)
 
 
@@ -50,7 +50,7 @@ def test_the_sphere_is_brightest_towards_the_key_light(sphere):
     radiance, _ = shade(seen.points, vertices, faces, light, None, pixels=60)
     brightness = radiance.mean(axis=0)
     facing = light.lamps[0].center @ seen.points.normal
-    # The border turned to the rim light has a highlight of its own.
+    # The border turned to the rim light has its own highlight.
     inner = light.lamps[2].center @ seen.points.normal < 0.1
     brightness, facing = brightness[inner], facing[inner]
     assert facing[np.argsort(brightness)[-50:]].min() > 0.8

@@ -11,7 +11,7 @@ from snapspace.pictures import save_png
 IMAGE = np.random.default_rng(0).integers(0, 256, (7, 11, 3), dtype=np.uint8)
 
 
-def test_the_pixels_come_back(tmp_path):
+def test_the_pixels_are_read_back(tmp_path):
     written = save_png(tmp_path / "a.png", IMAGE)
     with Image.open(written) as image:
         assert np.array_equal(np.asarray(image), IMAGE)
@@ -44,7 +44,7 @@ def test_a_failed_write_leaves_the_old_picture_and_nothing_else(tmp_path, monkey
         ("a.png", IMAGE[:0], r"image has shape \(0, 11, 3\)"),
     ],
 )
-def test_what_is_no_picture_or_no_place_is_refused(tmp_path, name, image, message):
+def test_bad_images_and_bad_paths_are_refused(tmp_path, name, image, message):
     with pytest.raises(ValueError, match=message):
         save_png(tmp_path / name, image)
     assert list(tmp_path.iterdir()) == []

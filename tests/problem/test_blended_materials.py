@@ -1,4 +1,4 @@
-"""Blends of every registered material: what `InterpolationProblem` sums up."""
+"""Blends of every registered material: the energies that `InterpolationProblem` sums."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ every_kind = pytest.mark.parametrize("kind", sorted(MATERIALS))
 
 
 def problem(kind: str) -> InterpolationProblem:
-    """Stiff at one end."""
+    """Three poses of a bar that is stiff at one end."""
     along = np.linspace(0.0, 1.0, TETS)
     material = MATERIALS[kind].from_lame(lam=1.0 + 2.0 * along, mu=0.5 * 10.0**along)
     return InterpolationProblem(POSES, material=material)
@@ -43,7 +43,7 @@ def problem(kind: str) -> InterpolationProblem:
 def test_the_blend_is_the_weighted_sum_of_the_poses_energies(
     kind: str, size: float, weights: FloatArray
 ) -> None:
-    """Also where the density collapses to a few numbers per tet, in double precision."""
+    """It is so even where the density collapses to a few numbers per tet, in double precision."""
     one = problem(kind)
     x = deformed(MESH, size)
     if one.material.barrier and size == 1.0:
@@ -56,7 +56,7 @@ def test_the_blend_is_the_weighted_sum_of_the_poses_energies(
 
 @every_kind
 def test_stresses_of_tets_make_the_gradient(kind: str) -> None:
-    """The energies sum up, and the work of the stresses along a motion is that of the gradient."""
+    """The energies sum to the value, and stresses do the work of the gradient along a motion."""
     one = problem(kind)
     u = deformed(MESH, 0.05) - one.base
     value, gradient = one.system.value_and_gradient(u, WEIGHTS)
@@ -101,7 +101,7 @@ def test_frames_of_shape_and_poses_do_not_matter(kind: str) -> None:
 
 @pytest.mark.parametrize("kind", sorted(set(MATERIALS) - {"symmetric-dirichlet"}))
 def test_one_hot_weights_give_the_pose(kind: str) -> None:
-    """Solved for from the mean shape, though the known solution is at hand."""
+    """Nearly one-hot weights have no known solution and are solved from the mean shape."""
     one = problem(kind)
     for k, pose in enumerate(one.pose_shapes):
         batch = one.system.value_and_gradient(pose - one.base, np.eye(3)[k])
@@ -116,7 +116,7 @@ def test_one_hot_weights_give_the_pose(kind: str) -> None:
 
 
 def test_the_order_of_the_poses_does_not_matter() -> None:
-    """Up to the frame, which is that of the first pose."""
+    """The shapes agree up to the frame, which is that of the first pose."""
     poses = lizard_poses(3, 600, seed=4)
     material = StableNeoHookean(lam=2.0, mu=0.8)
     forward = InterpolationProblem(poses, material=material)

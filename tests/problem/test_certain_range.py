@@ -1,4 +1,4 @@
-"""How far weights may go below zero and above one, in closed forms and by its definition."""
+"""How far weights may go below zero and above one, by closed forms and by the definition."""
 
 from __future__ import annotations
 
@@ -25,13 +25,13 @@ RANGE = CertainRange(LIZARDS.shapes[:, LIZARDS.tets])
 
 
 def scaled(*scales: float) -> CertainRange:
-    """A tet at several sizes, each in a frame of its own."""
+    """A tet at several sizes, each in its own frame."""
     rest = CORNER_TET + np.array([0.3, 0.1, -0.2])
     return CertainRange([[s * rest @ random_rotation(k)] for k, s in enumerate(scales)])
 
 
 def terms(poses: Poses) -> tuple[FloatArray, FloatArray]:
-    """M and alpha of every tet and pose, from deformation gradients: the definition once more."""
+    """M and alpha of every tet and pose, from deformation gradients: a second implementation."""
     edges = (poses.shapes[:, poses.tets[:, 1:]] - poses.shapes[:, poses.tets[:, :1]]).swapaxes(2, 3)
     volumes = np.abs(poses.volumes)
     maps = edges[0] @ np.linalg.inv(edges)
@@ -44,7 +44,7 @@ directions = st.lists(st.floats(-1, 1), min_size=4, max_size=4).map(
 )
 
 
-def test_of_a_body_at_two_sizes_stiffness_ends_it_below_and_volume_above() -> None:
+def test_of_two_sizes_stiffness_bounds_the_range_below_and_volume_above() -> None:
     """At size s against size 1: M is 1 + w (s - 1), alpha is 1 + w (1 / s^3 - 1)."""
     for s in (0.3, 2.0, 5.0):
         ends = -1 / (s - 1), 1 / (1 - s**-3)
@@ -54,7 +54,7 @@ def test_of_a_body_at_two_sizes_stiffness_ends_it_below_and_volume_above() -> No
         assert found.limits()[0] == pytest.approx([1 - greatest, 1 - least], rel=1e-12)
 
 
-def test_of_three_sizes_it_is_the_polygon_of_two_inequalities() -> None:
+def test_the_range_of_three_sizes_is_the_polygon_of_two_inequalities() -> None:
     sizes = np.array([1.0, 1.5, 0.6])
     found = scaled(*sizes)
     for w in np.random.default_rng(4).uniform(-3, 3, (200, 3)):
@@ -64,25 +64,25 @@ def test_of_three_sizes_it_is_the_polygon_of_two_inequalities() -> None:
         assert found.holds(w) == (relative > 0)
 
 
-def test_of_a_stretched_tet_the_least_eigenvalue_is_across_or_along() -> None:
+def test_the_least_eigenvalue_of_a_stretched_tet_is_across_or_along() -> None:
     """Stretched by s along x: v A A^T is diag(1 / s, s, s), and v a^2 is 1 / s."""
     s = 1.6
     found = CertainRange([[CORNER_TET], [CORNER_TET * [s, 1, 1]]])
     assert found.limits()[1] == pytest.approx([-1 / (s - 1), 1 / (1 - 1 / s)])
 
 
-def test_poses_that_are_moved_only_have_no_end() -> None:
+def test_poses_that_differ_by_rigid_motions_have_no_bound() -> None:
     found = scaled(1.0, 1.0, 1.0)
     assert np.array_equal(found.limits(), [[-np.inf, np.inf]] * 3)
     assert found.holds([50.0, -70.0, 21.0])
 
 
 @given(direction=directions)
-def test_on_the_bound_something_vanishes_and_inside_nothing_does(direction: FloatArray) -> None:
+def test_one_term_vanishes_on_the_bound_and_none_inside(direction: FloatArray) -> None:
     toward = 0.25 + direction
     reach = RANGE.reach(toward)
     if not reach < 1e3:
-        return  # too short a direction to go anywhere
+        return  # the direction is too short
     squares, alphas = terms(LIZARDS)
     for share in (0.5, 0.999, 1.0, 1.001):
         w = 0.25 + share * reach * direction
@@ -95,7 +95,7 @@ def test_on_the_bound_something_vanishes_and_inside_nothing_does(direction: Floa
 
 
 @given(a=directions, b=directions, share=st.floats(0, 1))
-def test_the_range_is_convex_and_has_the_simplex_in_it(
+def test_the_range_is_convex_and_contains_the_simplex(
     a: FloatArray, b: FloatArray, share: float
 ) -> None:
     first, second = 0.25 + 4 * a, 0.25 + 4 * b
@@ -106,18 +106,18 @@ def test_the_range_is_convex_and_has_the_simplex_in_it(
     assert RANGE.holds(inside / inside.sum())
 
 
-def test_ways_from_any_start_end_on_the_same_bound() -> None:
+def test_paths_from_any_start_end_on_the_same_bound() -> None:
     toward = np.array([0.5, 2.0, -1.0, -0.5])
     end = 0.25 + RANGE.reach(toward) * (toward - 0.25)
     for start in np.eye(4):
         assert RANGE.reach(end, start=start) == pytest.approx(1.0, rel=1e-9)
     outside = 0.25 + 1.1 * (end - 0.25)
     assert RANGE.reach([1, 0, 0, 0], start=outside) == 0.0
-    assert RANGE.reach(np.eye(4)[1], start=np.eye(4)[1]) == np.inf, "no way at all"
+    assert RANGE.reach(np.eye(4)[1], start=np.eye(4)[1]) == np.inf, "a path of no length"
 
 
 def test_the_energy_of_one_tet_falls_without_bound_beyond_and_grows_within() -> None:
-    """The compiled energy itself, along shapes that are flat: there J, and what keeps it, is 0."""
+    """The compiled energy itself, along flat shapes, where J = 0 and its terms do not grow."""
     shapes = [CORNER_TET, CORNER_TET * [1.5, 0.8, 1.1] @ random_rotation()]
     problem = InterpolationProblem(
         Poses(np.stack(shapes), one_tet().tets),
@@ -140,7 +140,7 @@ def test_the_energy_of_one_tet_falls_without_bound_beyond_and_grows_within() -> 
     assert values[1.01][1] < values[1.01][0] < 0
 
 
-def test_it_does_not_depend_on_frames_sizes_or_moduli() -> None:
+def test_the_range_does_not_depend_on_frames_sizes_or_moduli() -> None:
     poses = LIZARDS.shapes.copy()
     poses[2] = poses[2] @ random_rotation() + [3.0, 1.0, -2.0]
     moved = InterpolationProblem(
@@ -150,7 +150,7 @@ def test_it_does_not_depend_on_frames_sizes_or_moduli() -> None:
     assert moved.certain_range.limits() == pytest.approx(RANGE.limits(), rel=1e-8)
 
 
-def test_only_materials_that_collapse_have_one() -> None:
+def test_only_materials_that_collapse_have_a_range() -> None:
     corners = LIZARDS.shapes[:, LIZARDS.tets]
     for kind, material in MATERIALS.items():
         known = certain_range(material.from_lame(lam=1.0, mu=1.0), corners)
@@ -202,6 +202,6 @@ def test_wrong_weights_are_refused(weights: Any, message: str) -> None:
         RANGE.reach([1, 0, 0, 0], start=weights)
 
 
-def test_weights_as_large_as_numbers_are_far_outside() -> None:
+def test_huge_weights_are_far_outside() -> None:
     assert not RANGE.holds([1e308, -1e308, 1.0, 0.0])
     assert 0 < RANGE.reach([1e307, -1e307, 1.0, 0.0]) < 1e-300

@@ -53,7 +53,7 @@ def test_each_corner_comes_first_in_half_of_its_pairs(corners: int) -> None:
 
 
 @pytest.mark.parametrize("at_most", [1, 7, 40])
-def test_fewer_triples_begin_all_of_them(at_most: int) -> None:
+def test_fewer_triples_are_the_first_of_all_triples(at_most: int) -> None:
     triples = triples_in_circles(9, at_most=10_000)
     assert len(triples) == math.comb(9, 3)
     assert np.array_equal(triples_in_circles(9, at_most=at_most), triples[:at_most])

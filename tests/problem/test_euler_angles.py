@@ -1,4 +1,4 @@
-"""Angles of rotations: the way back from `rotation_matrix`, at gimbal lock as well."""
+"""Angles of rotations: the inverse of `rotation_matrix`, also at gimbal lock."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..shapes import random_rotation
 FloatArray = NDArray[np.float64]
 full_turn = st.floats(-np.pi, np.pi)
 level = st.floats(-1.5, 1.5)
-# how far from a quarter turn: from nothing over rounding to what the formulas must resolve
+# distances from a quarter turn: zero, rounding errors, and what the formulas must resolve
 near_lock = st.sampled_from([0.0, 1e-17, 1e-15, 1e-12, 1e-9, 1e-8, 1e-6, 1e-3])
 
 
@@ -25,7 +25,7 @@ near_lock = st.sampled_from([0.0, 1e-17, 1e-15, 1e-12, 1e-9, 1e-8, 1e-6, 1e-3])
 def test_angles_come_back(alpha: float, beta: float, gamma: float) -> None:
     angles = np.array([alpha, beta, gamma])
     found = euler_of_rotation(rotation_matrix(angles))
-    # a half turn and minus a half turn are one
+    # a half turn and minus a half turn are the same
     turns = (found - angles) / (2 * np.pi)
     np.testing.assert_allclose(turns, np.rint(turns), rtol=0, atol=1e-14)
     assert (np.abs(found) <= [np.pi, np.pi / 2, np.pi]).all()
@@ -36,7 +36,7 @@ def test_angles_come_back(alpha: float, beta: float, gamma: float) -> None:
 def test_the_rotation_comes_back_at_gimbal_lock(
     alpha: float, gamma: float, off: float, side: float
 ) -> None:
-    """The angles may be others, but together they are the same rotation to the last digits."""
+    """The angles may differ, but they give the same rotation to the last digits."""
     rotation = rotation_matrix([alpha, side * (np.pi / 2 - off), gamma])
     found = euler_of_rotation(rotation)
     np.testing.assert_allclose(rotation_matrix(found), rotation, rtol=0, atol=4e-15)
@@ -53,7 +53,7 @@ def test_any_rotation_comes_back(seed: int) -> None:
 
 @pytest.mark.parametrize("side", [-1, 1])
 def test_at_gimbal_lock_alpha_is_zero(side: int) -> None:
-    """Of the angles that give the rotation, those that turn about two axes only."""
+    """Many angles give the rotation; those about only two axes are chosen."""
     alpha, beta, gamma = euler_of_rotation([[0, 0, side], [0, 1, 0], [-side, 0, 0]])
     assert (alpha, beta, gamma) == (0.0, side * np.pi / 2, 0.0)
     turned = rotation_matrix([0.3, side * np.pi / 2, 1.0])

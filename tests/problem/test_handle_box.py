@@ -47,14 +47,14 @@ def test_a_parameter_without_width_stays_in_the_middle() -> None:
 
 
 def test_scaled_coordinates_are_those_of_the_unit_cube() -> None:
-    """So that a bound's length unit or angle does not weigh in distances between parameters."""
+    """A bound's length unit or angle must not weigh in distances between parameters."""
     points = np.random.default_rng(0).random((5, 6))
     for size in (1e-3, 1.0, 1e3):
         box = HandleBox(translation=size, angle=0.1)
         assert box.scaled(box.from_unit(points)) == pytest.approx(points, abs=1e-13)
 
 
-def test_a_grid_has_one_point_at_least() -> None:
+def test_a_grid_has_at_least_one_point() -> None:
     assert not HandleBox(translation=1.0, angle=0.5).grid(1).any()
 
 
@@ -65,7 +65,7 @@ OWN = HandleBox(
 )
 
 
-def test_each_handle_may_have_bounds_of_its_own() -> None:
+def test_each_handle_may_have_its_own_bounds() -> None:
     assert OWN.bounds.tolist() == [
         [1, 2, 3, 0.5, 0.5, 0.5],
         [0, 0, 0, 0, 0, 0],

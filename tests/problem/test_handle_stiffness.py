@@ -1,4 +1,4 @@
-"""The default stiffness of handles follows the body: its unit of length is of no account."""
+"""The default stiffness of handles follows the body, so its unit of length does not matter."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from ..shapes import bar_problem
 
 
 def bar(scale: float, *, mu: float = 1.0, stiffness: float | None = None) -> PosingProblem:
-    """A bar between two ends, in some unit of length and of pressure."""
+    """A bar held at both ends, in some unit of length and pressure."""
     mesh = generators.bar(16, 3, 3, length=6.0)
     x = mesh.vertices[:, 0]
     return PosingProblem(
@@ -38,7 +38,7 @@ def bar(scale: float, *, mu: float = 1.0, stiffness: float | None = None) -> Pos
 
 
 def posed(problem: PosingProblem, scale: float) -> np.ndarray:
-    """Vertices of one motion of a model, in the bar's own unit."""
+    """The vertices of a model for one motion, in the bar's own unit."""
     snapshots = solve_snapshots(problem, sample(problem.domain, 24, method="sobol"))
     assert snapshots.converged.all()
     subspace = snapshot_pca(snapshots, dimension=10)
@@ -50,7 +50,7 @@ def posed(problem: PosingProblem, scale: float) -> np.ndarray:
 
 @pytest.mark.parametrize(("scale", "mu"), [(1e-3, 1.0), (1e3, 1.0), (1.0, 1e6)])
 def test_a_model_is_the_same_in_any_unit(scale: float, mu: float) -> None:
-    """Millimetres, metres and kilometres, and other pressures, up to the solvers' tolerance."""
+    """Millimetres, metres, kilometres and other pressures agree up to the solvers' tolerance."""
     apart = np.abs(posed(bar(scale, mu=mu), scale) - posed(bar(1.0), 1.0)).max()
     assert apart < 1e-3
 

@@ -1,4 +1,4 @@
-"""What an interpolation problem is made from: refused, told apart, or accepted on request."""
+"""Input of an interpolation problem: refused, distinguished, or accepted on request."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def test_weights_beyond_the_simplex_are_taken_on_request_or_in_a_larger_domain()
 
 
 def nudged(pose: int) -> Poses:
-    """One coordinate of one pose one rounding further."""
+    """The poses, with one coordinate of one pose moved to the next floating-point number."""
     shapes = POSES.shapes.copy()
     shapes[pose, 7, 1] = np.nextafter(shapes[pose, 7, 1], np.inf)
     return Poses(shapes, POSES.tets)
@@ -116,7 +116,7 @@ def fingerprint(poses: Poses = POSES, **options: Any) -> str:
     return InterpolationProblem(poses, **options).fingerprint
 
 
-def test_the_fingerprint_tells_apart_what_solutions_depend_on() -> None:
+def test_the_fingerprint_depends_on_all_that_solutions_depend_on() -> None:
     reordered = Poses(POSES.shapes[[0, 2, 1]], POSES.tets)
     prints = [
         fingerprint(),
@@ -132,7 +132,7 @@ def test_the_fingerprint_tells_apart_what_solutions_depend_on() -> None:
     assert all(re.fullmatch("[0-9a-f]{64}", one) for one in prints)
 
 
-def test_the_fingerprint_knows_nothing_else() -> None:
+def test_the_fingerprint_depends_on_nothing_else() -> None:
     renamed = Poses(POSES.shapes, POSES.tets, names=["a", "b", "c"], accept_inverted=True)
     assert (
         fingerprint(renamed) == fingerprint(bar_poses()) == fingerprint(material=StableNeoHookean())
@@ -141,7 +141,7 @@ def test_the_fingerprint_knows_nothing_else() -> None:
 
 @pytest.fixture(scope="module")
 def inverted() -> InterpolationProblem:
-    """A bent bar one corner of which was pushed through its tets."""
+    """A bent bar with one corner pushed through its tets."""
     mesh = irregular_bar(6, 2, 2)
     pose = bent(mesh, 0.8)
     corner = int(np.argmax(mesh.vertices.sum(axis=1)))
@@ -191,7 +191,7 @@ def test_one_hot_gives_back_an_inverted_pose(inverted: InterpolationProblem) -> 
 
 
 def test_a_pose_that_is_a_mirror_image_is_never_turned_back() -> None:
-    """All its tets are inverted; registration is rigid, so that they stay so."""
+    """All its tets are inverted, and stay so because registration is rigid."""
     mesh = irregular_bar(6, 2, 2)
     mirror = bent(mesh, 0.8) * [1.0, 1.0, -1.0]
     poses = Poses(np.stack([mesh.vertices, mirror]), mesh.tets, accept_inverted=True)

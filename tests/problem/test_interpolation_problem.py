@@ -81,7 +81,7 @@ def test_a_rigid_motion_of_the_shape_keeps_the_objective(seed: int) -> None:
 
 @pytest.mark.parametrize("pose", range(3))
 def test_a_rigid_motion_of_a_pose_keeps_the_objective(pose: int) -> None:
-    """Each pose has a frame of its own; only the mean shape goes with that of the first."""
+    """Each pose has its own frame; only the mean shape follows that of the first."""
     shapes = POSES.shapes.copy()
     R = random_rotation(7)
     shapes[pose] = shapes[pose] @ R.T + SHIFT
@@ -96,8 +96,8 @@ def test_a_rigid_motion_of_a_pose_keeps_the_objective(pose: int) -> None:
 
 
 @pytest.mark.parametrize("weights", [WEIGHTS, np.array([1.4, -0.3, -0.1])])
-def test_the_forces_neither_push_nor_turn_the_whole(weights: FloatArray) -> None:
-    """Why solvers do not drift along the six rigid directions."""
+def test_the_forces_neither_push_nor_turn_the_body(weights: FloatArray) -> None:
+    """This is why solvers do not drift along the six rigid directions."""
     x = deformed(MESH, 0.5)
     forces = PROBLEM.value_and_gradient(x, weights)[1].reshape(-1, 3)
     scale = np.abs(forces).sum()
@@ -105,8 +105,8 @@ def test_the_forces_neither_push_nor_turn_the_whole(weights: FloatArray) -> None
     assert np.abs(np.cross(x.reshape(-1, 3), forces).sum(axis=0)).max() < 1e-13 * scale
 
 
-def test_a_pose_costs_its_own_energy_nothing() -> None:
-    """Up to the rounding of what it costs the others."""
+def test_the_energy_of_a_pose_vanishes_at_the_pose() -> None:
+    """It vanishes up to the rounding of the other poses' energies."""
     for k, pose in enumerate(POSES.shapes):
         others, forces = PROBLEM.value_and_gradient(pose, 1.0 - np.eye(3)[k])
         for shape in (pose.reshape(-1), PROBLEM.pose_shapes[k]):

@@ -1,4 +1,4 @@
-"""The material of a problem file: names, ways to give moduli, regions, and the way back."""
+"""The material of a problem file: names, moduli, regions, and writing it again."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def test_a_region_has_the_tets_whose_centroids_are_in_it() -> None:
     assert 0 < inside.sum() < COUNT
     soft = material_from({"model": "stvk", "lam": 3.0, "regions": [ball]}, MESH)
     assert np.array_equal(soft.mu, np.where(inside, 10.0, 1.0))
-    assert np.array_equal(soft.lam, np.where(inside, 30.0, 3.0)), "a factor is of all moduli"
+    assert np.array_equal(soft.lam, np.where(inside, 30.0, 3.0)), "a factor scales all moduli"
 
 
 def test_three_corners_among_the_vertices_make_a_tet_a_part_of_a_region() -> None:
@@ -89,7 +89,7 @@ def test_three_corners_among_the_vertices_make_a_tet_a_part_of_a_region() -> Non
         material_from({"regions": [{"vertices": chosen[:2].tolist(), "mu": 4.0}]}, MESH)
 
 
-def test_later_regions_win_and_factors_add_up() -> None:
+def test_later_regions_win_and_factors_multiply() -> None:
     regions: list[Any] = [
         {"boxes": FAR_BOX, "young": 2.5, "poisson": 0.25},
         {"tets": [COUNT - 1], "mu": 7.0},
@@ -169,7 +169,7 @@ def test_content_makes_the_same_material_again(material: Material) -> None:
 
 
 def test_few_different_moduli_are_written_as_regions() -> None:
-    """Nothing is written of most tets."""
+    """Most tets need no entry."""
     mu = np.where(FAR, 2.0, 1.0)
     mu[FAR.argmax()] = 1.0  # so that fewer are stiff
     content = material_content(StVK(lam=3.0, mu=mu))

@@ -1,4 +1,4 @@
-"""Problems hold their whole material: one place per tet, the fingerprint, and what solvers do."""
+"""The whole material counts: in moduli per tet, in the fingerprint, and in solver options."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def posing(material: Material | None = None) -> PosingProblem:
     return PosingProblem(PROBLEM.mesh, PROBLEM.handles, domain=domain, material=material)
 
 
-def test_the_default_holds() -> None:
+def test_the_default_is_stable_neo_hookean() -> None:
     assert posing().material == StableNeoHookean(lam=1.0, mu=1.0)
     assert InterpolationProblem(bar_poses()).material == StableNeoHookean(lam=1.0, mu=1.0)
 
@@ -77,7 +77,7 @@ def test_samples_settle_where_only_shapes_count_and_are_tight_where_forces_do(ki
 
 
 def test_nearly_incompressible_materials_are_solved_more_tightly() -> None:
-    """By how much the scalar factor underestimates what shear still gives: (2 mu + lam) / mu."""
+    """The scalar factor's steps are too small by (2 mu + lam) / mu, the ratio of moduli."""
     tolerances = [
         SolverOptions().resolved(posing(material)).tolerance
         for material in (

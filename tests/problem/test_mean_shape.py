@@ -13,7 +13,7 @@ from ..shapes import bar_poses, interpolation_problem
 
 
 def test_a_given_mean_shape_is_copied() -> None:
-    """What the caller does with the array later, solutions and the subspace must not see."""
+    """Later changes to the caller's array must not reach solutions or the subspace."""
     given = interpolation_problem().tau.copy()
     wanted = given.copy()
     problem = InterpolationProblem(bar_poses(), mean_shape=given)

@@ -20,7 +20,7 @@ SHAPES = np.stack([BAR.vertices, BENT, TURNED])
 
 
 def tet_with_apex(*heights: float) -> list[FloatArray]:
-    """One tet whose fourth vertex stands at other heights over the first three."""
+    """One tet with its fourth vertex at several heights over the first three."""
     shapes = []
     for height in heights:
         vertices = one_tet().vertices.copy()
@@ -60,7 +60,7 @@ def test_arrays_are_copied_and_cannot_be_changed() -> None:
             array[0] = 1
 
 
-def test_poses_of_meshes_are_the_same() -> None:
+def test_poses_of_meshes_equal_those_of_arrays() -> None:
     poses = Poses.of([TetMesh(shape, BAR.tets) for shape in SHAPES])
     assert np.array_equal(poses.shapes, SHAPES)
     assert np.array_equal(poses.volumes, Poses(SHAPES, BAR.tets).volumes)

@@ -51,7 +51,7 @@ def write(folder: Path, content: Any) -> Path:
     return path
 
 
-def test_every_entry_arrives(folder: Path) -> None:
+def test_every_entry_is_read(folder: Path) -> None:
     problem = read_problem(write(folder, CONTENT))
     assert problem.mesh.fingerprint == MESH.fingerprint, "the path is relative to the file"
     assert problem.material == StVK(lam=2.0, mu=0.5)
@@ -80,14 +80,14 @@ def test_a_handle_is_the_union_of_boxes_spheres_and_vertices(tmp_path: Path) -> 
     assert set(problem.handles["head"].vertices) == expected
 
 
-def test_a_given_mesh_replaces_that_of_the_file(folder: Path) -> None:
+def test_a_given_mesh_replaces_the_one_in_the_file(folder: Path) -> None:
     content = {**CONTENT, "mesh": "missing.msh"}
     assert read_problem(write(folder, content), mesh=MESH).mesh is MESH
     del content["mesh"]
     assert read_problem(write(folder, content), mesh=MESH).mesh is MESH
 
 
-def test_a_handle_may_have_a_domain_of_its_own(folder: Path) -> None:
+def test_a_handle_may_have_its_own_domain(folder: Path) -> None:
     content = copy.deepcopy(CONTENT)
     content["domain"] = {"translation": 0.5, "angle_degrees": 90}
     content["handles"][1]["domain"] = {"angle_degrees": [10, 20, 30]}
@@ -237,7 +237,7 @@ def test_a_wrong_entry_is_named(
     ],
     ids=["empty", "cut", "deep", "long number", "list", "null"],
 )
-def test_what_is_no_problem_is_refused(tmp_path: Path, text: str, message: str) -> None:
+def test_text_that_is_not_a_problem_is_refused(tmp_path: Path, text: str, message: str) -> None:
     path = write(tmp_path, text)
     with pytest.raises(ValueError, match=re.escape(f"{path}: {message}")):
         read_problem(path)

@@ -27,7 +27,7 @@ def saved(folder: Path, surface: object = "own.obj") -> Path:
     return path
 
 
-def test_it_is_embedded_in_the_tets(tmp_path: Path) -> None:
+def test_the_surface_is_embedded_in_the_tets(tmp_path: Path) -> None:
     path = saved(tmp_path)
     write_surface(tmp_path / "own.obj", POINTS, SURFACE.faces)
     problem = read_problem(path)
@@ -49,7 +49,7 @@ def test_quads_become_triangles_and_loose_vertices_are_left_out(tmp_path: Path) 
     assert surface.vertices(PROBLEM.mesh.vertices) == pytest.approx(box[1:], abs=1e-12)
 
 
-def test_without_one_there_is_none(tmp_path: Path) -> None:
+def test_a_file_may_name_no_surface(tmp_path: Path) -> None:
     path = tmp_path / "bar.json"
     path.write_text(json.dumps(problem_content(PROBLEM, "bar.msh")), encoding="utf-8")
     assert read_problem_surface(path, PROBLEM.mesh) is None
@@ -63,7 +63,7 @@ def test_without_one_there_is_none(tmp_path: Path) -> None:
         (100.0, "own.obj", "embed_surface: vertex 0 lies .* in the same unit and frame"),
     ],
 )
-def test_one_that_is_not_that_of_the_mesh_is_refused(
+def test_a_surface_that_does_not_fit_the_mesh_is_refused(
     tmp_path: Path, scale: float, surface: object, message: str
 ) -> None:
     path = saved(tmp_path, surface)

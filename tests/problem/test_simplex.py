@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 
 
 def to_unit(domain: Simplex, weights: FloatArray) -> FloatArray:
-    """Distribution function of each weight in what the earlier ones have left."""
+    """The inverse of `from_unit`: each weight's distribution function given the earlier weights."""
     w = (weights - domain.lowest) / (1 + domain.extrapolation)
     left = 1 - np.concatenate([np.zeros((len(w), 1)), np.cumsum(w, axis=1)[:, :-2]], axis=1)
     return 1 - (1 - w[:, :-1] / left) ** np.arange(domain.dimension, 0, -1)
@@ -26,7 +26,7 @@ def to_unit(domain: Simplex, weights: FloatArray) -> FloatArray:
 
 @given(arrays(np.float64, (3, 4), elements=st.floats(0, 1)))
 @settings(max_examples=50)
-def test_all_of_the_cube_goes_onto_weights(points: FloatArray) -> None:
+def test_every_point_of_the_cube_becomes_weights(points: FloatArray) -> None:
     weights = Simplex(corners=5).from_unit(points)
     assert weights.shape == (3, 5)
     assert (weights >= 0).all()
@@ -121,7 +121,7 @@ def test_center_dimension_and_distances() -> None:
 @pytest.mark.parametrize(
     "weights", [[0, 0, 1], [0.2, 0.3, 0.5], [-9e-10, 0.5, 0.5 + 9e-10], [1 / 3 + 3e-10] * 3]
 )
-def test_weights_in_the_domain_come_back_as_they_are(weights: list[float]) -> None:
+def test_weights_in_the_domain_are_returned_unchanged(weights: list[float]) -> None:
     checked = Simplex(corners=3).check(weights)
     assert checked.dtype == np.float64
     assert checked.tolist() == weights

@@ -1,4 +1,4 @@
-"""The same body under other handles."""
+"""The same body with other handles."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_a_handle_is_left_out() -> None:
     assert three.without("foot").names == ("head", "tail"), "the next one is fixed"
 
 
-def test_another_one_is_fixed() -> None:
+def test_a_different_handle_is_fixed() -> None:
     three = HANDLES.adding("tail", [4])
     assert three.fixing("tail").names == ("tail", "foot", "head")
     assert parts(three.fixing("tail")) == parts(three)
@@ -55,7 +55,7 @@ def test_wrong_changes_are_refused() -> None:
         HANDLES.without("foot")
 
 
-def test_all_but_the_handles_stays_the_same() -> None:
+def test_everything_except_the_handles_stays_the_same() -> None:
     other = PROBLEM.with_handles(PROBLEM.handles.without("belly"))
     assert other.mesh is PROBLEM.mesh
     assert (other.material, other.stiffness) == (PROBLEM.material, PROBLEM.stiffness)
@@ -64,8 +64,8 @@ def test_all_but_the_handles_stays_the_same() -> None:
     assert PROBLEM.domain.moving == 2 and PROBLEM.handles.names == ("foot", "head", "belly")
 
 
-def test_it_is_the_problem_that_the_constructor_makes() -> None:
-    """Nothing of the old handles is left in what is shared or computed."""
+def test_the_result_equals_a_newly_constructed_problem() -> None:
+    """Neither shared nor computed parts keep anything of the old handles."""
     assert PROBLEM.system and PROBLEM.centroids.size  # computed before
     handles = PROBLEM.handles.without("head").adding("corner", [N - 1, N - 2])
     other = PROBLEM.with_handles(handles)
@@ -86,7 +86,7 @@ def test_it_is_the_problem_that_the_constructor_makes() -> None:
     assert other.energy is PROBLEM.energy
 
 
-def test_a_box_of_its_own() -> None:
+def test_a_new_box_may_be_given() -> None:
     box = HandleBox(translation=(0.1, 0.2, 0.3), angle=0.4)
     other = PROBLEM.with_handles(PROBLEM.handles, domain=box)
     np.testing.assert_array_equal(other.domain.half_widths, 2 * [0.1, 0.2, 0.3, 0.4, 0.4, 0.4])

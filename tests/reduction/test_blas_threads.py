@@ -1,4 +1,4 @@
-"""A model does not depend on how many threads BLAS has."""
+"""A model does not depend on the number of BLAS threads."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from snapspace.generators import creature, creature_handles
 
 @pytest.fixture(scope="module")
 def snapshots() -> ss.Snapshots:
-    # large enough that BLAS does share its sums between threads
+    # large enough for BLAS to share its sums between threads
     mesh = creature(20_000)
     parts = creature_handles(mesh)
     handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
@@ -22,14 +22,14 @@ def snapshots() -> ss.Snapshots:
     return ss.solve_snapshots(problem, ss.sample(problem.domain, 24), options=options)
 
 
-def model_of(snapshots: ss.Snapshots, threads: int) -> ss.ReducedModel:
+def reduced(snapshots: ss.Snapshots, threads: int) -> ss.ReducedModel:
     with threadpool_limits(limits=threads, user_api="blas"):
         subspace = ss.snapshot_pca(snapshots, dimension=16)
         return ss.reduce(snapshots.problem, subspace, snapshots=snapshots, threads=threads)
 
 
 def test_blas_threads_do_not_change_a_bit(snapshots: ss.Snapshots) -> None:
-    one, two = model_of(snapshots, 1), model_of(snapshots, 2)
+    one, two = reduced(snapshots, 1), reduced(snapshots, 2)
     for name, a, b in (
         ("basis", one.subspace.basis, two.subspace.basis),
         ("energies", one.subspace.snapshot_energies, two.subspace.snapshot_energies),

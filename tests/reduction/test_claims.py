@@ -1,4 +1,4 @@
-"""Arguments that are not what they claim to be are refused, and long work is told."""
+"""Arguments that are not what they claim to be are refused, and long work is announced."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..shapes import bar_poses, bar_problem
 
 @dataclass(frozen=True, eq=False)
 class StiffStVK(ss.StVK):
-    """Somebody's own density: the core would compute that of StVK."""
+    """A user's own density; the core would compute that of StVK instead."""
 
     def energy(self) -> float:
         return 7.0
@@ -37,7 +37,7 @@ NO_MATERIALS: list[tuple[Any, str]] = [
 
 
 @pytest.mark.parametrize(("material", "message"), NO_MATERIALS)
-def test_what_is_no_material_is_refused(material: Any, message: str) -> None:
+def test_objects_that_are_not_materials_are_refused(material: Any, message: str) -> None:
     problem = bar_problem()
     for who, make in (
         ("PosingProblem", lambda: ss.PosingProblem(
@@ -71,20 +71,20 @@ BASES = {
 def test_a_basis_that_is_not_orthonormal_is_refused(
     posing_snapshots: ss.Snapshots, subspace: ss.AffineSubspace, change: Any
 ) -> None:
-    """Errors, coordinates and stopping tests take U^T M U = I for granted."""
+    """Errors, coordinates and stopping tests rely on U^T M U = I."""
     wrong = replace(subspace, basis=np.asfortranarray(change(subspace.basis)))
     with pytest.raises(ValueError, match=r"reduce: the basis of the subspace (is not M-o|has num)"):
         ss.reduce(posing_snapshots.problem, wrong, snapshots=posing_snapshots)
 
 
-def test_one_in_single_precision_is_orthonormal_enough(
+def test_a_basis_in_single_precision_is_orthonormal_enough(
     posing_snapshots: ss.Snapshots, subspace: ss.AffineSubspace
 ) -> None:
     ss.reduce(posing_snapshots.problem, subspace.in_single_precision(), snapshots=posing_snapshots)
 
 
 @pytest.mark.parametrize("threads", [10**30, 2**31, -1])
-def test_numbers_of_threads_that_nobody_has_are_refused(
+def test_impossible_numbers_of_threads_are_refused(
     posing_snapshots: ss.Snapshots, subspace: ss.AffineSubspace, threads: int
 ) -> None:
     problem, parameters = posing_snapshots.problem, posing_snapshots.parameters[:2]
@@ -94,7 +94,7 @@ def test_numbers_of_threads_that_nobody_has_are_refused(
         ss.solve_snapshots(problem, parameters, threads=threads)
 
 
-def test_the_cost_of_a_quartic_is_that_of_its_coefficients_and_poses() -> None:
+def test_the_cost_of_a_quartic_grows_with_coefficients_and_poses() -> None:
     problem = bar_problem()
     poses = ss.InterpolationProblem(bar_poses(), material=ss.StVK(lam=1.0, mu=1.0))
     per_tet = exact_seconds(problem, 20) / len(problem.mesh.tets)
@@ -104,7 +104,7 @@ def test_the_cost_of_a_quartic_is_that_of_its_coefficients_and_poses() -> None:
 
 
 def test_the_cost_is_within_an_order_of_magnitude() -> None:
-    """A machine that others use as well may be slower, and one with many cores faster."""
+    """A shared machine may be slower, and one with many cores faster."""
     mesh = bar(10, 5, 5)
     problem = SimpleNamespace(mesh=mesh)
     energy = ss.ElasticEnergy(mesh, ss.StVK(lam=1.0, mu=1.0))
@@ -112,11 +112,11 @@ def test_the_cost_is_within_an_order_of_magnitude() -> None:
     subspace = ss.AffineSubspace(mesh.vertices.ravel(), basis, ss.mass_matrix(mesh))
     begin = time.perf_counter()
     reduced_quartic(energy, subspace, threads=1)
-    taken = time.perf_counter() - begin
-    assert 0.1 < taken / exact_seconds(problem, 30) < 20  # type: ignore[arg-type]
+    seconds = time.perf_counter() - begin
+    assert 0.1 < seconds / exact_seconds(problem, 30) < 20  # type: ignore[arg-type]
 
 
-def test_a_quartic_that_takes_more_than_a_minute_is_told_with_the_other_way(
+def test_a_warning_announces_a_quartic_of_more_than_a_minute_and_names_the_cure(
     posing_snapshots: ss.Snapshots, subspace: ss.AffineSubspace, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem = posing_snapshots.problem
@@ -131,7 +131,7 @@ def test_a_quartic_that_takes_more_than_a_minute_is_told_with_the_other_way(
         ss.reduce(problem, subspace, energy="cubature", snapshots=posing_snapshots)
 
 
-def test_angles_that_look_like_degrees_are_told(posing_model: ss.PosingModel) -> None:
+def test_angles_that_look_like_degrees_give_a_warning(posing_model: ss.PosingModel) -> None:
     session = posing_model.session()
     name = posing_model.problem.handles.names[1]
     with pytest.warns(UserWarning, match=r"euler of .* 45 radians, .* np\.deg2rad") as caught:

@@ -1,4 +1,4 @@
-"""Exact or a cubature: by material, dimension and what the user wants."""
+"""Exact or a cubature: chosen by material, dimension and the user's wish."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_a_material_is_exact_where_its_density_is_a_quartic(kind: str) -> None:
 
 
 def test_large_quartics_cost_more_than_they_are_worth() -> None:
-    """Twice as many multiply-adds as a cubature of 8 d tets: d^4 / 8 against 2 * 18 * 8 d^2."""
+    """They cost twice the multiply-adds of a cubature of 8 d tets: d^4 / 8 > 2 * 18 * 8 d^2."""
     problem = posing_bar()
     kinds = [chosen_energy(problem, d) for d in range(1, 300)]
     assert kinds == ["exact"] * 48 + ["cubature"] * 251
@@ -70,8 +70,8 @@ def test_blends_of_other_materials_are_cubatures(kind: str) -> None:
         chosen_energy(problem, 5, "exact")
 
 
-def test_what_trains_a_cubature_is_tight() -> None:
-    """Settled samples are far from equilibrium, where forces are what counts."""
+def test_samples_that_train_a_cubature_are_tight() -> None:
+    """Settled samples are not in equilibrium, and a cubature is trained on forces."""
     assert training_tolerance(posing_bar(), 40) is None
     assert training_tolerance(posing_bar(), 40, "cubature") == 1e-5
     assert training_tolerance(posing_bar(), 120) == 1e-5
@@ -83,7 +83,7 @@ def test_an_unknown_energy_is_named() -> None:
         chosen_energy(posing_bar(), 5, "quartic")  # type: ignore[arg-type]
 
 
-def test_reduce_makes_what_is_chosen(snapshots: Snapshots) -> None:
+def test_reduce_makes_the_chosen_energy(snapshots: Snapshots) -> None:
     papers = posing_bar()
     exact = reduce(papers, random_subspace(papers.mesh, 6), threads=1)
     assert isinstance(exact.elastic, Quartic)
@@ -96,13 +96,13 @@ def test_reduce_makes_what_is_chosen(snapshots: Snapshots) -> None:
     assert model.provenance["cubature"]["tets"] == len(model.elastic.tets) <= 40
 
 
-def test_tets_are_for_a_cubature() -> None:
+def test_the_option_tets_is_for_a_cubature() -> None:
     problem = posing_bar()
     with pytest.raises(ValueError, match="tets is for energy='cubature'"):
         reduce(problem, random_subspace(problem.mesh, 4), tets=20)
 
 
-def test_a_cubature_says_what_it_needs(snapshots: Snapshots) -> None:
+def test_an_error_says_what_a_cubature_needs(snapshots: Snapshots) -> None:
     problem, subspace = snapshots.problem, snapshot_pca(snapshots, dimension=6)
     assert isinstance(problem, PosingProblem)
     message = "energy of stable neo-Hookean in 6 dimensions is a cubature, .* there are 0; give"
@@ -118,7 +118,7 @@ def test_a_cubature_says_what_it_needs(snapshots: Snapshots) -> None:
     "material", [StVK(lam=2.0), StableNeoHookean(lam=2.0), ARAP()], ids=lambda m: m.kind
 )
 def test_all_tets_with_their_volumes_are_the_whole_energy(material: Material) -> None:
-    """Moduli that differ from tet to tet included."""
+    """Moduli differ from tet to tet."""
     mesh = posing_bar().mesh
     stiffer = 1.0 + np.random.default_rng(0).random(len(mesh.tets))
     material = type(material)(
@@ -137,7 +137,7 @@ def test_all_tets_with_their_volumes_are_the_whole_energy(material: Material) ->
     )
 
 
-def test_the_unit_of_energy_adds_up_the_moduli_of_tets(snapshots: Snapshots) -> None:
+def test_the_unit_of_energy_sums_the_moduli_of_tets(snapshots: Snapshots) -> None:
     mesh = posing_bar().mesh
     mu = 1.0 + np.random.default_rng(0).random(len(mesh.tets))
     for given, expected in ((3.0, 3.0 * mesh.volume), (mu, mu @ mesh.volumes)):

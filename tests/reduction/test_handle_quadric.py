@@ -29,7 +29,7 @@ def affine(rng: np.random.Generator) -> FloatArray:
 def by_displacements(
     problem: PosingProblem, subspace: AffineSubspace, q: FloatArray, offsets: FloatArray
 ) -> float:
-    """Eq. (2) with displacements on both sides, so that nothing small is lost in a position."""
+    """Eq. (2) in displacements: small terms are not lost in large positions."""
     reached = (subspace.basis @ q).reshape(-1, 3)[problem.pinned]
     missing = reached - problem.target_displacements(offsets)
     return float(problem.pin_weights @ (missing**2).sum(axis=1))
@@ -48,7 +48,7 @@ def test_equals_equation_two(motion, seed: int) -> None:  # type: ignore[no-unty
 @pytest.mark.parametrize("size", [1e-6, 1e-12, 1e6])
 @pytest.mark.parametrize("motion", [rigid, affine])
 def test_offsets_of_any_size_keep_their_precision(motion, size: float) -> None:  # type: ignore[no-untyped-def]
-    """From maps instead of offsets, tiny motions would be differences of large positions."""
+    """With maps for offsets, tiny motions would be differences of large positions."""
     rng = np.random.default_rng(5)
     q, offsets = size * rng.normal(size=9), size * motion(rng)
     expected = by_displacements(PROBLEM, SUBSPACE, q, offsets)
@@ -60,7 +60,7 @@ def test_handles_at_rest_cost_nothing_at_rest() -> None:
 
 
 def test_a_subspace_that_can_follow_the_handles_costs_nothing() -> None:
-    """Along a displacement that is an affine motion of everything, all handles are reached."""
+    """An affine motion of the whole body takes all handles to their targets."""
     mesh = PROBLEM.mesh
     map_ = np.random.default_rng(9).normal(size=(3, 4))
     field = mesh.vertices @ map_[:, :3].T + map_[:, 3]
@@ -85,7 +85,7 @@ def test_the_matrices_are_symmetric_and_positive() -> None:
     for S in QUADRIC.S:
         assert S == pytest.approx(S.T, rel=1e-12)
         assert np.linalg.eigvalsh(S)[0] > 0
-        # arms are taken from the mass centroid, so turns and shifts do not mix
+        # arms start at the mass centroid, so rotations and translations do not mix
         assert np.abs(S[3, :3]).max() < 1e-12 * S[3, 3]
 
 

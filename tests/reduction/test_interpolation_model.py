@@ -1,4 +1,4 @@
-"""A reduced interpolation model is the full problem on its subspace, without rigid motions."""
+"""A reduced interpolation model equals the full problem on its subspace, without rigid motions."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def random_q(model: InterpolationModel, size: float = 1.0, seed: int = 1) -> Flo
 def test_the_reduced_energy_is_the_full_one_on_the_subspace(
     blending_model: InterpolationModel, weights: tuple[float, ...], size: float, seed: int
 ) -> None:
-    """And its gradient is the projection of the full one."""
+    """Its gradient is the projection of the full gradient."""
     problem, subspace = blending_model.problem, blending_model.subspace
     q, w = random_q(blending_model, size, seed), np.array(weights)
     x = subspace.shape(q)
@@ -98,7 +98,7 @@ def rigid_directions(x: FloatArray) -> list[FloatArray]:
 def test_the_subspace_holds_no_rigid_motion_of_the_mean_shape(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """To the rounding of bases, which is single precision."""
+    """It holds none up to the rounding of bases, which is that of single precision."""
     subspace = request.getfixturevalue(name).subspace
     for direction in rigid_directions(subspace.tau):
         size = mass_norm(subspace.mass, direction)
@@ -123,7 +123,7 @@ def test_the_mean_shape_is_a_strict_minimum_of_the_reduced_energy(
     assert np.linalg.norm(newton_step) < 1e-3 * model.coordinate_scale
 
 
-def test_a_mean_shape_that_is_a_maximum_makes_no_session(
+def test_a_mean_shape_that_is_a_maximum_is_refused(
     blending_model: InterpolationModel,
 ) -> None:
     spoilt = -blending_model.blends.coefficients
@@ -159,7 +159,7 @@ def test_the_live_loop_combines_the_quartics(
 ) -> None:
     loop = core.BlendingLoop(blending_model.dimension, blending_model.blends.coefficients)
     quartics = [blending_model.elastic(e) for e in np.eye(3)]
-    for others in (np.eye(3)[2], weights):  # the second time nothing is left of the first
+    for others in (np.eye(3)[2], weights):  # the second call replaces the first weights
         loop.set_weights(others)
     q = random_q(blending_model, 0.5)
     value, gradient = loop.value_and_gradient(q)
@@ -225,7 +225,7 @@ def test_scales_grow_with_the_problem(blending_model: InterpolationModel) -> Non
 
 
 def test_a_subspace_of_another_shape_is_refused(blending_model: InterpolationModel) -> None:
-    """That of the rest shape, as in posing, and that of a shape near the mean."""
+    """A subspace at the rest shape, as in posing, and one at a shape near the mean are refused."""
     problem = blending_model.problem
     message = "reduce: the subspace is not attached to the problem's reference shape"
     with pytest.raises(ValueError, match=re.escape(message)):

@@ -33,7 +33,7 @@ def spd(dimension: int, condition: float, seed: int = 0) -> FloatArray:
 
 
 def fourth_powers(weights: FloatArray) -> FloatArray:
-    """Coefficients of sum_i weights_i q_i^4, the last monomial of each variable."""
+    """Coefficients of sum_i weights_i q_i^4; q_i^4 is the last monomial of each variable."""
     coefficients = np.zeros(coefficient_count(len(weights)))
     for i, weight in enumerate(weights):
         coefficients[coefficient_count(i + 1) - 1] = weight
@@ -71,7 +71,7 @@ def test_a_convex_quartic_reaches_its_minimiser(start: float, method: core.Metho
     assert report.gradient_norm < 1e-4
 
 
-def test_a_double_well_is_left_downhill_from_its_hill(method: core.Method) -> None:
+def test_a_solve_descends_from_the_hill_of_a_double_well(method: core.Method) -> None:
     """q^4 - 4 q^3 + 2 q^2: a well at rest, a hill, and a deeper well."""
     coefficients = np.array([0.0, 0.0, 0.0, -4.0, 1.0])
     loop = pulled(np.array([[2.0]]), np.zeros(1), coefficients)
@@ -251,8 +251,8 @@ def test_coordinates_and_offsets_of_the_wrong_size_are_refused() -> None:
 
 
 @pytest.mark.parametrize("method", [core.Method.bfgs, core.Method.newton])
-def test_a_mean_shape_that_is_a_saddle_is_left_downhill(method: core.Method) -> None:
-    """Poses far apart: q/10 - q^2 + q^4 + 100 p^2 is concave along q and has its minimum there."""
+def test_a_solve_descends_from_a_mean_shape_that_is_a_saddle(method: core.Method) -> None:
+    """Far poses: q/10 - q^2 + q^4 + 100 p^2 is concave along q and has its minimum there."""
     order = [
         (i, j, k, m)
         for m in range(3)

@@ -1,4 +1,4 @@
-"""What Newton's method is for, and the bounds on the work of a solve."""
+"""Newton's method leaves saddles and saves evaluations; a solve has bounds on its work."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ def loop(posing_model: ReducedModel) -> Any:
 
 
 def test_newton_leaves_a_saddle() -> None:
-    """q1^2 (1 - q2) + q1^4 + (q2 - 2)^2, without its constant: from q1 = 0 the way leads to (0, 2),
-    where the gradient is zero and the curvature along q1 negative.
+    """The objective is q1^2 (1 - q2) + q1^4 + (q2 - 2)^2 without its constant. From q1 = 0 the
+    path leads to (0, 2), where the gradient is zero and the curvature along q1 is negative.
     """
     coefficients = np.zeros(coefficient_count(2))
     coefficients[[4, 7]] = 1.0, -1.0  # q1^4 and q1^2 q2

@@ -1,4 +1,4 @@
-"""The polynomial of degree four against a direct evaluation, monomial by monomial."""
+"""The polynomial of degree four, compared with a direct evaluation of its monomials."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ def random_quartic(dimension: int, seed: int = 0) -> Quartic:
 def dense(dimension: int, coefficients: FloatArray) -> FloatArray:
     """The symmetric tensor of degree four in x = (1, q): l slowest, i fastest, i <= j <= k <= l."""
     tensor = np.zeros((dimension + 1,) * 4)
-    place = 0
+    position = 0
     for last in range(dimension + 1):
         for k in range(last + 1):
             for j in range(k + 1):
                 for i in range(j + 1):
-                    tensor[i, j, k, last] = coefficients[place]
-                    place += 1
-    assert place == len(coefficients)
+                    tensor[i, j, k, last] = coefficients[position]
+                    position += 1
+    assert position == len(coefficients)
     orders = [np.transpose(tensor, order) for order in permutations(range(4))]
     return sum(orders) / 24
 
@@ -54,7 +54,7 @@ def test_value_gradient_and_hessian_are_those_of_the_monomials(dimension: int, s
 
 @pytest.mark.parametrize("dimension", [*range(1, 14), 20, 23, 40, 41, 42, 43])
 def test_one_pass_gives_the_same_as_two(dimension: int) -> None:
-    """And by Euler's theorem x . grad = 4 E and H x = 3 grad for the form in x = (1, q)."""
+    """The Hessian agrees with central differences of the gradient along q."""
     quartic = random_quartic(dimension)
     q = np.random.default_rng(4).normal(size=dimension)
     value, gradient = quartic.value_and_gradient(q)
@@ -71,7 +71,7 @@ def test_one_pass_gives_the_same_as_two(dimension: int) -> None:
 
 @pytest.mark.parametrize("dimension", [3, 12, 30])
 def test_single_precision_is_the_quartic_of_rounded_coefficients(dimension: int) -> None:
-    """The arithmetic loses nothing more: sums are taken in double precision."""
+    """The arithmetic adds no error, because sums are in double precision."""
     coefficients = random_quartic(dimension).coefficients
     q = np.random.default_rng(4).normal(size=dimension)
     single = core.Quartic(dimension, coefficients, single=True)

@@ -51,7 +51,7 @@ def test_training_coordinates_are_those_of_the_snapshots(posing_model: ReducedMo
     snapshots = Snapshots.from_shapes(posing_model.problem, parameters, shapes, reports)
     model = reduce(posing_model.problem, subspace, snapshots=snapshots)
     assert np.array_equal(model.training_parameters, parameters)
-    # a basis in single precision is M-orthonormal to its rounding
+    # a basis in single precision is M-orthonormal up to its rounding
     assert model.training_coordinates == pytest.approx(coordinates, abs=1e-6)
 
 

@@ -1,4 +1,4 @@
-"""The reduced energy is the full energy on the subspace, exactly."""
+"""The reduced energy equals the full energy on the subspace."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ CASES = [
 def full(
     energy: ElasticEnergy, subspace: AffineSubspace, q: FloatArray
 ) -> tuple[float, FloatArray]:
-    """Energy and gradient by q at tau + U q, through displacements: positions round tiny ones."""
+    """Energy and gradient by q at tau + U q, from displacements: positions would round tiny q."""
     offset = subspace.tau - energy.mesh.vertices.reshape(-1)
     value, gradient = energy.core.value_and_gradient(offset + subspace.basis @ q)
     return value, subspace.basis.T @ gradient
@@ -50,7 +50,7 @@ def test_energy_and_gradient_are_those_of_the_full_space(
     assert np.linalg.norm(gradient - expected_gradient) <= 1e-10 * np.linalg.norm(expected_gradient)
 
 
-def test_positions_of_any_size_agree_as_far_as_they_hold_digits() -> None:
+def test_the_energy_at_positions_agrees() -> None:
     energy = ElasticEnergy(irregular_bar(), StVK())
     subspace = random_subspace(energy.mesh, 6)
     q = np.random.default_rng(6).normal(size=6)
@@ -91,7 +91,7 @@ def test_taylor_along_the_full_energy() -> None:
     assert third == pytest.approx(3, abs=0.1)
 
 
-def test_at_the_rest_shape_there_is_neither_energy_nor_force() -> None:
+def test_the_rest_shape_has_neither_energy_nor_force() -> None:
     energy = ElasticEnergy(irregular_bar(), StVK())
     value, gradient = reduced_quartic(energy, random_subspace(energy.mesh, 5)).value_and_gradient(
         np.zeros(5)

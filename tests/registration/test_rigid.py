@@ -74,7 +74,7 @@ def test_half_turns_are_found(axis: Any) -> None:
 @pytest.mark.parametrize("lumped", [False, True])
 @pytest.mark.parametrize("scale", [False, True])
 def test_no_motion_nearby_brings_the_shapes_closer(lumped: bool, scale: bool) -> None:
-    """The minimum by an oracle that knows nothing of the SVD."""
+    """The minimum is compared with that of a general minimiser, which uses no SVD."""
     mass = mass_matrix(BAR, lumped=lumped)
     onto = moved(BENT, random_rotation(), SHIFT)
     best = rigid_registration(REST, onto, mass, scale=scale)
@@ -91,8 +91,8 @@ def test_no_motion_nearby_brings_the_shapes_closer(lumped: bool, scale: bool) ->
     assert squared(np.zeros(7)) == pytest.approx(found.fun, rel=1e-8)
 
 
-def test_the_mass_weighs() -> None:
-    """M-optimal and lumped-optimal differ, and each is the better one in its own norm."""
+def test_the_result_depends_on_the_mass_matrix() -> None:
+    """The optima for the consistent and the lumped mass differ; each is better in its own norm."""
     full, lumped = mass_matrix(BAR), mass_matrix(BAR, lumped=True)
     a, b = (rigid_registration(BENT, REST, mass) for mass in (full, lumped))
     assert distance(a, BENT, REST, full) < distance(b, BENT, REST, full) * (1 - 1e-9)
@@ -100,8 +100,8 @@ def test_the_mass_weighs() -> None:
 
 
 @pytest.mark.parametrize("lumped", [False, True])
-def test_what_remains_is_orthogonal_to_rigid_motions(lumped: bool) -> None:
-    """Why a subspace of such displacements has no rigid null directions."""
+def test_the_residual_is_orthogonal_to_rigid_motions(lumped: bool) -> None:
+    """This is why a subspace of such displacements has no rigid null directions."""
     mass = mass_matrix(BAR, lumped=lumped)
     onto = moved(REST, random_rotation(5), SHIFT)
     shapes = np.stack([deformed(BAR, 0.3, seed=seed) for seed in range(5)], axis=1)
@@ -119,7 +119,7 @@ def test_what_remains_is_orthogonal_to_rigid_motions(lumped: bool) -> None:
 
 
 def test_registration_undoes_any_motion_of_the_shape() -> None:
-    """So that snapshots do not depend on the frame that a solver ends in."""
+    """Snapshots must not depend on the frame in which a solver ends."""
     expected = registered(BENT, REST, MASS)
     for seed in range(5):
         other = moved(BENT, random_rotation(seed), SHIFT)
@@ -147,8 +147,8 @@ def test_reflections_are_never_returned(scale: bool) -> None:
         assert distance(motion, mirrored, shape, MASS) > 0.1
 
 
-def test_a_mirrored_shape_is_turned_as_well_as_it_can() -> None:
-    """The thin direction is the one that stays mirrored."""
+def test_a_mirrored_shape_gets_the_best_rotation() -> None:
+    """The best rotation leaves the thin direction mirrored."""
     plate = bar(6, 4, 1, length=3.0, width=2.0, height=0.2)
     rest, mass = plate.vertices.reshape(-1), mass_matrix(plate)
     motion = rigid_registration(moved(rest, MIRROR), rest, mass)
@@ -178,10 +178,10 @@ def test_a_line_onto_a_body_and_onto_its_opposite() -> None:
         assert np.array_equal(motion.rotation, again.rotation)
 
 
-@pytest.mark.parametrize("place", [0.0, 1.0, 1e6])
-def test_a_shape_without_extent_is_only_shifted(place: float) -> None:
+@pytest.mark.parametrize("position", [0.0, 1.0, 1e6])
+def test_a_shape_without_extent_is_only_shifted(position: float) -> None:
     rounding = np.finfo(float).eps * np.random.default_rng(0).integers(-1, 2, len(REST))
-    point = np.full(len(REST), place * 1.1) * (1 + rounding)
+    point = np.full(len(REST), position * 1.1) * (1 + rounding)
     for shape, onto in ((point, BENT), (BENT, point), (point, point + 1.0)):
         motion = rigid_registration(shape, onto, MASS)
         assert np.array_equal(motion.rotation, np.eye(3))
@@ -191,7 +191,7 @@ def test_a_shape_without_extent_is_only_shifted(place: float) -> None:
 
 
 def test_a_rotation_that_is_barely_determined_is_still_found() -> None:
-    """A needle: its cross covariance holds the turn about its axis in the tenth digit."""
+    """In a needle's cross covariance, the rotation about its axis is in the tenth digit."""
     thin = (BAR.vertices * [1.0, 1e-5, 1e-5]).reshape(-1)
     rotation = random_rotation()
     motion = rigid_registration(thin, moved(thin, rotation), MASS)
@@ -199,7 +199,7 @@ def test_a_rotation_that_is_barely_determined_is_still_found() -> None:
     assert motion.apply(thin) == pytest.approx(moved(thin, rotation), abs=1e-12)
 
 
-def test_far_from_the_origin_only_the_coordinates_digits_are_lost() -> None:
+def test_far_from_the_origin_only_digits_of_the_coordinates_are_lost() -> None:
     rotation = random_rotation()
     motion = rigid_registration(REST + 1e6, moved(REST, rotation, 1e6), MASS)
     assert motion.rotation == pytest.approx(rotation, abs=1e-9)
@@ -207,7 +207,7 @@ def test_far_from_the_origin_only_the_coordinates_digits_are_lost() -> None:
 
 def test_blas_threads_do_not_change_a_bit() -> None:
     rng = np.random.default_rng(0)
-    n = 400_000  # so large that BLAS does share its sums between threads
+    n = 400_000  # large enough for BLAS to share its sums between threads
     onto, mass = rng.normal(size=3 * n), csr_array(diags_array(rng.random(n)))
     shape = onto + rng.normal(0, 0.1, 3 * n)
     results = []

@@ -33,7 +33,7 @@ def test_rigid_motions_do_not_matter() -> None:
 
 
 def test_a_part_that_grows_does_not_matter() -> None:
-    """The median: a mean would be half as large again."""
+    """The factor is a median; a mean would be half as large again."""
     grown = BAR.vertices.copy()
     end = grown[:, 0] > grown[:, 0].max() - 0.1
     grown[end] *= 3.0
@@ -42,7 +42,7 @@ def test_a_part_that_grows_does_not_matter() -> None:
 
 
 def test_every_edge_counts_once() -> None:
-    """Else edges inside, which many tets share, would outvote the others."""
+    """Otherwise inner edges, which many tets share, would outvote the others."""
     shapes = np.random.default_rng(1).random((2, 4, 3))
     edges = np.array([[0, 1], [0, 2], [1, 3], [2, 3], [1, 2]])
     lengths = np.linalg.norm(shapes[:, edges[:, 0]] - shapes[:, edges[:, 1]], axis=2)
@@ -69,7 +69,7 @@ def test_the_policies() -> None:
         scaled, factors = matched_scales(shapes, BAR.tets, policy=policy)
         assert factors == pytest.approx(np.array(expected))
         assert scaled == pytest.approx(shapes * np.array(expected)[:, None, None])
-        # what is kept, is kept to the bit
+        # shapes that are kept are kept to the bit
         assert np.array_equal(scaled[factors == 1.0], shapes[factors == 1.0])
 
 
@@ -85,7 +85,7 @@ def test_the_limit_between_size_and_unit(direction: int) -> None:
         assert np.allclose(scaled[1], BAR.vertices) == changed
 
 
-def test_the_poses_given_are_not_touched() -> None:
+def test_the_given_poses_are_not_changed() -> None:
     shapes = np.stack([BAR.vertices, BAR.vertices])
     for policy in ("keep", "auto", "match"):
         scaled, _ = matched_scales(shapes, BAR.tets, policy=policy)

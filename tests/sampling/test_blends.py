@@ -1,4 +1,4 @@
-"""Blends of two and three poses: which come when, and that a longer sequence changes nothing."""
+"""Blends of two and three poses: their order, and that longer sequences only add samples."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_longer_sequences_begin_with_shorter_ones(
 
 @given(corners=corner_counts, extrapolation=extrapolations, seed=st.integers(0, 1000))
 @settings(max_examples=60)
-def test_they_are_weights_of_the_domain(corners: int, extrapolation: float, seed: int) -> None:
+def test_blends_are_weights_of_the_domain(corners: int, extrapolation: float, seed: int) -> None:
     domain = Simplex(corners=corners, extrapolation=extrapolation)
     weights = sample(domain, 300, method="blends", seed=seed)
     assert weights.shape == (300, corners)
@@ -62,7 +62,7 @@ def test_they_are_weights_of_the_domain(corners: int, extrapolation: float, seed
 
 
 @pytest.mark.parametrize("corners", range(3, 21))
-def test_all_pairs_come_before_any_comes_again(corners: int) -> None:
+def test_all_pairs_come_before_any_pair_repeats(corners: int) -> None:
     pairs = math.comb(corners, 2)
     count = math.ceil(pairs / 0.9) + 1
     found = [chosen for chosen in supports(blends(corners, count)) if len(chosen) == 2]
@@ -87,7 +87,7 @@ def test_each_round_of_pairs_is_complete_and_has_one_point(corners: int) -> None
 
 
 @pytest.mark.parametrize("corners", [4, 6, 10])
-def test_triples_and_the_inside_follow_with_their_shares(corners: int) -> None:
+def test_triples_and_inner_points_follow_with_their_shares(corners: int) -> None:
     begin = math.ceil(math.comb(corners, 2) / 0.9)
     sizes = np.array([len(chosen) for chosen in supports(blends(corners, begin + 1000)[begin:])])
     shares = [np.mean(sizes == 2), np.mean(sizes == 3), np.mean(sizes == corners)]
@@ -96,7 +96,7 @@ def test_triples_and_the_inside_follow_with_their_shares(corners: int) -> None:
     assert len(set(triples[: math.comb(corners, 3)])) == math.comb(corners, 3)
 
 
-def test_with_many_poses_no_two_samples_are_alike() -> None:
+def test_no_two_samples_are_alike() -> None:
     for corners in (3, 5, 10, 20):
         weights = blends(corners, 800)
         assert len(np.unique(weights.round(9), axis=0)) == 800
@@ -111,7 +111,7 @@ def test_the_inside_is_the_sobol_sequence() -> None:
 
 @pytest.mark.parametrize("corners", [5, 8, 11, 20])
 def test_corners_have_equal_shares(corners: int) -> None:
-    """At any length: a corner's mean weight times the number of corners is near one."""
+    """At any length, a corner's mean weight times the number of corners is near one."""
     weights = blends(corners, 1000)
     means = corners * np.cumsum(weights, axis=0) / np.arange(1, 1001)[:, None]
     assert np.abs(means[5 * corners :] - 1).max() < 0.3
@@ -125,7 +125,7 @@ def test_over_seeds_no_corner_is_preferred() -> None:
     assert np.abs(counts - 400).max() < 4 * math.sqrt(1000 * 0.4 * 0.6)
 
 
-def test_the_seed_matters_and_decides() -> None:
+def test_the_seed_determines_the_samples() -> None:
     a, b, again = (blends(8, 60, seed=seed) for seed in (0, 1, 0))
     assert np.array_equal(a, again) and not np.array_equal(a, b)
     plain = [blends(8, 60, seed=seed, scramble=False) for seed in (0, 1)]

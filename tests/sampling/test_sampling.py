@@ -40,7 +40,7 @@ def test_samples_lie_in_the_box_and_fill_it(method: Any) -> None:
     points = sample(BOX, 4096, method=method)
     assert points.shape == (4096, 12)
     assert (np.abs(points) <= BOX.half_widths).all()
-    # a grid of 2 per axis has its cell centres halfway out
+    # a grid of two cells per axis has its centres halfway out
     filled = 0.5 if method == "grid" else 0.99
     assert (np.abs(points).max(axis=0) >= filled * BOX.half_widths).all()
 
@@ -53,13 +53,13 @@ def test_random_marginals_are_uniform_and_independent() -> None:
     assert np.abs(correlation).max() < 4 / math.sqrt(len(points))
 
 
-def test_the_kolmogorov_smirnov_test_has_teeth() -> None:
+def test_the_kolmogorov_smirnov_test_detects_a_warped_distribution() -> None:
     warped = sample(CUBE, 2000, seed=3) ** 1.2
     assert kstest(warped[:, 0], "uniform").pvalue < 1e-3
 
 
 def test_sobol_begins_with_the_known_points() -> None:
-    """Sobol 1967; the tables of Joe & Kuo."""
+    """The points of Sobol 1967, from the tables of Joe & Kuo."""
     points = sample(UnitCube(2), 8, method="sobol", scramble=False)
     table = [
         [0, 0],
@@ -106,7 +106,7 @@ def test_the_same_arguments_give_the_same_points(method: Any) -> None:
         ({"method": "grid"}, False),
     ],
 )
-def test_the_seed_matters_where_there_is_chance(options: Any, differs: bool) -> None:
+def test_the_seed_matters_where_points_are_random(options: Any, differs: bool) -> None:
     a, b = (sample(BOX, 20, seed=seed, **options) for seed in (0, 1))
     assert np.array_equal(a, b) != differs
 
@@ -153,7 +153,7 @@ def test_three_hundred_in_six_dimensions_are_216() -> None:
     assert len(sample(box(6), 300, method="grid")) == 216
 
 
-def test_a_grid_is_the_domain_s_own() -> None:
+def test_the_domain_makes_its_own_grid() -> None:
     assert np.array_equal(sample(CUBE, 300, method="grid"), np.full((1, 6), 0.5))
 
 

@@ -15,7 +15,7 @@ from snapspace.sampling import METHODS
 
 
 def marginal(corners: int) -> Any:
-    """Distribution function of one weight: the rest of the simplex is a smaller one."""
+    """Distribution function of one weight; the other weights form a smaller simplex."""
     return lambda w: 1.0 - (1.0 - np.clip(w, 0.0, 1.0)) ** (corners - 1)
 
 
@@ -43,15 +43,15 @@ def test_random_marginals_have_the_known_distribution(corners: int) -> None:
 
 @pytest.mark.parametrize("corners", [2, 3, 4, 6])
 def test_sobol_marginals_are_closer_than_random_ones(corners: int) -> None:
-    """All of them: also of the corners that the map from the cube treats last."""
+    """This holds for all corners, also for those that the map from the cube treats last."""
     weights = sample(Simplex(corners=corners), 1024, method="sobol")
     for values in weights.T:
         # the distance times sqrt(count) is less than 0.5 for 4 of 100 random samples
         assert kstest(values, marginal(corners)).statistic < 0.5 / math.sqrt(1024)
 
 
-def test_the_distribution_test_has_teeth() -> None:
-    """Normalised uniform numbers, the classical mistake, cluster at the centre."""
+def test_the_distribution_test_detects_normalised_uniform_numbers() -> None:
+    """They are the classical mistake, and cluster at the centre."""
     wrong = np.random.default_rng(3).random((2000, 3))
     wrong /= wrong.sum(axis=1, keepdims=True)
     assert kstest(wrong[:, 0], marginal(3)).pvalue < 1e-3

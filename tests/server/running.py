@@ -1,4 +1,4 @@
-"""A real server, and pages that talk with it as the page does."""
+"""A real server, and websockets that talk to it as the page does."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from websockets.sync.client import ClientConnection, connect
 Arrays = dict[str, np.ndarray]
 Message = dict[str, Any]
 
-PATIENCE = 60.0  # seconds until a test that waits for the server has failed
+PATIENCE = 60.0  # seconds that a test waits for the server before it fails
 
 
 class Page:
@@ -52,7 +52,7 @@ class Page:
         raise AssertionError(f"no {kinds} in time, but {self.seen[-5:]}")
 
     def ask(self, kind: str, answer: str, *, request: int = 1, **fields: Any) -> Message:
-        """Sends a message and takes its answer, which must be of a type."""
+        """Sends a message and returns its answer, which must have the type `answer`."""
         self.send(kind, request=request, **fields)
         message = self.take(answer, "failed")
         assert message["type"] == answer, message
@@ -60,7 +60,7 @@ class Page:
         return message
 
     def workspace(self) -> Message:
-        """The workspace with a mesh, once it is read."""
+        """The workspace message once the mesh is read."""
         while True:
             message = self.take("workspace", "failed")
             assert message["type"] == "workspace", message
@@ -69,7 +69,7 @@ class Page:
 
 
 class Running:
-    """`snapspace view` as a process of its own."""
+    """`snapspace view` as a separate process."""
 
     def __init__(self, *arguments: str | Path, environment: dict[str, str] | None = None) -> None:
         inherited = {k: v for k, v in os.environ.items() if "DISPLAY" not in k}
@@ -115,7 +115,7 @@ class Running:
             return load(answer.read())
 
     def upload(self, page: str, name: str, content: bytes | Iterable[bytes]) -> tuple[int, str]:
-        """Status and text of the answer to a mesh that is dropped on a page."""
+        """Drops a mesh on a page; returns the status and the text of the answer."""
         parts = urlsplit(self.address)
         query = urlencode({"workspace": page, "name": name})
         request = urllib.request.Request(
@@ -129,14 +129,15 @@ class Running:
                 return error.code, error.read().decode()
 
     def kill(self) -> None:
-        """Ends it, however it is."""
+        """Ends the process, whatever its state."""
         if self.process.poll() is None:
             self.process.kill()
             self.process.communicate()
 
     def stop(self, how: signal.Signals = signal.SIGINT) -> tuple[int, str]:
+        """Stops the server; returns its exit code and the rest of its stderr."""
         self.process.send_signal(how)
         assert self.process.stderr is not None
-        with self.process.stderr as stream:  # communicate() would miss what it has read ahead
+        with self.process.stderr as stream:  # communicate() would miss the lines already buffered
             rest = stream.read()
         return self.process.wait(timeout=PATIENCE), rest

@@ -51,13 +51,13 @@ def test_turns_come_in_order_and_never_two_at_once() -> None:
     assert order == [0, 1, 2, 3]
 
 
-def test_who_waits_can_be_stopped_and_who_fails_lets_the_next_one_in() -> None:
+def test_a_waiting_job_can_be_stopped_and_a_failing_one_lets_the_next_start() -> None:
     queue = ComputationQueue()
-    told: list[int] = []
+    reported: list[int] = []
     entered, release, waits = threading.Event(), threading.Event(), threading.Event()
 
     def first() -> None:
-        with queue.turn(told.append):
+        with queue.turn(reported.append):
             entered.set()
             assert release.wait(PATIENCE)
             raise ValueError("broken")
@@ -75,17 +75,17 @@ def test_who_waits_can_be_stopped_and_who_fails_lets_the_next_one_in() -> None:
     assert two.wait(PATIENCE)
     release.set()
     assert one.wait(PATIENCE) and str(errors[0]) == "broken"
-    with queue.turn(told.append):
-        assert not told
+    with queue.turn(reported.append):
+        assert not reported
 
 
-def test_an_error_after_the_stop_is_not_told() -> None:
+def test_an_error_after_the_stop_is_not_reported() -> None:
     entered, release = threading.Event(), threading.Event()
 
     def work() -> None:
         entered.set()
         assert release.wait(PATIENCE)
-        raise ValueError("of what was given up")
+        raise ValueError("in abandoned work")
 
     errors: list[Exception] = []
     job = started(work, failed=errors.append)
@@ -110,27 +110,27 @@ def test_all_pages_share_a_body_and_the_next_one_makes_it_if_the_first_is_stoppe
         return body
 
     shared, stop, waits = SharedBody(make), threading.Event(), threading.Event()
-    first = started(lambda: void(shared.get(lambda stage: None)))
+    first = started(lambda: ignore(shared.get(lambda stage: None)))
     assert entered.wait(PATIENCE)
-    told: list[str] = []
+    reported: list[str] = []
 
-    def tell(stage: str) -> None:
-        told.append(stage)
+    def record(stage: str) -> None:
+        reported.append(stage)
         waits.set()
 
-    second = started(lambda: void(shared.get(tell)))
+    second = started(lambda: ignore(shared.get(record)))
     assert waits.wait(PATIENCE)
     stop.set()
     assert first.wait(PATIENCE) and second.wait(PATIENCE)
-    assert told[0] == "waiting" and told[-1] == "filling"
+    assert reported[0] == "waiting" and reported[-1] == "filling"
     assert shared.get(lambda stage: None) is body and len(makers) == 2
 
 
-def test_who_waits_for_a_body_can_be_stopped() -> None:
+def test_a_job_that_waits_for_a_body_can_be_stopped() -> None:
     shared = SharedBody(lambda stage: pytest.fail("the lock is taken"))
     with shared._lock, stoppable(lambda: True), pytest.raises(Stopped):
         shared.get(lambda stage: None)
 
 
-def void(_: object) -> None:
-    """For functions whose result does not matter."""
+def ignore(_: object) -> None:
+    """Discards a result."""

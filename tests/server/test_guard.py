@@ -1,4 +1,4 @@
-"""Who is answered: requests of the server's own page, with the token."""
+"""The server answers only requests of its own page that carry the token."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def answer(
     token: str = "secret",
     hosts: Container[str] = LOCAL,
 ) -> str:
-    """What a request meets: the application, or a refusal."""
+    """Who answers a request: the application, or the type of a refusal."""
     origins = [origin] if isinstance(origin, str) else origin or []
     given = [host] if isinstance(host, str) else host
     headers = [(b"host", one.encode("latin-1")) for one in given]
@@ -38,7 +38,7 @@ def answer(
         return {"type": f"{kind}.connect"}
 
     answering = Guard(app, token="secret", hosts=hosts)(scope, receive, send)
-    with pytest.raises(StopIteration):  # nothing is waited for, so no event loop is needed
+    with pytest.raises(StopIteration):  # the guard awaits nothing, so no event loop is needed
         answering.send(None)
     return str(sent[0]["type"])
 
@@ -49,7 +49,7 @@ def answer(
 def test_websockets_are_guarded_as_requests_are(kind: str, refused: str) -> None:
     own = {"host": "localhost:8000", "origin": "http://localhost:8000"}
     assert answer(kind, **own) == "the application"
-    assert answer(kind) == "the application", "programs that are no browsers send no Origin"
+    assert answer(kind) == "the application", "programs other than browsers send no Origin"
     assert answer(kind, token="wrong") == refused
     assert answer(kind, host="evil.example") == refused
     for origin in (
@@ -91,7 +91,7 @@ def test_a_host_is_matched_strictly(host: str | Sequence[str]) -> None:
     assert answer("websocket", host=host) == "websocket.close"
 
 
-def test_hosts_that_are_well_formed_are_answered() -> None:
+def test_well_formed_hosts_are_answered() -> None:
     for host in ("localhost", "LOCALHOST:8000", "127.0.0.1:1", "[::1]", "[::1]:65535"):
         assert answer("http", host=host) == "the application"
 

@@ -1,4 +1,4 @@
-"""Real servers and real websockets: from handles to models, and all that may come between."""
+"""Real servers and websockets: from handles to models, and what may interrupt them."""
 
 from __future__ import annotations
 
@@ -34,15 +34,15 @@ def running(*arguments: str | Path) -> Iterator[Running]:
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    made = tmp_path_factory.mktemp("live")
-    write_tets(made / "mesh.msh", MESH)
+    folder = tmp_path_factory.mktemp("live")
+    write_tets(folder / "mesh.msh", MESH)
     problem = PosingProblem(
         MESH,
         Handles(list(ENDS.values()), names=list(ENDS)),
         domain=HandleBox(translation=0.4, angle=0.5),
     )
-    (made / "bar.json").write_text(json.dumps(problem_content(problem, "mesh.msh")))
-    return made
+    (folder / "bar.json").write_text(json.dumps(problem_content(problem, "mesh.msh")))
+    return folder
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ def page(server: Running) -> Iterator[Page]:
 
 
 def first_stage(page: Page) -> Message:
-    """The first progress of samples that are solved."""
+    """The first progress message that counts a solved sample."""
     while (progress := page.take("progress", "failed")).get("done") == 0:
         pass
     return progress
@@ -66,26 +66,27 @@ def first_stage(page: Page) -> Message:
 def test_a_page_begins_with_the_problem_of_the_file(
     server: Running, page: Page, folder: Path
 ) -> None:
-    told = page.workspace()
-    assert (told["kind"], told["name"], told["folder"]) == ("mesh", "bar", str(folder))
-    assert told["translation"] == [0.4] * 3 and told["angle"] == pytest.approx([0.5] * 3)
-    assert told["diagonal"] == pytest.approx(MESH.diagonal)
-    for handle, (name, mask) in zip(told["handles"], ENDS.items(), strict=True):
+    workspace = page.workspace()
+    assert (workspace["kind"], workspace["name"]) == ("mesh", "bar")
+    assert workspace["folder"] == str(folder)
+    assert workspace["translation"] == [0.4] * 3 and workspace["angle"] == pytest.approx([0.5] * 3)
+    assert workspace["diagonal"] == pytest.approx(MESH.diagonal)
+    for handle, (name, mask) in zip(workspace["handles"], ENDS.items(), strict=True):
         assert handle["name"] == name and handle["moving"] == (name == "head")
         assert handle["vertices"] == np.flatnonzero(mask).tolist()
-    arrays = server.fetch(told["mesh"])
+    arrays = server.fetch(workspace["mesh"])
     np.testing.assert_array_equal(arrays["vertices"], MESH.vertices.astype(np.float32))
     np.testing.assert_array_equal(arrays["faces"], MESH.surface)
 
 
-def test_models_come_and_become_better(server: Running, page: Page) -> None:
+def test_models_arrive_and_improve(server: Running, page: Page) -> None:
     page.workspace()
     page.send("compute", request=5, **SHORT)
     models = [page.take("model", "failed"), page.take("model", "failed")]
     assert [model["final"] for model in models] == [False, True], models
     assert [model["number"] for model in models] == [1, 2]
-    assert [model["samples"] for model in models] == [20, 24], "those that train, and four more"
-    assert models[0]["error"] is None, "nothing has judged it"
+    assert [model["samples"] for model in models] == [20, 24], "the training samples, and four more"
+    assert models[0]["error"] is None, "no test sample has judged it"
     assert 0 < models[1]["error"] < SHORT["target_error"]
     for model in models:
         assert model["request"] == 5
@@ -96,7 +97,7 @@ def test_models_come_and_become_better(server: Running, page: Page) -> None:
     assert status == 404 and b"not kept any more" in text
 
 
-def test_chosen_handles_come_back_in_the_models_order(server: Running, page: Page) -> None:
+def test_chosen_handles_are_answered_in_the_models_order(server: Running, page: Page) -> None:
     workspace = page.workspace()
     foot, head = workspace["handles"]
     ranges = {"translation": workspace["translation"], "angle": workspace["angle"]}
@@ -109,37 +110,37 @@ def test_chosen_handles_come_back_in_the_models_order(server: Running, page: Pag
     assert page.take("model", "failed")["type"] == "model", "the last good choice still holds"
 
 
-def test_cancel_keeps_what_is_solved(server: Running, page: Page) -> None:
+def test_cancel_keeps_solved_samples(server: Running, page: Page) -> None:
     page.workspace()
     page.send("compute", request=1, **LONG)
     model = page.take("model", "failed")
     first_stage(page)
     begin = time.perf_counter()
     page.ask("cancel", "cancelled", request=2)
-    assert time.perf_counter() - begin < 2.0  # some 0.1 s on a machine with nothing else to do
+    assert time.perf_counter() - begin < 2.0  # about 0.1 s on an idle machine
     assert server.fetch(model["address"])["space_scales"].size == model["dimension"]
     page.seen.clear()
     page.send("compute", request=3, **SHORT)
     better = page.take("model", "failed")
-    assert better["type"] == "model" and better["final"], "the first model is there already"
+    assert better["type"] == "model" and better["final"], "the first model exists already"
     assert {message["request"] for message in page.seen} == {3}
-    assert page.ask("cancel", "cancelled", request=4), "also if nothing runs"
+    assert page.ask("cancel", "cancelled", request=4), "even if nothing runs"
 
 
-def test_progress_comes_some_ten_times_a_second(page: Page) -> None:
+def test_progress_comes_about_ten_times_a_second(page: Page) -> None:
     page.workspace()
     page.send("compute", request=1, **LONG)
     page.take("model", "failed")
     first_stage(page)
-    told: list[dict[str, Any]] = []
+    progress: list[dict[str, Any]] = []
     begin = time.perf_counter()
     while time.perf_counter() - begin < 1.0:
-        told.append(page.take("progress"))
-    changes = sum(one["stage"] != other["stage"] for one, other in pairwise(told))
-    assert 1 <= len(told) <= 13 + changes
-    solving = [progress for progress in told if progress["stage"] == "snapshots"]
-    assert all(0 <= progress["done"] <= progress["total"] <= 20_000 for progress in solving)
-    assert all(progress["eta"] is None or progress["eta"] >= 0 for progress in solving)
+        progress.append(page.take("progress"))
+    changes = sum(one["stage"] != other["stage"] for one, other in pairwise(progress))
+    assert 1 <= len(progress) <= 13 + changes
+    solving = [one for one in progress if one["stage"] == "snapshots"]
+    assert all(0 <= one["done"] <= one["total"] <= 20_000 for one in solving)
+    assert all(one["eta"] is None or one["eta"] >= 0 for one in solving)
 
 
 def test_another_page_waits_for_its_turn(server: Running, page: Page) -> None:
@@ -166,7 +167,7 @@ def test_a_page_that_is_closed_ends_its_computation(server: Running) -> None:
         assert next_one.take("model", "failed")["type"] == "model"
 
 
-def test_a_new_computation_replaces_the_one_that_runs(page: Page) -> None:
+def test_a_new_computation_replaces_the_running_one(page: Page) -> None:
     page.workspace()
     page.send("compute", request=1, **LONG)
     first_stage(page)
@@ -210,7 +211,7 @@ def test_too_large_a_message_ends_the_connection_only(server: Running, page: Pag
         assert other.workspace()["kind"] == "mesh"
 
 
-def test_polish_gives_the_shape_and_only_the_newest(server: Running, page: Page) -> None:
+def test_polish_answers_the_newest_request_with_the_shape(server: Running, page: Page) -> None:
     page.workspace()
     page.send("compute", request=1, **SHORT)
     while not (model := page.take("model", "failed"))["final"]:
@@ -263,13 +264,13 @@ def short_lived(folder: Path) -> Iterator[Running]:
 def test_ctrl_c_ends_computations_and_pages(short_lived: Running) -> None:
     server = short_lived
     with server.page() as page:
-        told = page.workspace()
-        assert told["handles"] == [] and told["kind"] == "mesh"
+        workspace = page.workspace()
+        assert workspace["handles"] == [] and workspace["kind"] == "mesh"
         handles = [
             {"name": name, "vertices": np.flatnonzero(mask).tolist(), "moving": name == "head"}
             for name, mask in ENDS.items()
         ]
-        ranges = {"translation": told["translation"], "angle": told["angle"]}
+        ranges = {"translation": workspace["translation"], "angle": workspace["angle"]}
         page.ask("choose", "chosen", handles=handles, **ranges)
         page.send("compute", **LONG)
         first_stage(page)

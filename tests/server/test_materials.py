@@ -1,4 +1,4 @@
-"""Materials that a page offers, and what it computes with."""
+"""The materials that a page offers and those that it computes with."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def test_another_material_has_the_same_small_strains(kind: str, mu: float | np.n
         assert shown_poisson(bent) == pytest.approx(0.49)
 
 
-def test_nothing_chosen_is_the_given_material() -> None:
+def test_without_a_choice_the_given_material_stays() -> None:
     given = Corotational(lam=np.array([1.0, 2.0]), mu=1.0)
     assert chosen_material(given, kind=None, poisson=None) is given
     assert chosen_material(given, kind="corotational", poisson=None) is given

@@ -1,4 +1,4 @@
-"""Messages: what travels is what the classes say, for both sides."""
+"""Messages between page and server match the message classes on both sides."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from snapspace.server.wire import decoded, encoded, request_of
 from ..page.tools import tool
 
 
-def test_the_types_of_the_page_are_those_of_the_server() -> None:
+def test_the_page_has_the_message_types_of_the_server() -> None:
     maker = tool("make_messages")
     written = maker.PATH.read_text(encoding="utf-8")
     assert written == maker.messages_text(), "run python tools/make_messages.py"
@@ -95,7 +95,7 @@ def test_numbers_that_json_lacks_become_null() -> None:
         ('{"type": "save", "request": 1, "name": 5}', "save.name must be a string, got 5"),
     ],
 )
-def test_what_is_no_message_is_refused(text: str, message: str) -> None:
+def test_text_that_is_not_a_message_is_refused(text: str, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         decoded(text)
 

@@ -1,4 +1,4 @@
-"""What waits for a slow page: everything but outdated progress."""
+"""Messages wait for a slow page; only outdated progress is dropped."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ def progress(stage: str, done: int, *, request: int = 1) -> Progress:
     )
 
 
-def taken(*puts: tuple[Item, ...]) -> list[Item]:
-    """What a page takes that was away while items were put."""
+def received(*puts: tuple[Item, ...]) -> list[Item]:
+    """The items that a page receives if it was away while they were put."""
 
     async def all_of_them() -> list[Item]:
         outbox = Outbox(asyncio.get_running_loop())
@@ -28,26 +28,26 @@ def taken(*puts: tuple[Item, ...]) -> list[Item]:
             items.append(await outbox.get())
         return items[:-1]
 
-    with ThreadPoolExecutor(1) as pool:  # here another test may have left a loop
+    with ThreadPoolExecutor(1) as pool:  # this thread may still have another test's loop
         return pool.submit(asyncio.run, all_of_them()).result()
 
 
 def test_the_newest_progress_of_a_stage_is_enough() -> None:
-    assert taken(*((progress("snapshots", k),) for k in range(5))) == [progress("snapshots", 4)]
+    assert received(*((progress("snapshots", k),) for k in range(5))) == [progress("snapshots", 4)]
 
 
 def test_no_stage_is_lost() -> None:
     """A page that was away for a moment still sees that the subspace was computed."""
     stages = [progress(stage, 0) for stage in ("snapshots", "subspace", "energy")]
-    assert taken(*((stage,) for stage in stages)) == stages
+    assert received(*((stage,) for stage in stages)) == stages
 
 
-def test_works_are_kept_apart() -> None:
+def test_requests_are_kept_apart() -> None:
     both = [progress("snapshots", 9, request=1), progress("snapshots", 1, request=2)]
-    assert taken(*((one,) for one in both)) == both
+    assert received(*((one,) for one in both)) == both
 
 
 def test_answers_stay_together_and_in_order() -> None:
     answer = Cancelled(request=2)
     before, after = progress("snapshots", 1), progress("snapshots", 2)
-    assert taken((before,), (answer, b"frame"), (after,)) == [before, answer, b"frame", after]
+    assert received((before,), (answer, b"frame"), (after,)) == [before, answer, b"frame", after]

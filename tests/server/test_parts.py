@@ -50,13 +50,13 @@ def compute(**options: object) -> Compute:
     return replace(order, **options)  # type: ignore[arg-type]
 
 
-def session_of(folder: Path, problem: PosingProblem | None = None) -> BodySession:
+def new_session(folder: Path, problem: PosingProblem | None = None) -> BodySession:
     body = Body(name="bar", mesh=MESH, file=None, folder=folder, problem=problem)
     return BodySession(body, Models())
 
 
 def computed(session: BodySession, order: Compute) -> PosingProblem:
-    """The problem that a session would compute a model of."""
+    """The problem for which a session would compute a model."""
     session.computation(
         order, queue=ComputationQueue(), report=Reporter(lambda _: None, 1), publish=lambda *_: None
     )
@@ -77,7 +77,7 @@ def test_tets_with_three_corners_in_a_part_are_multiplied() -> None:
     assert with_factors(plain, None) is plain
 
 
-def test_of_overlapping_parts_the_later_one_wins() -> None:
+def test_the_later_of_overlapping_parts_wins() -> None:
     parts = [part("front", FRONT), part("all", X >= X.min(), 0.5)]
     assert np.unique(part_factors(parts, MESH, None)).tolist() == [0.5]
     assert set(np.unique(part_factors(parts[::-1], MESH, None))) == {0.5, 10.0}
@@ -114,7 +114,7 @@ def bad(name: str = "front", chosen: Sequence[int] | None = None, factor: float 
         (bad() + bad(), "the name 'front' is used by two parts"),
     ],
 )
-def test_what_is_no_part_is_refused_by_name(
+def test_a_bad_part_is_refused_by_name(
     parts: list[PartChoice], message: str, surface: EmbeddedSurface | None
 ) -> None:
     regions = None if surface is None else SurfaceRegions(MESH, surface)
@@ -123,7 +123,7 @@ def test_what_is_no_part_is_refused_by_name(
 
 
 @pytest.mark.parametrize("factor", ["NaN", "Infinity", "1e999", '"10"', "null"])
-def test_a_factor_that_is_no_number_never_gets_that_far(factor: str) -> None:
+def test_a_factor_that_is_not_a_number_is_refused_by_the_decoder(factor: str) -> None:
     head = '{"type": "choose", "request": 1, "handles": [], "translation": [1, 1, 1], '
     part = f'{{"name": "a", "vertices": [1], "factor": {factor}}}'
     text = f'{head}"angle": [1, 1, 1], "parts": [{part}]}}'
@@ -131,24 +131,24 @@ def test_a_factor_that_is_no_number_never_gets_that_far(factor: str) -> None:
         decoded(text)
 
 
-def test_parts_are_computed_with_and_do_not_pile_up(tmp_path: Path) -> None:
+def test_parts_change_the_problem_and_do_not_accumulate(tmp_path: Path) -> None:
     given = StableNeoHookean(lam=3.0, mu=2.0)
     file = PosingProblem(
         MESH, PROBLEM.handles, domain=PROBLEM.domain, material=given, stiffness=50.0
     )
-    session = session_of(tmp_path, file)
+    session = new_session(tmp_path, file)
     session.choose(choose(part("front", FRONT)))
     first = computed(session, compute())
     again = computed(session, compute())
-    assert first is again, "the same problem shares what was solved"
+    assert first is again, "the same problem shares its solved samples"
     assert sorted(np.unique(first.material.moduli[:, 1])) == [2.0, 20.0]
     session.choose(choose())
     assert computed(session, compute()).material == given
     assert computed(session, compute()).fingerprint != first.fingerprint
 
 
-def test_a_refused_part_leaves_what_was_chosen_before(tmp_path: Path) -> None:
-    session = session_of(tmp_path)
+def test_a_refused_part_leaves_the_last_choice(tmp_path: Path) -> None:
+    session = new_session(tmp_path)
     session.choose(choose(part("front", FRONT)))
     with pytest.raises(ValueError, match="'tiny' has no tet"):
         session.choose(choose(PartChoice(name="tiny", vertices=(0,), factor=2.0)))
@@ -156,7 +156,7 @@ def test_a_refused_part_leaves_what_was_chosen_before(tmp_path: Path) -> None:
 
 
 def test_a_saved_problem_has_the_parts(tmp_path: Path) -> None:
-    session = session_of(tmp_path)
+    session = new_session(tmp_path)
     session.choose(choose(part("front", FRONT), part("tip", X > X.max() - 1.1, 0.1)))
     wanted = computed(session, compute(material="corotational", poisson=0.4)).material
     saved = session.save(Save(request=2, name="soft"))

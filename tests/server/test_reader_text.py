@@ -1,4 +1,4 @@
-"""What readers of a page see of errors."""
+"""The text of errors that readers of a page see."""
 
 from __future__ import annotations
 

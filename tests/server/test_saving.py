@@ -1,4 +1,4 @@
-"""What a page saves is complete, readable, and never over another file."""
+"""Files that a page saves are complete and readable, and never overwrite another file."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ def assert_same(a: PosingProblem, b: PosingProblem) -> None:
     assert a.mesh.fingerprint == b.mesh.fingerprint and a.stiffness == b.stiffness
     assert [h.vertices.tolist() for h in a.handles] == [h.vertices.tolist() for h in b.handles]
     assert a.handles.names == b.handles.names
-    assert a.domain.half_widths == pytest.approx(b.domain.half_widths)  # in degrees on the way
+    assert a.domain.half_widths == pytest.approx(b.domain.half_widths)  # files have degrees
 
 
 def test_problem_and_model_are_read_again(body: Body, posing_model: PosingModel) -> None:
     done = saved(SavedFiles(), body, posing_model)
-    assert done.mesh is None, "it lies there already"
+    assert done.mesh is None, "it is already there"
     assert done.problem is not None and done.model is not None
     assert_same(read_problem(done.problem), posing_model.problem)
     assert load(done.model).dimension == posing_model.dimension
 
 
-def test_a_mesh_that_is_in_no_file_is_saved_too(posing_model: PosingModel, tmp_path: Path) -> None:
+def test_a_mesh_without_a_file_is_saved_too(posing_model: PosingModel, tmp_path: Path) -> None:
     filled = Body(name="filled", mesh=posing_model.problem.mesh, file=None, folder=tmp_path)
     done = saved(SavedFiles(), filled, posing_model, whole=False)
     assert (done.mesh, done.model) == (str(tmp_path / "filled.msh"), None)
@@ -55,7 +55,7 @@ def test_a_mesh_that_is_in_no_file_is_saved_too(posing_model: PosingModel, tmp_p
     assert_same(read_problem(done.problem), posing_model.problem)
 
 
-def test_a_surface_that_was_filled_is_saved_with_its_tets(
+def test_a_filled_surface_is_saved_with_its_tets(
     own_surface_model: PosingModel, tmp_path: Path
 ) -> None:
     mesh, surface = own_surface_model.problem.mesh, own_surface_model.surface
@@ -68,7 +68,7 @@ def test_a_surface_that_was_filled_is_saved_with_its_tets(
     points = surface.vertices(mesh.vertices)
     assert again.surface.vertices(mesh.vertices) == pytest.approx(points, abs=1e-12)
     there = saved(SavedFiles(), again, own_surface_model, name="other")
-    assert there.surface is None, "it lies there already"
+    assert there.surface is None, "it is already there"
     assert there.problem is not None
     assert problem_body(Path(there.problem)).surface_file == tmp_path / "own.obj"
 
@@ -80,10 +80,10 @@ def test_own_files_are_replaced_and_others_never(body: Body, posing_model: Posin
     first = saved(files, body, posing_model)
     assert first.problem == str(folder / "bar-2.json")
     assert first.model == str(folder / "bar-2.snapspace")
-    assert saved(files, body, posing_model) == first, "one's own is replaced"
+    assert saved(files, body, posing_model) == first, "the page's own file is replaced"
     assert foreign.read_text() == "somebody's" and not (folder / "bar.json").exists()
     other = saved(SavedFiles(), body, posing_model)
-    assert other.problem == str(folder / "bar-3.json"), "another page's is not"
+    assert other.problem == str(folder / "bar-3.json"), "another page's file is not"
     edited = folder / "bar-2.json"
     edited.write_text("edited by hand")
     os.utime(edited, ns=(1, 1))
@@ -121,12 +121,12 @@ BAD_NAMES = ["", ".", "..", "../x", "a/b", "a\\b", "/etc/x", "C:x", ".hidden", "
 
 
 @pytest.mark.parametrize("name", [*BAD_NAMES, "nul", "COM1.x", "-x", "x" * 101])
-def test_a_name_is_a_plain_one(name: str) -> None:
+def test_names_that_are_not_plain_are_refused(name: str) -> None:
     with pytest.raises(ValueError, match="is no plain file name"):
         checked_name(name)
 
 
-def test_other_names_are_kept_and_those_of_uploads_are_made_plain() -> None:
+def test_plain_names_are_kept_and_names_of_uploads_are_made_plain() -> None:
     for name in ("dragon", "my dragon (2)", "Drache_ä-1.2+3"):
         assert checked_name(name) == name == plain_name(name)
     assert plain_name("../../etc/pass wd.obj") == "pass wd.obj"

@@ -1,4 +1,4 @@
-"""Handles as a page chooses them become a problem, and those of a problem are shown."""
+"""Handles chosen in a page become a problem, and handles of a problem are shown."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def handle(name: str, vertices: list[int], **more: Any) -> HandleChoice:
     return HandleChoice(name=name, vertices=tuple(vertices), **more)
 
 
-def problem_of(*handles: HandleChoice, known: PosingProblem | None = None) -> PosingProblem:
+def chosen_problem(*handles: HandleChoice, known: PosingProblem | None = None) -> PosingProblem:
     selection = selection_of(choice(*handles))
     return selection.problem(PROBLEM.mesh, material=StVK(), stiffness=100.0, known=known)
 
 
-def test_what_is_fixed_comes_first_and_is_held_in_all_samples() -> None:
-    problem = problem_of(
+def test_fixed_handles_come_first_and_are_held_in_all_samples() -> None:
+    problem = chosen_problem(
         handle("head", HEAD),
         handle("foot", FOOT, moving=False),
         handle("belly", BELLY, moving=False, translation=(9.0, 9.0, 9.0)),
@@ -44,7 +44,7 @@ def test_what_is_fixed_comes_first_and_is_held_in_all_samples() -> None:
 
 
 def test_bounds_of_a_handle_replace_the_common_ones() -> None:
-    problem = problem_of(
+    problem = chosen_problem(
         handle("foot", FOOT, moving=False),
         handle("head", HEAD, translation=(0.0, 0.0, 2.0)),
         handle("belly", BELLY, angle=(0.1, 0.0, 0.0)),
@@ -55,8 +55,8 @@ def test_bounds_of_a_handle_replace_the_common_ones() -> None:
     ]
 
 
-def test_equal_bounds_are_common_ones() -> None:
-    problem = problem_of(
+def test_equal_bounds_become_common_bounds() -> None:
+    problem = chosen_problem(
         handle("foot", FOOT, moving=False),
         handle("head", HEAD, translation=(1.0, 1.0, 1.0)),
         handle("belly", BELLY),
@@ -87,8 +87,8 @@ def test_a_problem_shown_and_chosen_again_has_the_same_handles(box: HandleBox) -
     )
     made = again.problem(problem.mesh, material=problem.material, stiffness=100.0, known=None)
     order = [problem.handles.index(name) for name in made.handles.names]
-    bounds_of = np.vstack([np.zeros(6), problem.domain.bounds])
-    np.testing.assert_array_equal(made.domain.bounds, bounds_of[order][1:])
+    all_bounds = np.vstack([np.zeros(6), problem.domain.bounds])
+    np.testing.assert_array_equal(made.domain.bounds, all_bounds[order][1:])
     for name in made.handles.names:
         assert made.handles[name].vertices.tolist() == problem.handles[name].vertices.tolist()
 
@@ -115,16 +115,18 @@ def test_a_problem_shown_and_chosen_again_has_the_same_handles(box: HandleBox) -
         ([handle("a", [0], moving=False), handle("b", [1])], "lie on one line"),
     ],
 )
-def test_what_is_no_problem_is_refused(handles: list[HandleChoice], message: str) -> None:
+def test_choices_that_make_no_problem_are_refused(
+    handles: list[HandleChoice], message: str
+) -> None:
     with pytest.raises(ValueError, match=message):
-        problem_of(*handles)
+        chosen_problem(*handles)
 
 
 def test_the_same_choice_is_the_same_problem_and_others_share_its_energy() -> None:
     chosen = handle("foot", FOOT, moving=False), handle("head", HEAD)
-    first = problem_of(*chosen)
-    assert problem_of(*chosen, known=first) is first
-    other = problem_of(*chosen, handle("belly", BELLY), known=first)
+    first = chosen_problem(*chosen)
+    assert chosen_problem(*chosen, known=first) is first
+    other = chosen_problem(*chosen, handle("belly", BELLY), known=first)
     assert other is not first and other.energy is first.energy
     stiff = selection_of(choice(*chosen))
     changed = stiff.problem(PROBLEM.mesh, material=StVK(), stiffness=200.0, known=first)
@@ -132,8 +134,8 @@ def test_the_same_choice_is_the_same_problem_and_others_share_its_energy() -> No
 
 
 def test_solved_samples_serve_the_same_handles_only() -> None:
-    two = problem_of(handle("foot", FOOT, moving=False), handle("head", HEAD))
-    three = problem_of(
+    two = chosen_problem(handle("foot", FOOT, moving=False), handle("head", HEAD))
+    three = chosen_problem(
         handle("foot", FOOT, moving=False), handle("head", HEAD), handle("belly", BELLY)
     )
     known = SolvedSamples()
@@ -141,11 +143,11 @@ def test_solved_samples_serve_the_same_handles_only() -> None:
     snapshots = solve_snapshots(two, sample(two.domain, 6), threads=1)
     known.add(snapshots)
     assert known.starts(two) is snapshots
-    assert known.starts(three) is None, "a model of other handles says more of these than samples"
+    assert known.starts(three) is None, "for other handles a model is a better start than samples"
 
 
-def test_of_samples_at_the_same_place_the_newest_is_kept() -> None:
-    two = problem_of(handle("foot", FOOT, moving=False), handle("head", HEAD))
+def test_the_newest_sample_at_the_same_parameters_is_kept() -> None:
+    two = chosen_problem(handle("foot", FOOT, moving=False), handle("head", HEAD))
     wanted = sample(two.domain, 6)
     known = SolvedSamples()
     first = solve_snapshots(two, wanted, threads=1)

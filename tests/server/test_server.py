@@ -1,9 +1,9 @@
-"""The local server: who is answered, with what, and how it ends."""
+"""The local server: which requests it answers, with what, and how it ends."""
 
 from __future__ import annotations
 
 import signal
-import socket
+import socket as tcp
 from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -16,7 +16,8 @@ from snapspace.cli import main
 from snapspace.page import packed
 from snapspace.server import serve
 
-from .running import Running
+from .in_process import socket, started
+from .running import Page, Running
 
 
 @pytest.fixture(scope="module")
@@ -39,7 +40,7 @@ def test_the_page_and_the_model_are_served(running: Running, saved: Path) -> Non
     assert running.get("/../pyproject.toml")[0] == 404
 
 
-def test_others_are_refused(running: Running) -> None:
+def test_requests_of_others_are_refused(running: Running) -> None:
     port = urlsplit(running.address).port
     for token in ("", "token=", "token=wrong", f"{urlsplit(running.address).query}&token=x"):
         status, text = running.get(token=token)
@@ -53,7 +54,7 @@ def test_others_are_refused(running: Running) -> None:
     assert running.get("/model", Host="localhost:9000")[0] == 200, "through a tunnel"
 
 
-def test_it_works_in_a_browser(
+def test_the_page_works_in_a_browser(
     running: Running, chromium: object, posing_model: PosingModel
 ) -> None:
     from ..page.pages import open_page
@@ -65,15 +66,15 @@ def test_it_works_in_a_browser(
     assert page.faults == []
 
 
-def test_ctrl_c_ends_it_cleanly(saved: Path) -> None:
-    server = Running(saved)
+def test_ctrl_c_ends_the_server_cleanly(blending_model: InterpolationModel, tmp_path: Path) -> None:
+    server = Running(blending_model.save(tmp_path / "blend.snapspace"))
     assert server.get()[0] == 200
     code, rest = server.stop()
     assert code == 0
     assert rest.splitlines() == ["snapspace: Ctrl-C ends it", "snapspace: stopped"]
 
 
-def test_sigterm_ends_it_as_cleanly(saved: Path, tmp_path: Path) -> None:
+def test_sigterm_ends_the_server_as_cleanly(saved: Path, tmp_path: Path) -> None:
     server = Running(saved, environment={"TMPDIR": str(tmp_path)})
     assert len(list(tmp_path.iterdir())) == 1
     code, rest = server.stop(signal.SIGTERM)
@@ -94,8 +95,8 @@ def test_shapes_of_the_model_are_polished(running: Running, posing_model: Posing
     session.move("head", translation=(0.3, 0.1, 0.0))
     expected = session.polish(iterations=4)
     with running.page() as page:
-        told = page.take("workspace")
-        assert (told["kind"], told["name"], told["mesh"]) == ("model", "bar", None)
+        workspace = page.take("workspace")
+        assert (workspace["kind"], workspace["name"], workspace["mesh"]) == ("model", "bar", None)
         done = page.ask("polish", "polished", request=7, iterations=4, **frame(posing_model))
         assert done["iterations"] == expected.report.iterations
         assert done["moved"] == pytest.approx(expected.moved_relative, rel=1e-6)
@@ -105,22 +106,18 @@ def test_shapes_of_the_model_are_polished(running: Running, posing_model: Posing
         np.testing.assert_allclose(shown, expected.vertices[surface], atol=1e-6)
         page.send("polish", request=8, **{**frame(posing_model), "handles": []})
         assert "got 0 motions, but there are 3 handles" in page.take("failed")["message"]
-        assert running.upload(told["id"], "x.txt", b"0")[0] == 415
+        assert running.upload(workspace["id"], "x.txt", b"0")[0] == 415
 
 
 def test_blends_are_polished(blending_model: InterpolationModel, tmp_path: Path) -> None:
-    server = Running(blending_model.save(tmp_path / "blend.snapspace"))
-    session = blending_model.session()
-    session.blend([0.2, 0.5, 0.3])
+    weights, session = [0.2, 0.5, 0.3], blending_model.session()
+    session.blend(weights)
     expected = blending_model.surface.vertices(session.polish(iterations=3).vertices)
-    try:
-        with server.page() as page:
-            weights, q = [0.2, 0.5, 0.3], session.q.tolist()
-            page.ask("polish", "polished", model=0, weights=weights, q=q, iterations=3)
-            shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
-            np.testing.assert_allclose(shown, expected, atol=1e-5)
-    finally:
-        server.kill()
+    with socket(started(model=blending_model, folder=tmp_path)) as opened:
+        page, q = Page(opened), session.q.tolist()
+        page.ask("polish", "polished", model=0, weights=weights, q=q, iterations=3)
+        shown = np.frombuffer(page.frames[0][4:], "<f4").reshape(-1, 3)
+        np.testing.assert_allclose(shown, expected, atol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -132,15 +129,15 @@ def test_blends_are_polished(blending_model: InterpolationModel, tmp_path: Path)
         (["--upload-limit", "0"], "--upload-limit"),
     ],
 )
-def test_what_cannot_be_viewed_is_told_at_once(
+def test_what_cannot_be_viewed_is_reported_at_once(
     arguments: list[str], message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["view", *arguments]) != 0
     assert message in capsys.readouterr().err.replace("\n", " ")
 
 
-def test_a_port_that_is_taken_is_told(posing_model: PosingModel) -> None:
-    with socket.socket() as other:
+def test_a_port_in_use_is_reported(posing_model: PosingModel) -> None:
+    with tcp.socket() as other:
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]

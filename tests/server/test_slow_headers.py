@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import threading
 import time
 from collections.abc import Iterator
 from urllib.parse import urlsplit
@@ -11,29 +10,19 @@ from urllib.parse import urlsplit
 import pytest
 from websockets.sync.client import connect
 
-from snapspace.server.serve import serve
 from snapspace.server.slow_headers import PromptHeaders
+
+from .in_process import started
 
 SECONDS = 0.3
 
 
 @pytest.fixture(scope="module")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Of a server without a mesh, on a thread of this process, that waits for headers shortly."""
+    """The address of a server without a mesh, on a thread, that waits for headers only briefly."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(PromptHeaders, "header_seconds", SECONDS)
-        told: list[str] = []
-        started = threading.Event()
-
-        def ready(address: str) -> None:
-            told.append(address)
-            started.set()
-
-        folder = tmp_path_factory.mktemp("slow")
-        options = {"title": "slow", "folder": folder, "ready": ready}
-        threading.Thread(target=serve, kwargs=options, daemon=True).start()
-        assert started.wait(30)
-        yield told[0]
+        yield started(title="slow", folder=tmp_path_factory.mktemp("slow"))
 
 
 def seconds_until_closed(stream: socket.socket) -> float:
@@ -52,17 +41,17 @@ def test_slow_headers_time_out(address: str, sent: bytes) -> None:
         assert 0.5 * SECONDS < seconds_until_closed(stream) < 20 * SECONDS
 
 
-def test_a_byte_now_and_then_gains_no_time(address: str) -> None:
+def test_single_bytes_do_not_extend_the_time(address: str) -> None:
     where = urlsplit(address)
     with socket.create_connection((where.hostname, where.port)) as stream:
         begin = time.monotonic()
-        with pytest.raises(OSError):  # closed by the other side
+        with pytest.raises(OSError):  # the server closes it
             while time.monotonic() < begin + 30 * SECONDS:
                 stream.sendall(b"G")
                 time.sleep(SECONDS / 5)
 
 
-def test_websockets_and_requests_after_another_stay(address: str) -> None:
+def test_websockets_and_kept_connections_stay(address: str) -> None:
     where = urlsplit(address)
     with connect(f"ws://{where.netloc}/live?{where.query}") as page:
         page.recv(timeout=30)
@@ -78,4 +67,4 @@ def test_websockets_and_requests_after_another_stay(address: str) -> None:
             while b"not kept any more" not in answer:
                 answer += stream.recv(4096)
             assert answer.startswith(b"HTTP/1.1 404")
-            time.sleep(1.5 * SECONDS)  # idle between requests: that is keep-alive's limit
+            time.sleep(1.5 * SECONDS)  # idle between requests: only keep-alive limits that

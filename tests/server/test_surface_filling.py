@@ -1,4 +1,4 @@
-"""Which way a surface is filled, and that the page is told."""
+"""How a surface is filled, and the stages that the page is shown."""
 
 from __future__ import annotations
 
@@ -16,29 +16,29 @@ def filled(mesh: TetMesh, how: SurfaceFilling) -> tuple[TetMesh, list[str]]:
     return tets, stages
 
 
-def test_a_solid_is_filled_in_the_quick_way() -> None:
+def test_a_solid_is_filled_by_stuffing() -> None:
     block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
     mesh, stages = filled(block, SurfaceFilling(edge_length=0.1))
     assert stages == ["filling"]
     assert mesh.volume == pytest.approx(block.volume, rel=0.05)
 
 
-def test_what_is_too_thin_for_it_goes_on_exactly() -> None:
-    """A tenth of the edge length thick: no tet of that size fits."""
-    plate = bar(2, 2, 1, length=1.0, width=1.0, height=0.03)
+def test_a_plate_too_thin_for_stuffing_is_filled_exactly() -> None:
+    """Its thickness is a tenth of the edge length, so no tet of that size fits."""
+    plate = bar(1, 1, 1, length=1.0, width=1.0, height=0.03)
     mesh, stages = filled(plate, SurfaceFilling(edge_length=0.3))
     assert stages == ["filling", "filling exactly"]
     assert mesh.volume == pytest.approx(plate.volume, rel=0.1)
 
 
-def test_exactly_at_once_on_request() -> None:
-    block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
+def test_a_surface_is_filled_exactly_on_request() -> None:
+    block = bar(1, 1, 1, length=1.0, width=1.0, height=1.0)
     mesh, stages = filled(block, SurfaceFilling(edge_length=0.3, exact=True))
     assert stages == ["filling exactly"]
     assert np.allclose(np.ptp(mesh.vertices, axis=0), 1.0, atol=0.01)
 
 
-def test_an_open_surface_is_refused_in_the_end() -> None:
+def test_an_open_surface_is_refused() -> None:
     block = bar(1, 1, 1)
     vertices, faces = compact_surface(block.vertices, block.surface)
     with pytest.raises(ValueError, match="closed"):

@@ -1,4 +1,4 @@
-"""Handles that are chosen on a surface hold the tets inside of it."""
+"""Handles that are chosen on a surface hold the tets inside it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LENGTH = np.ptp(MESH.vertices[:, 0])
 
 
 def box() -> EmbeddedSurface:
-    """Eight vertices, with far more tet vertices between them."""
+    """A surface of eight vertices, with far more tet vertices between them."""
     low, high = MESH.vertices.min(axis=0), MESH.vertices.max(axis=0)
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
     quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
@@ -28,7 +28,7 @@ def box() -> EmbeddedSurface:
 
 
 def along(surface: EmbeddedSurface) -> np.ndarray:
-    """Where surface vertices are between the ends, 0 to 1."""
+    """Positions of surface vertices between the ends, from 0 to 1."""
     x = surface.vertices(MESH.vertices)[:, 0]
     share: np.ndarray = (x - MESH.vertices[:, 0].min()) / LENGTH
     return share
@@ -61,7 +61,7 @@ def test_on_the_boundary_itself_the_handles_are_the_chosen_vertices() -> None:
         assert np.array_equal(one.vertices, MESH.surface_vertices[other.vertices])
 
 
-def test_a_handle_of_a_problem_is_the_same_again_after_it_was_shown() -> None:
+def test_a_handle_of_a_problem_is_the_same_after_it_was_shown() -> None:
     regions = SurfaceRegions(MESH, FINE)
     choices = [
         HandleChoice(name=handle.name, vertices=tuple(handle.vertices.tolist()), moving=False)
@@ -88,7 +88,7 @@ def test_a_handle_that_no_surface_vertex_follows_is_shown_around_it() -> None:
 
 
 def test_an_unchanged_handle_stays_when_another_comes_close() -> None:
-    """Else samples that were solved for it would be worth nothing."""
+    """Otherwise the samples that were solved for it would be useless."""
     regions = SurfaceRegions(MESH, FINE)
     first = ends(FINE)
     before = regions.in_tets(first)
@@ -104,7 +104,7 @@ def test_one_vertex_of_a_fine_surface_holds_the_tet_around_it() -> None:
         assert len(handle.vertices) >= 3
 
 
-def test_what_holds_nothing_is_refused() -> None:
+def test_handles_without_enough_vertices_are_refused() -> None:
     surface = boundary_surface(MESH)
     regions = SurfaceRegions(MESH, surface)
     few = Handles([[0, 1, 2], [7]], names=["a", "b"])
@@ -115,7 +115,7 @@ def test_what_holds_nothing_is_refused() -> None:
 
 
 def test_disjoint_handles_stay_disjoint_on_coarse_tets() -> None:
-    """Neighbours of a fine surface that follow the same tet vertex."""
+    """Neighbours on a fine surface may follow the same tet vertex."""
     coarse = TetMesh(
         [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], [[0, 1, 2, 3], [1, 2, 3, 4]]
     )

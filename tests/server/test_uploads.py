@@ -24,18 +24,18 @@ def empty() -> Iterator[Running]:
 
 
 def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) -> None:
-    thin = bar(16, 1, 1, width=0.25, height=0.25)  # few tets, soon filled
+    thin = bar(16, 1, 1, width=0.25, height=0.25)  # few tets, quickly filled
     write_surface(tmp_path / "bar.ply", thin.vertices, thin.surface)
     content = (tmp_path / "bar.ply").read_bytes()
     with empty.page() as page:
-        told = page.take("workspace")
-        assert (told["kind"], told["mesh"], told["upload_limit"]) == ("empty", None, 2**20)
-        assert empty.upload(told["id"], "../b/drop me.ply", content) == (202, "")
-        told = page.workspace()
-        assert (told["kind"], told["name"]) == ("mesh", "drop me")
+        state = page.take("workspace")
+        assert (state["kind"], state["mesh"], state["upload_limit"]) == ("empty", None, 2**20)
+        assert empty.upload(state["id"], "../b/drop me.ply", content) == (202, "")
+        state = page.workspace()
+        assert (state["kind"], state["name"]) == ("mesh", "drop me")
         stages = [m["stage"] for m in page.seen if m["type"] == "progress"]
         assert stages[-1] == "filling"
-        shown = empty.fetch(told["mesh"])
+        shown = empty.fetch(state["mesh"])
         vertices, faces = compact_surface(thin.vertices, thin.surface)
         np.testing.assert_allclose(shown["vertices"], vertices, atol=1e-6)
         assert np.array_equal(shown["faces"], faces), "the user's own surface"
@@ -44,12 +44,12 @@ def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) ->
             {"name": "foot", "vertices": np.flatnonzero(x < 0.2).tolist(), "moving": False},
             {"name": "head", "vertices": np.flatnonzero(x > 3.8).tolist()},
         ]
-        ranges = {"translation": told["translation"], "angle": told["angle"]}
+        ranges = {"translation": state["translation"], "angle": state["angle"]}
         far = [*handles, {"name": "far", "vertices": [len(vertices)]}]
         page.send("choose", request=7, handles=far, **ranges)
         assert "'far' has vertex index" in page.take("failed")["message"]
         page.ask("choose", "chosen", handles=handles, **ranges)
-        page.send("compute", **{**ORDER, "stiffness": told["stiffness"], "poisson": 0.4})
+        page.send("compute", **{**ORDER, "stiffness": state["stiffness"], "poisson": 0.4})
         model = page.take("model", "failed")
         assert model["type"] == "model"
         packed = empty.fetch(model["address"])
@@ -59,35 +59,37 @@ def test_a_surface_is_dropped_filled_and_used(empty: Running, tmp_path: Path) ->
         assert (packed["handle_of_vertex"][x > 3.8] == 1).all()
 
 
-def test_filling_is_cancelled_and_the_page_asks_again(empty: Running, tmp_path: Path) -> None:
+def test_filling_is_cancelled_and_the_workspace_is_empty_again(
+    empty: Running, tmp_path: Path
+) -> None:
     # the finest surface below the limit takes seconds
     fine = bar(24, 12, 12)
     write_surface(tmp_path / "fine.stl", fine.vertices, fine.surface)
     with empty.page() as page:
-        told = page.take("workspace")
-        assert empty.upload(told["id"], "fine.stl", (tmp_path / "fine.stl").read_bytes())[0] == 202
+        state = page.take("workspace")
+        assert empty.upload(state["id"], "fine.stl", (tmp_path / "fine.stl").read_bytes())[0] == 202
         while page.take("progress")["stage"] != "filling":
             pass
         page.send("compute", **ORDER)
         assert "wait until it is read" in page.take("failed")["message"]
         page.ask("cancel", "cancelled", request=3)
         kinds = [m["kind"] for m in page.seen if m["type"] == "workspace"]
-        while kinds[-1] != "empty":  # filling that takes longer to end is not waited for
+        while kinds[-1] != "empty":  # the server does not wait for filling that is slow to stop
             kinds.append(page.take("workspace")["kind"])
 
 
-def test_what_is_no_mesh_is_refused(empty: Running) -> None:
+def test_uploads_that_are_not_meshes_are_refused(empty: Running) -> None:
     with empty.page() as page:
-        told = page.take("workspace")
-        status, text = empty.upload(told["id"], "x.obj", b"0" * (2**20 + 1))
+        state = page.take("workspace")
+        status, text = empty.upload(state["id"], "x.obj", b"0" * (2**20 + 1))
         assert status == 413 and "more than 1 MB; raise --upload-limit" in text
-        # far more than a socket holds: a server that hangs up instead of reading on is missed
-        assert empty.upload(told["id"], "x.exe", bytes(2**25))[0] == 415
-        parts_of_unknown_number = (bytes(2**16) for _ in range(2**9))
-        assert empty.upload(told["id"], "x.obj", parts_of_unknown_number)[0] == 413
-        assert empty.upload(told["id"], "x.exe", b"0")[0] == 415
+        # far more than a socket's buffer: the answer is lost if the server stops reading
+        assert empty.upload(state["id"], "x.exe", bytes(2**25))[0] == 415
+        chunks = (bytes(2**16) for _ in range(2**9))
+        assert empty.upload(state["id"], "x.obj", chunks)[0] == 413
+        assert empty.upload(state["id"], "x.exe", b"0")[0] == 415
         assert empty.upload("another", "x.obj", b"0")[0] == 404
-        assert empty.upload(told["id"], "x.obj", b"hello")[0] == 202
+        assert empty.upload(state["id"], "x.obj", b"hello")[0] == 202
         assert page.take("failed") == {
             "type": "failed",
             "request": 0,

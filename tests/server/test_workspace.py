@@ -1,4 +1,4 @@
-"""What a page leaves behind: nothing."""
+"""A closed page leaves no memory, files or messages behind; errors become answers."""
 
 from __future__ import annotations
 
@@ -25,26 +25,26 @@ ORDER = Compute(request=1, target_error=0.5, most_samples=20, seed=0, stiffness=
 
 
 class Mailbox:
-    """Messages of a workspace, without a page."""
+    """Collects a workspace's messages in place of a page."""
 
     def __init__(self) -> None:
         self.messages: list[object] = []
-        self._came = threading.Condition()
+        self._arrived = threading.Condition()
 
     def put(self, *items: object) -> None:
-        with self._came:
+        with self._arrived:
             self.messages.extend(items)
-            self._came.notify_all()
+            self._arrived.notify_all()
 
     def wait_for(self, message: type, **fields: object) -> None:
-        def is_here() -> bool:
+        def has_arrived() -> bool:
             return any(
                 isinstance(m, message) and all(getattr(m, k) == v for k, v in fields.items())
                 for m in self.messages
             )
 
-        with self._came:
-            assert self._came.wait_for(is_here, PATIENCE), self.messages
+        with self._arrived:
+            assert self._arrived.wait_for(has_arrived, PATIENCE), self.messages
 
 
 @pytest.fixture
@@ -66,16 +66,19 @@ def no_collector() -> Iterator[None]:
 
 
 def test_a_closed_page_holds_no_memory(settings: ServerSettings, no_collector: None) -> None:
-    """Not even until cycles are collected: samples are large, and objects that hold them few."""
+    """Memory is free before cycles are collected: samples are large, collections rare."""
     mailbox = Mailbox()
     workspace = Workspace(settings, mailbox.put)
     workspace.open()
     mailbox.wait_for(Opened, kind="mesh")
     workspace.receive(ORDER)
     mailbox.wait_for(Model, final=True)
-    held = [weakref.ref(workspace._session), weakref.ref(workspace._models.newest.model)]  # type: ignore[union-attr]
+    assert workspace._session is not None and workspace._models.newest is not None
+    model = workspace._models.newest.model
+    references = [weakref.ref(workspace._session), weakref.ref(model)]
+    del model
     workspace.close()
-    assert [one() for one in held] == [None, None]
+    assert [one() for one in references] == [None, None]
 
 
 def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(
@@ -97,7 +100,7 @@ def test_poissons_ratio_changes_lam_and_null_is_the_material_of_the_file(
     assert mu == materials[0].mu and lam / (2 * (lam + mu)) == pytest.approx(0.4)
 
 
-def test_each_material_starts_from_the_samples_of_the_one_before(settings: ServerSettings) -> None:
+def test_each_material_starts_from_the_samples_of_the_last_one(settings: ServerSettings) -> None:
     mailbox = Mailbox()
     workspace = Workspace(settings, mailbox.put)
     workspace.open()
@@ -112,7 +115,7 @@ def test_each_material_starts_from_the_samples_of_the_one_before(settings: Serve
 
 
 def refusal(settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, error: Exception) -> Failed:
-    """What a page is told when a computation raises an error."""
+    """The message that a page gets when a computation raises an error."""
 
     def raises(*_: object, **__: object) -> None:
         raise error
@@ -129,7 +132,7 @@ def refusal(settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, error: Ex
     return failed
 
 
-def test_a_fault_is_an_answer_and_leaves_a_trace(
+def test_a_fault_is_answered_and_its_traceback_logged(
     settings: ServerSettings, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
     failed = refusal(settings, monkeypatch, KeyError("a fault of ours"))
@@ -137,24 +140,24 @@ def test_a_fault_is_an_answer_and_leaves_a_trace(
     assert "a fault of ours" in caplog.text and caplog.records[0].exc_info
 
 
-def test_an_empty_memory_is_told_with_its_cure(
+def test_a_lack_of_memory_is_reported_with_its_cure(
     settings: ServerSettings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     failed = refusal(settings, monkeypatch, MemoryError())
     assert "fewer samples or a coarser mesh" in failed.message
 
 
-def test_a_file_that_comes_after_its_page_has_gone_is_removed(
+def test_a_file_that_arrives_after_its_page_closed_is_removed(
     settings: ServerSettings, tmp_path: Path
 ) -> None:
-    place = tmp_path / "upload" / "bar.obj"
-    place.parent.mkdir()
-    place.write_text("")
+    path = tmp_path / "upload" / "bar.obj"
+    path.parent.mkdir()
+    path.write_text("")
     mailbox = Mailbox()
     workspace = Workspace(settings, mailbox.put)
     workspace.close()
-    workspace.upload(place)
-    assert not place.parent.exists() and mailbox.messages == []
+    workspace.upload(path)
+    assert not path.parent.exists() and mailbox.messages == []
 
 
 def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(

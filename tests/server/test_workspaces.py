@@ -1,4 +1,4 @@
-"""A page that comes back finds its work; one that stays away leaves nothing behind."""
+"""A page that returns finds its work; one that stays away leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -7,22 +7,20 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 from urllib.parse import urlsplit
 from urllib.request import Request, urlopen
 
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import connect
 
 from snapspace import PosingModel
 from snapspace.server import workspace as module
 from snapspace.server.body import Body
-from snapspace.server.serve import serve
 from snapspace.server.settings import PageTimeouts
 from snapspace.server.shared_body import SharedBody
 
 from ..shapes import bar_problem
+from .in_process import socket, started
 from .running import Page
 
 KEPT = {
@@ -45,21 +43,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("workspaces")
 
 
-def started(**options: Any) -> str:
-    """The address of a server on a thread of this process, which ends with it."""
-    told: list[str] = []
-    ready = threading.Event()
-
-    def take(address: str) -> None:
-        told.append(address)
-        ready.set()
-
-    options |= {"title": "bar", "ready": take}
-    threading.Thread(target=serve, kwargs=options, daemon=True).start()
-    assert ready.wait(30)
-    return told[0]
-
-
 @pytest.fixture(scope="module")
 def address(folder: Path) -> Iterator[str]:
     problem = bar_problem()
@@ -69,13 +52,7 @@ def address(folder: Path) -> Iterator[str]:
         yield started(body=SharedBody(lambda stage: body), folder=folder)
 
 
-def socket(address: str, id: str | None = None) -> Any:
-    where = urlsplit(address)
-    query = where.query if id is None else f"{where.query}&workspace={id}"
-    return connect(f"ws://{where.netloc}/live?{query}", max_size=None)
-
-
-def test_what_was_chosen_and_what_runs_is_there_again(address: str) -> None:
+def test_a_page_that_returns_finds_its_choices_and_its_computation(address: str) -> None:
     with socket(address) as first:
         page = Page(first)
         before = page.workspace()
@@ -92,9 +69,9 @@ def test_what_was_chosen_and_what_runs_is_there_again(address: str) -> None:
         assert {name: again[name] for name in KEPT} == KEPT | {"poisson": before["poisson"]}
         assert again["own_poisson"] == KEPT["poisson"]
         assert (again["job"], again["is_running"]) == (41, True)
-        told = page.take("model")
-        assert told["request"] == 41 and told["number"] >= model["number"]
-        assert page.take("progress")["request"] == 41, "it goes on"
+        latest = page.take("model")
+        assert latest["request"] == 41 and latest["number"] >= model["number"]
+        assert page.take("progress")["request"] == 41, "it continues"
         page.ask("cancel", "cancelled", request=42)
     with socket(address, before["id"]) as third:
         again = Page(third).take("workspace")
@@ -114,16 +91,16 @@ def test_another_page_takes_a_workspace_over(address: str) -> None:
             page.ask("cancel", "cancelled", request=3)
 
 
-def test_who_stays_away_is_forgotten(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_page_that_stays_away_is_forgotten(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     closed, gone = threading.Event(), list[str]()
     close = module.Workspace.close
 
-    def noted(workspace: module.Workspace) -> None:
+    def recorded(workspace: module.Workspace) -> None:
         close(workspace)
         if workspace.id in gone:
             closed.set()
 
-    monkeypatch.setattr(module.Workspace, "close", noted)
+    monkeypatch.setattr(module.Workspace, "close", recorded)
     with socket(address) as first:
         id = Page(first).workspace()["id"]
         gone.append(id)
@@ -133,7 +110,7 @@ def test_who_stays_away_is_forgotten(address: str, monkeypatch: pytest.MonkeyPat
         assert Page(second).workspace()["id"] != id
 
 
-def test_nobody_waits_long_for_who_is_gone(address: str) -> None:
+def test_no_page_waits_long_for_a_closed_one(address: str) -> None:
     with socket(address) as first:
         page = Page(first)
         page.workspace()
@@ -155,15 +132,15 @@ def test_handles_are_chosen_on_the_body_of_a_model(posing_model: PosingModel, fo
         page = Page(opened)
         assert page.take("workspace")["kind"] == "model"
         page.send("edit")
-        told = page.workspace()
-        assert told["kind"] == "mesh" and told["folder"] == str(folder)
+        workspace = page.workspace()
+        assert workspace["kind"] == "mesh" and workspace["folder"] == str(folder)
         problem = posing_model.problem
-        for handle, own in zip(told["handles"], problem.handles, strict=True):
+        for handle, own in zip(workspace["handles"], problem.handles, strict=True):
             assert handle["name"] == own.name and handle["vertices"] == own.vertices.tolist()
         upload = posing_model.save(folder / "other.snapspace")
         where = urlsplit(address)
-        place = f"http://{where.netloc}/mesh?workspace={told['id']}&name=other.snapspace"
-        urlopen(Request(f"{place}&{where.query}", data=upload.read_bytes()), timeout=30).close()
+        url = f"http://{where.netloc}/mesh?workspace={workspace['id']}&name=other.snapspace"
+        urlopen(Request(f"{url}&{where.query}", data=upload.read_bytes()), timeout=30).close()
         again = page.workspace()
         assert (again["kind"], again["name"]) == ("mesh", "other")
-        assert json.dumps(again["handles"]) == json.dumps(told["handles"])
+        assert json.dumps(again["handles"]) == json.dumps(workspace["handles"])

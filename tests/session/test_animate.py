@@ -1,4 +1,4 @@
-"""Animations: frames on the way through keys."""
+"""Animations: frames along a path through keys."""
 
 from __future__ import annotations
 
@@ -46,27 +46,27 @@ def test_an_animation_starts_where_the_handles_are(session: PosingSession) -> No
 
 
 def test_centers_move_straight_and_bodies_turn_evenly() -> None:
-    """Also through the centre's own turn about another point, and the shorter way round."""
+    """The body turns about its centre and takes the shorter of the two rotations."""
     centers = np.array([[1.0, 2.0, 3.0]])
     turn = Rotation.from_rotvec([0.0, 0.0, 3.0])  # almost half a turn
     target = np.array([3.0, 2.0, 2.0])
     first = np.eye(3, 4)[None]
     matrix = turn.as_matrix()
     last = np.column_stack([matrix, target - matrix @ centers[0]])[None]
-    way = list(between_maps(np.array([first, last]), centers, 5, "linear"))
-    for share, maps in zip(np.linspace(0, 1, 5), way, strict=True):
-        place = maps[0, :, :3] @ centers[0] + maps[0, :, 3]
-        np.testing.assert_allclose(place, (1 - share) * centers[0] + share * target, atol=1e-12)
+    path = list(between_maps(np.array([first, last]), centers, 5, "linear"))
+    for share, maps in zip(np.linspace(0, 1, 5), path, strict=True):
+        position = maps[0, :, :3] @ centers[0] + maps[0, :, 3]
+        np.testing.assert_allclose(position, (1 - share) * centers[0] + share * target, atol=1e-12)
         angle = Rotation.from_matrix(maps[0, :, :3]).as_rotvec()
         np.testing.assert_allclose(angle, [0.0, 0.0, 3.0 * share], atol=1e-12)
 
 
 def test_smooth_legs_begin_and_end_slowly(session: PosingSession) -> None:
-    places = []
+    heights = []
     for _ in session.animate([{"head": ((0, 0, 0), (0, 0, 0.4))}], frames=21):
         handle = session.model.problem.handles["head"].vertices
-        places.append(session.vertices[handle].mean(axis=0)[2])
-    steps = np.diff(places)
+        heights.append(session.vertices[handle].mean(axis=0)[2])
+    steps = np.diff(heights)
     assert steps[0] < 0.2 * steps.max() and steps[-1] < 0.2 * steps.max()
 
 
@@ -99,7 +99,7 @@ def test_bad_animations_are_refused_before_anything_moves(
     np.testing.assert_array_equal(session.vertices, before)
 
 
-def test_affine_maps_have_no_way(session: PosingSession) -> None:
+def test_affine_maps_cannot_be_animated(session: PosingSession) -> None:
     session.move_affine("head", np.column_stack([1.1 * np.eye(3), np.zeros(3)]))
     with pytest.raises(ValueError, match="no rigid motion; reset"):
         session.animate([KEY])

@@ -52,7 +52,7 @@ def test_a_wrong_move_is_refused_and_changes_nothing(
     untouched.move("foot", euler=(0, 0, 0.1))
     untouched.move("head", euler=(0.2, 0, 0))
     untouched.solve()
-    assert np.array_equal(session.vertices, untouched.vertices), "the handles stayed as well"
+    assert np.array_equal(session.vertices, untouched.vertices), "the handles did not move either"
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_an_unknown_choice_is_refused(posing_model: ReducedModel, option: str) -
         posing_model.session(**{option: "best"})
 
 
-def test_a_move_beyond_all_numbers_is_reported_and_can_be_undone(
+def test_a_huge_move_is_reported_and_can_be_undone(
     posing_model: ReducedModel,
 ) -> None:
     session = posing_model.session()

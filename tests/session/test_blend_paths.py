@@ -1,4 +1,4 @@
-"""Paths between poses with thin tails: smooth, the same forth and back, and where a jump ends."""
+"""Paths between poses with thin tails: smooth, and the same in both directions and after a jump."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def ends(seed: int) -> tuple[FloatArray, FloatArray]:
     found = []
     for _ in range(2):
         weights = np.zeros(POSES)
-        taking = rng.permutation(POSES)[: rng.integers(1, 4)]
-        weights[taking] = rng.dirichlet(np.ones(len(taking)))
+        chosen = rng.permutation(POSES)[: rng.integers(1, 4)]
+        weights[chosen] = rng.dirichlet(np.ones(len(chosen)))
         found.append(weights)
     return found[0], found[1]
 
 
-def walked(session: BlendingSession, first: FloatArray, last: FloatArray) -> FloatArray:
+def shapes_along(session: BlendingSession, first: FloatArray, last: FloatArray) -> FloatArray:
     """Shapes (101, n, 3) along the straight path of the weights."""
     shapes = []
     for share in np.linspace(0.0, 1.0, 101):
@@ -44,10 +44,11 @@ def walked(session: BlendingSession, first: FloatArray, last: FloatArray) -> Flo
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_a_path_does_not_depend_on_the_way(lizards: InterpolationModel, seed: int) -> None:
+def test_a_path_does_not_depend_on_its_direction(lizards: InterpolationModel, seed: int) -> None:
     session, diagonal = lizards.session(), lizards.problem.mesh.diagonal
     first, last = ends(seed)
-    forth, back = walked(session, first, last), walked(session, last, first)
+    forth = shapes_along(session, first, last)
+    back = shapes_along(session, last, first)
     assert np.linalg.norm(forth - back[::-1], axis=2).max() < 1e-3 * diagonal
     for k in (13, 50, 87):
         session.reset()
@@ -57,7 +58,7 @@ def test_a_path_does_not_depend_on_the_way(lizards: InterpolationModel, seed: in
 
 @pytest.mark.parametrize("seed", range(6))
 def test_no_step_is_long(lizards: InterpolationModel, seed: int) -> None:
-    """St.Venant-Kirchhoff's tails snap; see docs/notes/blend-paths.md."""
-    forth = walked(lizards.session(), *ends(seed))
+    """With St.Venant-Kirchhoff, tails snap; see docs/notes/blend-paths.md."""
+    forth = shapes_along(lizards.session(), *ends(seed))
     steps = np.linalg.norm(np.diff(forth, axis=0), axis=2).max(axis=1)
     assert steps.max() < 4.0 * np.median(steps)

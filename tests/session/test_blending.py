@@ -17,7 +17,7 @@ from snapspace.mesh import mass_norm
 from ..shapes import bar_poses
 
 FloatArray = NDArray[np.float64]
-TIGHT = 1e-14  # tolerance at which the shape is converged as far as values resolve it
+TIGHT = 1e-14  # tolerance at which the shape has converged to the rounding of values
 WEIGHTS = np.array([0.2, 0.7, 0.1])
 
 
@@ -47,7 +47,7 @@ def test_a_frame_is_the_minimiser_that_scipy_finds(session: BlendingSession, wei
 
 
 def test_scipy_finds_the_helix_frames(helix_model: InterpolationModel) -> None:
-    """Where the way from the mean shape is long, and not straight."""
+    """Here the path from the mean shape is long and curved."""
     session = helix_model.session(tolerance=TIGHT)
     for w in ([0.5, 0.5], [0.2, 0.8], [0.9, 0.1]):
         report = session.blend(w)
@@ -59,7 +59,7 @@ def test_scipy_finds_the_helix_frames(helix_model: InterpolationModel) -> None:
         assert session.q == pytest.approx(reference.x, abs=1e-5 * helix_model.coordinate_scale)
 
 
-def test_the_report_is_of_the_full_objective_at_the_vertices(session: BlendingSession) -> None:
+def test_the_report_has_the_full_objective_at_the_vertices(session: BlendingSession) -> None:
     report = session.blend(WEIGHTS)
     problem, basis = session.model.problem, session.model.subspace.basis
     value, gradient = problem.value_and_gradient(session.vertices, WEIGHTS)
@@ -72,10 +72,10 @@ def test_the_report_is_of_the_full_objective_at_the_vertices(session: BlendingSe
 
 
 @pytest.mark.parametrize("pose", range(3))
-def test_one_hot_weights_give_back_the_pose_as_far_as_the_subspace_holds_it(
+def test_one_hot_weights_give_the_pose_as_far_as_the_subspace_holds_it(
     session: BlendingSession, pose: int
 ) -> None:
-    """The reduced minimum lies as near as the projection: some ten times its distance."""
+    """The reduced minimum is at most about ten times as far as the projection."""
     problem, subspace = session.model.problem, session.model.subspace
     session.blend(np.eye(3)[pose])
     rest = problem.pose_shapes[pose]
@@ -114,7 +114,7 @@ def test_there_and_back_returns(session: BlendingSession) -> None:
     assert distance(session.vertices, start) < 1e-6
 
 
-def test_blending_twice_is_blending_once(session: BlendingSession) -> None:
+def test_blending_twice_changes_nothing(session: BlendingSession) -> None:
     session.blend(WEIGHTS)
     once = session.vertices
     report = session.blend(WEIGHTS)
@@ -185,7 +185,7 @@ def test_a_model_of_a_larger_domain_takes_its_weights(blending_model: Interpolat
         session.blend([-0.2, 1.2, 0.0])
 
 
-def test_a_model_without_training_data_is_blended_as_well(
+def test_a_model_without_training_data_is_blended_too(
     blending_model: InterpolationModel, session: BlendingSession
 ) -> None:
     bare = reduce(blending_model.problem, blending_model.subspace)

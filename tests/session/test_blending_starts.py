@@ -1,4 +1,4 @@
-"""Where a blend starts, and that nothing makes it come out broken."""
+"""Where a blend starts, and that no weights break it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TIGHT = 1e-12
 
 @pytest.fixture(scope="module")
 def twisted_helix() -> InterpolationModel:
-    """A cylinder and a helix that is twisted once about its line: from afar there are two ways."""
+    """A cylinder and a helix that is twisted once about its line: far poses have two paths."""
     coil = helix(2, 26, twist=2.0 * np.pi)
     return interpolation_model(
         InterpolationProblem([cylinder(2, 26), coil], material=StVK()), 30, 20
@@ -37,7 +37,7 @@ def untrained(model: InterpolationModel) -> InterpolationModel:
     )
 
 
-def slowly(model: InterpolationModel, share: float) -> FloatArray:
+def by_small_steps(model: InterpolationModel, share: float) -> FloatArray:
     """Vertices at the end of a path of small steps from the mean shape."""
     session = model.session(tolerance=TIGHT)
     for t in np.linspace(0.5, share, 60):
@@ -45,7 +45,7 @@ def slowly(model: InterpolationModel, share: float) -> FloatArray:
     return session.vertices
 
 
-def at_once(model: InterpolationModel, share: float, *, start: float) -> FloatArray:
+def by_a_leap(model: InterpolationModel, share: float, *, start: float) -> FloatArray:
     session = model.session(tolerance=TIGHT)
     session.blend([1 - start, start])
     session.blend([1 - share, share])
@@ -59,15 +59,18 @@ def test_a_leap_ends_where_small_steps_end(
     name: str, share: float, start: float, request: pytest.FixtureRequest
 ) -> None:
     model: InterpolationModel = request.getfixturevalue(name)
-    leap = at_once(model, share, start=start)
-    assert np.abs(leap - slowly(model, share)).max() < 1e-3 * model.problem.mesh.diagonal
+    leap = by_a_leap(model, share, start=start)
+    assert np.abs(leap - by_small_steps(model, share)).max() < 1e-3 * model.problem.mesh.diagonal
 
 
 def test_without_training_data_a_leap_may_end_elsewhere(twisted_helix: InterpolationModel) -> None:
-    """What the nearest sample as a start is for: a twist of a whole turn stays locked in."""
+    """Without the nearest sample as a start, a twist of a whole turn stays locked in."""
     size = twisted_helix.problem.mesh.diagonal
     bare = untrained(twisted_helix)
-    assert np.abs(at_once(bare, 0.0, start=0.5) - slowly(twisted_helix, 0.0)).max() > 0.05 * size
+    assert (
+        np.abs(by_a_leap(bare, 0.0, start=0.5) - by_small_steps(twisted_helix, 0.0)).max()
+        > 0.05 * size
+    )
 
 
 def test_solving_anew_leaves_a_minimum_that_is_not_the_lowest(
@@ -79,15 +82,15 @@ def test_solving_anew_leaves_a_minimum_that_is_not_the_lowest(
     session = twisted_helix.session(tolerance=TIGHT)
     session.blend([1.0, 0.0])
     session._loop.q = locked.q
-    assert session.solve().value == pytest.approx(wrong.value), "a minimum is not left by itself"
+    assert session.solve().value == pytest.approx(wrong.value), "a solve does not leave a minimum"
     report = session.solve_anew()
     assert report.start in ("tau", "sample") and report.value < wrong.value
-    assert session.vertices == pytest.approx(slowly(twisted_helix, 0.0), abs=1e-3)
+    assert session.vertices == pytest.approx(by_small_steps(twisted_helix, 0.0), abs=1e-3)
     assert session.solve_anew().start == "last frame"
 
 
 def test_a_leap_starts_from_the_nearest_sample(helix_model: InterpolationModel) -> None:
-    """After one step only, from the other end, the energy is below that of the sample."""
+    """After a single step from the other end, the energy is below that of the sample."""
     known = zip(
         helix_model.training_parameters[:10], helix_model.training_coordinates[:10], strict=True
     )
@@ -138,7 +141,7 @@ def test_an_exhausted_budget_is_reported(helix_model: InterpolationModel) -> Non
     for _ in range(300):
         if (report := session.solve()).converged:
             break
-    assert report.converged, "solving on reaches the end"
+    assert report.converged, "further solves converge"
 
 
 ANY = st.floats(allow_nan=True, allow_infinity=True)
@@ -157,10 +160,10 @@ ANY = st.floats(allow_nan=True, allow_infinity=True)
     )
 )
 @settings(max_examples=60)
-def test_no_weights_bring_out_a_shape_that_is_not_finite(
+def test_no_weights_make_a_shape_that_is_not_finite(
     blending_model: InterpolationModel, path: list[tuple[float, float, float]]
 ) -> None:
-    """Refused or blended: afterwards a blend inside of the simplex is what it always is."""
+    """Whether refused or blended, a later blend inside the simplex is the usual one."""
     session = blending_model.session(tolerance=TIGHT)
     for weights in path:
         try:
@@ -177,7 +180,7 @@ def test_no_weights_bring_out_a_shape_that_is_not_finite(
 
 
 def test_an_energy_without_minimum_is_reported_and_the_shape_stays() -> None:
-    """A pose of half the size resists growth twice as much: 3 - 2 * 2 is less than nothing."""
+    """A pose of half the size resists growth twice as much, and 3 - 2 * 2 is negative."""
     rest = irregular_bar()
     half = TetMesh(0.5 * rest.vertices, rest.tets)
     model = interpolation_model(

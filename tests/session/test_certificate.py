@@ -1,4 +1,4 @@
-"""Certificates: zero where the frame is the solution, and right as often as they say elsewhere."""
+"""Certificates: zero where a frame is the solution, and elsewhere right as often as they claim."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def creature_model() -> PosingModel:
 
 @pytest.fixture(scope="module")
 def frames(creature_model: PosingModel) -> tuple[FloatArray, list[list[Certificate]]]:
-    """True distances on samples that neither model nor calibration saw, and both certificates."""
+    """True distances at samples unseen by model and calibration, and both certificates."""
     problem, subspace = creature_model.problem, creature_model.subspace
     options = SolverOptions(tolerance=1e-8, max_iterations=5000)
     unseen = sample(problem.domain, 120, seed=77)
@@ -84,7 +84,7 @@ def test_larger_errors_have_larger_estimates(
     assert ranks[0] > 0.3 and ranks[1] > 0.6 and ranks[1] > ranks[0]
 
 
-def test_the_relative_distance_is_over_that_from_rest(creature_model: PosingModel) -> None:
+def test_the_relative_distance_is_relative_to_the_displacement(creature_model: PosingModel) -> None:
     session = creature_model.session()
     session.move("head", euler=(0.3, 0.0, 0.4), translation=(0.1, 0.0, 0.1))
     certificate = session.certificate()
@@ -97,7 +97,7 @@ def test_the_relative_distance_is_over_that_from_rest(creature_model: PosingMode
     assert certificate.upper_distance < session.certificate(confidence=0.95).upper_distance
 
 
-def test_at_rest_nothing_is_missing(creature_model: PosingModel) -> None:
+def test_the_distance_at_rest_is_zero(creature_model: PosingModel) -> None:
     session = creature_model.session()
     moved = session.move("head", euler=(0.3, 0.0, 0.4))
     assert moved.converged
@@ -109,7 +109,7 @@ def test_at_rest_nothing_is_missing(creature_model: PosingModel) -> None:
         assert certificate.relative == 0.0 or not np.isnan(certificate.relative)
 
 
-def test_a_model_of_all_directions_has_nothing_to_miss() -> None:
+def test_a_model_of_all_directions_has_no_distance() -> None:
     mesh = bar(4, 1, 1)  # 20 vertices
     foot, head = (np.flatnonzero(mesh.vertices[:, 0] == x) for x in (0.0, 4.0))
     handles = Handles([foot, head], names=["foot", "head"])
@@ -129,7 +129,7 @@ def test_a_model_of_all_directions_has_nothing_to_miss() -> None:
 
 
 def test_the_unit_of_the_mesh_does_not_matter() -> None:
-    """Millimetres for metres: all lengths in the certificate grow by 1000, and nothing else."""
+    """From metres to millimetres, lengths in the certificate grow by 1000, and nothing else."""
     mesh = irregular_bar(8, 2, 2)
     found = []
     for unit in (1.0, 1000.0):
@@ -167,7 +167,7 @@ def test_a_common_motion_of_all_handles_changes_no_certificate(posing_model: Pos
     assert session.certificate().distance == pytest.approx(before.distance, rel=1e-4)
 
 
-def test_what_is_not_calibrated_has_no_certificate(
+def test_without_calibration_there_is_no_certificate(
     posing_model: ReducedModel, creature_model: PosingModel
 ) -> None:
     with pytest.raises(ValueError, match=r"no calibrated error estimate; make one with snapspace"):

@@ -1,4 +1,4 @@
-"""Fewer coordinates, in the middle of a session."""
+"""The dimension changes during a session."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_the_dimension_changes_while_handles_stay(posing_model: PosingModel) -> 
     assert session.vertices == pytest.approx(full, abs=1e-6)
 
 
-def test_the_leading_coordinates_stay_and_those_that_come_back_are_zero(
+def test_the_leading_coordinates_stay_and_added_ones_are_zero(
     posing_model: PosingModel,
 ) -> None:
     session = posing_model.session()

@@ -1,4 +1,4 @@
-"""Drags along straight lines: each frame starts where the last three say it arrives."""
+"""Drags along straight lines: each frame starts where the last three frames lead."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def blend(share: float, aside: float = 0.0) -> FloatArray:
 
 
 def evaluations(session: BlendingSession, path: Iterable[FloatArray]) -> float:
-    """In the mean of the frames after the first four."""
+    """The mean number of evaluations of the frames after the first four."""
     counts = [session.blend(weights).evaluations for weights in path]
     return float(np.mean(counts[4:]))
 
@@ -37,14 +37,14 @@ def evaluations(session: BlendingSession, path: Iterable[FloatArray]) -> float:
 def test_a_straight_drag_takes_fewer_evaluations_than_a_trembling_one(
     lizards: InterpolationModel,
 ) -> None:
-    """Steps of both have nearly the same length; no three trembling frames are on a line."""
+    """Steps of both have nearly the same length, but no three trembling frames are on a line."""
     straight = evaluations(lizards.session(), [blend(share) for share in SHARES])
     trembling = [blend(share, 0.002 * (k % 2)) for k, share in enumerate(SHARES)]
     assert straight < 0.75 * evaluations(lizards.session(), trembling)
 
 
-def test_steps_of_other_lengths_are_extrapolated_as_well(lizards: InterpolationModel) -> None:
-    """Slower and faster by a half, as hands are: at most a quarter more than at constant speed."""
+def test_steps_of_uneven_lengths_are_extrapolated_too(lizards: InterpolationModel) -> None:
+    """Speeds vary by a half, as of a hand; that costs at most a quarter more evaluations."""
     uneven = SHARES + 0.25 * (SHARES[1] - SHARES[0]) * np.sin(2.5 * np.arange(len(SHARES)))
     even = evaluations(lizards.session(), [blend(share) for share in SHARES])
     assert evaluations(lizards.session(), [blend(share) for share in uneven]) < 1.25 * even + 0.5
@@ -55,7 +55,7 @@ def test_steps_of_other_lengths_are_extrapolated_as_well(lizards: InterpolationM
     [blend(0.2), blend(0.6, 0.05), np.array([0.0, 0.0, 1.0])],
     ids=["back", "aside", "far"],
 )
-def test_where_a_drag_ends_says_nothing_about_what_follows(
+def test_a_drag_does_not_change_the_frame_after_it(
     lizards: InterpolationModel, then: FloatArray
 ) -> None:
     session, fresh = lizards.session(tolerance=1e-12), lizards.session(tolerance=1e-12)
@@ -68,7 +68,7 @@ def test_where_a_drag_ends_says_nothing_about_what_follows(
 
 
 def test_a_put_shape_is_where_the_solve_starts(lizards: InterpolationModel) -> None:
-    """Coordinates that somebody sets are no frame of the drag: nothing is added to them."""
+    """Given coordinates are not a frame of the drag, so nothing is added to them."""
     session, other = lizards.session(), lizards.session()
     for share in SHARES[:10]:
         session.blend(blend(share))
@@ -80,7 +80,7 @@ def test_a_put_shape_is_where_the_solve_starts(lizards: InterpolationModel) -> N
 
 
 def test_fewer_dimensions_begin_a_new_drag(lizards: InterpolationModel) -> None:
-    """Frames of more dimensions are forgotten: the next one is that of a fresh session."""
+    """Frames of more dimensions are forgotten, and the next one is that of a new session."""
     session, fresh = lizards.session(tolerance=1e-12), lizards.session(tolerance=1e-12)
     for share in SHARES[:10]:
         session.blend(blend(share))
@@ -91,13 +91,13 @@ def test_fewer_dimensions_begin_a_new_drag(lizards: InterpolationModel) -> None:
 
 
 def pose_evaluations(model: PosingModel, path: Iterable[FloatArray]) -> float:
-    """In the mean of the frames after the first four."""
+    """The mean number of evaluations of the frames after the first four."""
     session = model.session(tolerance=1e-12)
     return float(np.mean([session.pose(motion).evaluations for motion in path][4:]))
 
 
 def motions(model: PosingModel, tremble: float = 0.0) -> list[FloatArray]:
-    """From one end of the box to the other; trembling ones turn aside and back, frame by frame."""
+    """Motions from one end of the box to the other; every second one may be off the line."""
     to = 0.8 * model.problem.domain.half_widths
     aside = tremble * to * (np.arange(len(to)) % 2)
     return [(2.0 * share - 1.0) * to + (k % 2) * aside for k, share in enumerate(SHARES)]

@@ -1,4 +1,4 @@
-"""Blends beyond the poses: where there is a minimum for certain, sessions find one."""
+"""Blends beyond the poses: where a minimum is certain, sessions find it."""
 
 from __future__ import annotations
 
@@ -51,15 +51,15 @@ def test_the_reduced_energy_has_a_larger_range_than_that_of_all_tets(
 
 
 def ends(model: InterpolationModel) -> list[FloatArray]:
-    """Ends of the range from the middle, to and away from each pose."""
+    """Ends of the certain range from the centre, towards and away from each pose."""
     certain, center = model.certain_range, model.problem.domain.center
     assert certain is not None
-    ways = [sign * (alone - center) for alone in np.eye(3) for sign in (1, -1)]
-    return [center + certain.reach(center + way) * way for way in ways]
+    directions = [sign * (alone - center) for alone in np.eye(3) for sign in (1, -1)]
+    return [center + certain.reach(center + direction) * direction for direction in directions]
 
 
 @pytest.mark.parametrize("share", [0.4, 0.95])
-def test_within_solves_from_several_starts_find_one_minimum(
+def test_solves_within_the_range_find_one_minimum_from_several_starts(
     model: InterpolationModel, share: float
 ) -> None:
     center, rng = model.problem.domain.center, np.random.default_rng(7)
@@ -79,13 +79,15 @@ def test_within_solves_from_several_starts_find_one_minimum(
 
 
 def test_full_solves_find_minima_within_the_range_and_fall_without_bound_not_far_beyond() -> None:
-    """The test of single tets is nearly sharp: in the full space thin limbs give way first."""
+    """The bound from single tets is nearly sharp: in the full space thin limbs collapse first."""
     problem = InterpolationProblem(lizard_poses(3, 600), extrapolation=60.0)
     certain, center = problem.certain_range, problem.domain.center
     assert certain is not None
-    ways = [sign * (alone - center) for alone in np.eye(3) for sign in (1, -1)]
+    directions = [sign * (alone - center) for alone in np.eye(3) for sign in (1, -1)]
     weights = [
-        center + share * certain.reach(center + way) * way for share in (0.95, 1.5) for way in ways
+        center + share * certain.reach(center + direction) * direction
+        for share in (0.95, 1.5)
+        for direction in directions
     ]
     converged = solve_snapshots(problem, np.array(weights), threads=1).converged
     assert converged[:6].all()
@@ -93,7 +95,7 @@ def test_full_solves_find_minima_within_the_range_and_fall_without_bound_not_far
 
 
 def test_the_energy_grows_far_away_within_the_range(model: InterpolationModel) -> None:
-    """Along every direction of some: the reason that there is a minimum."""
+    """The energy grows along every direction tried, which is why there is a minimum."""
     center, rng = model.problem.domain.center, np.random.default_rng(3)
     for end in ends(model):
         energy = model.elastic(center + 0.98 * (end - center))
@@ -102,7 +104,7 @@ def test_the_energy_grows_far_away_within_the_range(model: InterpolationModel) -
             assert energy.value(far) > energy.value(np.zeros(model.dimension))
 
 
-def test_the_session_tells_when_weights_leave_it(
+def test_the_session_reports_weights_outside_the_range(
     model: InterpolationModel, session: BlendingSession
 ) -> None:
     center = model.problem.domain.center
@@ -115,13 +117,13 @@ def test_the_session_tells_when_weights_leave_it(
             session.put(w, np.zeros(model.dimension))
             assert session.certain is certain
             assert session.outside, "these were not sampled"
-    assert session.reach(np.eye(3)[0]) == 0.0, "from a start beyond nothing is certain"
+    assert session.reach(np.eye(3)[0]) == 0.0, "from a start outside nothing is certain"
 
 
-def test_without_a_test_only_weights_that_are_not_negative_are_certain(
+def test_without_a_range_only_weights_that_are_not_negative_are_certain(
     blending_model: InterpolationModel,
 ) -> None:
-    """St.Venant-Kirchhoff has no cheap test."""
+    """St.Venant-Kirchhoff has no range that is cheap to test."""
     session = blending_model.session()
     assert blending_model.certain_range is None
     session.blend([0.2, 0.8, 0.0])

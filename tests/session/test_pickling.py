@@ -1,4 +1,4 @@
-"""Models travel by pickle, whatever their energy; sessions say why they do not."""
+"""Models of every energy can be pickled; sessions say why they cannot."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MODELS = ["posing_model", "cubature_model", "blending_model", "blended_cubature_
 
 
 def frame(model: Any) -> np.ndarray[Any, Any]:
-    """The coordinates of one frame, of a model whose energy was evaluated on the way."""
+    """The coordinates of one frame; it also evaluates the model's energy."""
     if isinstance(model, PosingModel):
         model.elastic.value(np.zeros(model.dimension))
     session = model.session()
@@ -28,19 +28,19 @@ def frame(model: Any) -> np.ndarray[Any, Any]:
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_a_model_that_was_used_gives_the_same_frames_after_a_journey(
+def test_a_used_model_gives_the_same_frames_after_pickling(
     request: pytest.FixtureRequest, name: str
 ) -> None:
     model = request.getfixturevalue(name)
     expected = frame(model)
-    arrived = pickle.loads(pickle.dumps(model))
-    assert type(arrived) is type(model)
-    assert frame(arrived).tobytes() == expected.tobytes()
+    unpickled = pickle.loads(pickle.dumps(model))
+    assert type(unpickled) is type(model)
+    assert frame(unpickled).tobytes() == expected.tobytes()
     assert frame(copy.deepcopy(model)).tobytes() == expected.tobytes()
 
 
 @pytest.mark.parametrize("name", MODELS)
-def test_a_session_says_why_it_does_not_travel(request: pytest.FixtureRequest, name: str) -> None:
+def test_a_session_says_why_it_cannot_be_pickled(request: pytest.FixtureRequest, name: str) -> None:
     session = request.getfixturevalue(name).session()
     for attempt in (pickle.dumps, copy.copy, copy.deepcopy):
         with pytest.raises(TypeError, match=r"Session: a session is not .*; pickle session\.model"):

@@ -1,4 +1,4 @@
-"""Full-space iterations from a frame: nearer to the solution, and nothing else happens."""
+"""Full-space iterations from a frame: nearer to the solution, and without side effects."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ def test_a_polished_shape_is_lower_and_nearer_to_the_full_solution(session: Sess
 
 
 def test_the_reduced_hessian_in_the_seed_brings_shapes_nearer(session: Session) -> None:
-    """Nearer than the scalar factor alone does, which an inverse of next to nothing leaves."""
+    """Compared with the scalar factor alone, which an inverse of almost zero leaves."""
     problem, subspace = session.model.problem, session.model.subspace
     coarse = core.CoarseSpace(problem.system, np.ascontiguousarray(subspace.basis.T))
     ratios = []
@@ -102,7 +102,7 @@ def test_the_reduced_hessian_in_the_seed_brings_shapes_nearer(session: Session) 
         ]
         two, one, full = problem.registered(np.array(solutions))
         ratios.append(mass_norm(subspace.mass, two - full) / mass_norm(subspace.mass, one - full))
-    # a bar between handles is stiff: there it makes no difference, to a tenth
+    # a bar between handles is stiff, and the difference is below a tenth
     bound = 1.1 if isinstance(problem, PosingProblem) else 0.8
     assert np.median(ratios) < bound
 
@@ -164,7 +164,7 @@ def test_a_common_motion_of_all_handles_carries_the_polished_shape(
     np.testing.assert_allclose(session.polish().vertices, before @ turn.T + 2, atol=1e-5)
 
 
-def test_it_ends_when_the_tolerance_is_met(session: Session) -> None:
+def test_a_polish_ends_when_the_tolerance_is_met(session: Session) -> None:
     framed(session, unseen(session, 1)[0])
     result = session.polish(iterations=2000, tolerance=1e-6)
     assert result.report.status == "converged"
@@ -173,7 +173,7 @@ def test_it_ends_when_the_tolerance_is_met(session: Session) -> None:
 
 
 def test_a_frame_that_is_no_minimum_can_be_polished(posing_model: ReducedModel) -> None:
-    """There the reduced Hessian may have negative curvatures, and a seed must not."""
+    """Away from minima the reduced Hessian may have negative curvatures; a seed must not."""
     session = posing_model.session(max_iterations=1)
     for w in unseen(session, 4):
         framed(session, 2.0 * w)
@@ -183,7 +183,7 @@ def test_a_frame_that_is_no_minimum_can_be_polished(posing_model: ReducedModel) 
 
 @pytest.fixture(scope="module")
 def far_session() -> Session:
-    """In a subspace that knows nothing: a polish takes a second and hundreds of iterations."""
+    """A session in a random subspace: a polish takes a second and hundreds of iterations."""
     mesh = creature(5000)
     parts = creature_handles(mesh)
     problem = PosingProblem(
@@ -198,7 +198,7 @@ def far_session() -> Session:
     return session
 
 
-def test_it_can_be_stopped_and_keeps_the_best_shape(
+def test_a_polish_can_be_stopped_and_keeps_the_best_shape(
     far_session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(interruptible, "POLL_SECONDS", 0.02)
@@ -211,7 +211,7 @@ def test_it_can_be_stopped_and_keeps_the_best_shape(
     assert value == pytest.approx(result.report.value) and value < begin
 
 
-def test_ctrl_c_ends_it_and_the_session_goes_on(
+def test_ctrl_c_ends_a_polish_and_the_session_stays_usable(
     far_session: Session, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(interruptible, "POLL_SECONDS", 0.02)
@@ -250,7 +250,7 @@ def test_a_solve_that_is_cancelled_before_it_begins_returns_its_start(session: S
     np.testing.assert_array_equal(solution.shape, start)
 
 
-@pytest.mark.parametrize("how", [{"iterations": -1}, {"tolerance": 0.0}, {"tolerance": np.nan}])
-def test_bad_options_are_refused(session: Session, how: dict[str, float]) -> None:
+@pytest.mark.parametrize("options", [{"iterations": -1}, {"tolerance": 0.0}, {"tolerance": np.nan}])
+def test_bad_options_are_refused(session: Session, options: dict[str, float]) -> None:
     with pytest.raises(ValueError, match=r"polish: iterations .* and tolerance .* must be pos"):
-        session.polish(**how)  # type: ignore[arg-type]
+        session.polish(**options)  # type: ignore[arg-type]

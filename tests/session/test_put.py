@@ -1,4 +1,4 @@
-"""A frame that was solved elsewhere is taken as it is."""
+"""`put` takes a frame that was solved elsewhere unchanged."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_a_blend_of_another_session_is_shown(blending_model: InterpolationModel)
         ([REST] * 3, [0.0, np.inf], r"q\[1\] is inf"),
     ],
 )
-def test_what_is_no_frame_is_refused_and_changes_nothing(
+def test_bad_frames_are_refused_and_change_nothing(
     posing_model: PosingModel, motions: Any, q: Any, message: str
 ) -> None:
     session = posing_model.session()

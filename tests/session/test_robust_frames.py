@@ -1,4 +1,4 @@
-"""Whatever a hand does to the handles: numbers come out, soon, and the report tells what was."""
+"""Any motion of the handles gives a finite frame quickly, and a report of what happened."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FloatArray = NDArray[np.float64]
 STATUSES = {"converged", "max_iterations", "max_evaluations", "line_search_failed", "not_finite"}
 MINIMIZERS = st.sampled_from(["newton", "bfgs"])
 ANGLES = st.tuples(*[st.floats(-10, 10)] * 3)
-#: From nothing over the size of the mesh to lengths whose fourth power is no number.
+#: From zero to the size of the mesh, and to lengths whose fourth power overflows.
 SHIFTS = st.tuples(*[st.one_of(st.floats(-3, 3), st.floats(-1e6, 1e6), st.floats())] * 3)
 HANDLES = st.sampled_from(["foot", "head", "belly"])
 MOTIONS = st.lists(st.tuples(HANDLES, ANGLES, SHIFTS), min_size=1, max_size=5)
@@ -51,7 +51,7 @@ def test_any_motion_ends_soon_with_numbers(
     session.max_evaluations = 500
     for _ in range(2):
         report = session.move("head", euler=(0.1, 0.0, 0.2))
-    assert report.converged, "the session is as good as new"
+    assert report.converged, "the session works as before"
     fresh = posing_model.session()
     fresh.move("head", euler=(0.1, 0.0, 0.2))
     assert session.vertices == pytest.approx(fresh.vertices, abs=1e-2)
@@ -62,7 +62,7 @@ def test_any_motion_ends_soon_with_numbers(
 def test_a_flip_converges_to_a_minimum(
     posing_model: PosingModel, minimizer: str, axis: int
 ) -> None:
-    """A half turn is symmetric: from rest, both ways round are as far."""
+    """A half turn is symmetric: from rest, both directions are equally far."""
     session = posing_model.session(minimizer=minimizer, tolerance=1e-10)
     for angle in (np.pi, 0.0, -np.pi, np.pi):
         session.move("head", euler=np.eye(3)[axis] * angle)
@@ -76,7 +76,7 @@ def test_a_flip_converges_to_a_minimum(
 def test_a_slow_drag_there_and_back_returns_or_says_so(
     posing_model: PosingModel, seed: int, minimizer: str
 ) -> None:
-    """Also through turns that are twice what was sampled."""
+    """The path includes rotations of twice the sampled range."""
     session = posing_model.session(minimizer=minimizer, tolerance=1e-12)
     bounds = posing_model.problem.domain.half_widths
     corners = np.random.default_rng(seed).uniform(-2 * bounds, 2 * bounds, (3, len(bounds)))
@@ -96,7 +96,7 @@ def test_a_slow_drag_there_and_back_returns_or_says_so(
 
 
 def test_a_whole_turn_ends_at_rest(posing_model: PosingModel) -> None:
-    """In this subspace a bar cannot stay twisted, and solving anew finds nothing lower."""
+    """A bar cannot stay twisted in this subspace, and solving anew finds no lower minimum."""
     session = posing_model.session(tolerance=1e-10)
     for angle in np.linspace(0, 2 * np.pi, 60):
         session.move("head", euler=(angle, 0, 0))
@@ -105,21 +105,23 @@ def test_a_whole_turn_ends_at_rest(posing_model: PosingModel) -> None:
     assert session.vertices == pytest.approx(posing_model.problem.mesh.vertices, abs=1e-3)
 
 
-def turned(session: PosingSession, euler: tuple[float, float, float]) -> tuple[str, ...]:
+def outside_after(session: PosingSession, euler: tuple[float, float, float]) -> tuple[str, ...]:
     session.move("head", euler=euler)
     return session.outside
 
 
 @pytest.mark.filterwarnings("ignore:move. euler of")  # any angles
-def test_what_is_outside_of_the_sampled_box_is_told(posing_model: PosingModel) -> None:
+def test_handles_outside_of_the_sampled_box_are_reported(posing_model: PosingModel) -> None:
     session = posing_model.session()
     domain = posing_model.problem.domain
     angle = domain.half_widths[3]
     assert session.outside == ()
-    assert turned(session, (0.99 * angle, 0, -0.99 * angle)) == ()
-    assert turned(session, (1.01 * angle, 0, 0)) == ("head",)
-    assert turned(session, (0.5 * angle + 2 * np.pi, 0, 0)) == (), "a turn is no turn"
-    assert turned(session, (np.pi, np.pi, np.pi)) == (), "all three are none"
+    assert outside_after(session, (0.99 * angle, 0, -0.99 * angle)) == ()
+    assert outside_after(session, (1.01 * angle, 0, 0)) == ("head",)
+    assert outside_after(session, (0.5 * angle + 2 * np.pi, 0, 0)) == (), (
+        "a whole turn changes nothing"
+    )
+    assert outside_after(session, (np.pi, np.pi, np.pi)) == (), "three half turns are none"
     session.pose(0.9 * domain.half_widths)
     assert session.outside == ()
     session.pose(1.1 * domain.half_widths)
@@ -134,7 +136,7 @@ def test_what_is_outside_of_the_sampled_box_is_told(posing_model: PosingModel) -
     assert session.outside == (), "relative to the first handle nothing has moved"
 
 
-def test_weights_beyond_the_simplex_are_told(blending_model: InterpolationModel) -> None:
+def test_weights_beyond_the_simplex_are_reported(blending_model: InterpolationModel) -> None:
     session = blending_model.session()
     session.blend([0.2, 0.8, 0.0])
     assert session.outside == ()
@@ -144,7 +146,7 @@ def test_weights_beyond_the_simplex_are_told(blending_model: InterpolationModel)
     assert session.outside == ()
 
 
-def test_weights_beyond_all_numbers_change_nothing(blending_model: InterpolationModel) -> None:
+def test_huge_weights_change_nothing(blending_model: InterpolationModel) -> None:
     session = blending_model.session()
     session.blend([0.2, 0.8, 0.0])
     before = session.vertices
@@ -154,7 +156,7 @@ def test_weights_beyond_all_numbers_change_nothing(blending_model: Interpolation
     assert np.array_equal(session.weights, [0.2, 0.8, 0.0])
 
 
-def test_a_blend_tells_where_it_began(blending_model: InterpolationModel) -> None:
+def test_a_blend_reports_where_it_started(blending_model: InterpolationModel) -> None:
     session = blending_model.session()
     session.blend([0.5, 0.5, 0.0])
     assert session.blend([0.499, 0.501, 0.0]).start == "last frame"

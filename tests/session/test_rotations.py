@@ -1,4 +1,4 @@
-"""Rotations in all usual forms put a handle at the same place."""
+"""Rotations in all usual forms give a handle the same motion."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_a_rotation_is_the_same_motion_as_its_angles(session: PosingSession, rot
         ({"rotation": np.eye(2)}, "needs three numbers"),
     ],
 )
-def test_what_is_no_rotation_is_refused(
+def test_rotations_that_are_not_proper_are_refused(
     session: PosingSession, options: dict[str, Any], message: str
 ) -> None:
     session.move("head", euler=EULER)

@@ -1,4 +1,4 @@
-"""Starts between samples: they reproduce these, and only jumps take them."""
+"""Interpolated starts: they reproduce the samples, and only jumps use them."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from snapspace.session.motion_space import MotionSpace
 from snapspace.session.sample_starts import SampleStarts
 
 
-def starts_of(model: PosingModel) -> SampleStarts:
+def sample_starts(model: PosingModel) -> SampleStarts:
     return SampleStarts(MotionSpace(model), model.training_coordinates)
 
 
 def test_at_a_sample_the_start_is_the_sample(posing_model: PosingModel) -> None:
-    starts = starts_of(posing_model)
+    starts = sample_starts(posing_model)
     for w, q in zip(
         posing_model.training_parameters, posing_model.training_coordinates, strict=True
     ):
@@ -25,18 +25,18 @@ def test_at_a_sample_the_start_is_the_sample(posing_model: PosingModel) -> None:
         assert found == pytest.approx(q, abs=1e-4 * np.abs(posing_model.training_coordinates).max())
 
 
-def test_repeated_samples_do_no_harm(posing_model: PosingModel) -> None:
+def test_repeated_samples_change_nothing(posing_model: PosingModel) -> None:
     twice = replace(
         posing_model,
         training_parameters=np.vstack([posing_model.training_parameters] * 2),
         training_coordinates=np.vstack([posing_model.training_coordinates] * 2),
     )
     offsets = posing_model.problem.offsets(0.4 * posing_model.problem.domain.half_widths)
-    once = starts_of(posing_model)(offsets)
-    assert starts_of(twice)(offsets) == pytest.approx(once, abs=1e-3 * np.abs(once).max())
+    once = sample_starts(posing_model)(offsets)
+    assert sample_starts(twice)(offsets) == pytest.approx(once, abs=1e-3 * np.abs(once).max())
 
 
-def test_distances_are_those_of_the_handles_energy(posing_model: PosingModel) -> None:
+def test_distances_are_measured_by_the_handle_energy(posing_model: PosingModel) -> None:
     problem = posing_model.problem
     motions = MotionSpace(posing_model)
     w = np.zeros(problem.parameter_count)
@@ -65,7 +65,7 @@ def test_a_jump_is_one_solve_from_the_interpolated_start(posing_model: PosingMod
     w = 0.9 * posing_model.problem.domain.half_widths
     report = session.pose(w)
     alone.pose(w)
-    alone._loop.q = starts_of(posing_model)(posing_model.problem.offsets(w))
+    alone._loop.q = sample_starts(posing_model)(posing_model.problem.offsets(w))
     again = alone.solve()
     assert report.start == "sample"
     assert report.evaluations == again.evaluations
@@ -83,7 +83,7 @@ def test_a_jump_stays_where_the_last_frame_is_lower(posing_model: PosingModel) -
     assert report.value == pytest.approx(posing_model.session().pose(w).value, rel=1e-6)
 
 
-def test_a_drag_never_asks_the_samples(posing_model: PosingModel) -> None:
+def test_a_drag_never_uses_the_samples(posing_model: PosingModel) -> None:
     session = posing_model.session()
     broken = replace(
         posing_model, training_coordinates=np.full_like(posing_model.training_coordinates, np.nan)
@@ -93,5 +93,5 @@ def test_a_drag_never_asks_the_samples(posing_model: PosingModel) -> None:
         assert broken.move("head", euler=euler).converged
         session.move("head", euler=euler)
     np.testing.assert_array_equal(session.q, broken.q)
-    # and a guess that is no number is not taken either
+    # a guess that is not finite is not used either
     assert broken.move("head", euler=(0.0, 0.0, 0.7)).converged

@@ -1,4 +1,4 @@
-"""Live solves on two threads: the bits of one thread, also after a fork and from many callers."""
+"""Live solves on two threads give the bits of one, also after a fork and with many callers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from ..shapes import bar_poses, irregular_bar
 
 D = 24
 affinity = pytest.mark.skipif(
-    not hasattr(os, "sched_setaffinity"), reason="this system binds no process to a processor"
+    not hasattr(os, "sched_setaffinity"), reason="this system cannot bind a process to a processor"
 )
 
 
 def large_loop() -> core.BlendedCubatureLoop:
-    """Enough tets and dimensions that its evaluations are shared with the second thread."""
+    """A loop with enough tets and dimensions to share its evaluations with a second thread."""
     poses = bar_poses(irregular_bar(10, 5, 5))
     problem = InterpolationProblem(poses, mean_shape=poses.shapes[0])
     x = poses.shapes[0] - poses.shapes[0].mean(axis=0)
@@ -53,7 +53,7 @@ def walk(loop: core.BlendedCubatureLoop, steps: int = 20) -> bytes:
             coordinate_scale=1.0,
         )
         frames.append(loop.q)
-    assert np.ptp(frames, axis=0).max() > 0.1  # it does move
+    assert np.ptp(frames, axis=0).max() > 0.1  # the shape moves
     return np.array(frames).tobytes()
 
 
@@ -84,7 +84,7 @@ def _walk_anew() -> bytes:
 
 
 def test_many_callers_get_their_own_frames() -> None:
-    """Hessians leave other Python threads running; solves between them are undisturbed."""
+    """Hessians release Python's lock; concurrent solves do not disturb each other."""
     expected = walk(large_loop())
 
     def both(_: int) -> bytes:

@@ -13,7 +13,7 @@ from snapspace.problem import affine_offset, rotation_matrix
 from ..shapes import random_rotation
 
 FloatArray = NDArray[np.float64]
-TIGHT = 1e-14  # tolerance at which the shape is converged as far as values resolve it
+TIGHT = 1e-14  # tolerance at which the shape has converged to the rounding of values
 
 
 @pytest.fixture
@@ -26,7 +26,7 @@ def rest(session: Session) -> FloatArray:
 
 
 def parameters(session: Session, share: float = 0.7) -> FloatArray:
-    """A pose of all moving handles, well inside of the domain."""
+    """Parameters of a pose of all moving handles, well inside the domain."""
     half_widths = session.model.problem.domain.half_widths
     return np.random.default_rng(1).uniform(-share, share, len(half_widths)) * half_widths
 
@@ -55,7 +55,7 @@ def test_a_frame_is_the_minimiser_that_scipy_finds(session: Session, seed: int) 
     assert session.q == pytest.approx(reference.x, abs=1e-6)
 
 
-def test_the_report_is_of_the_full_objective_at_the_vertices(session: Session) -> None:
+def test_the_report_has_the_full_objective_at_the_vertices(session: Session) -> None:
     w = parameters(session)
     report = session.pose(w)
     value, gradient = session.model.problem.value_and_gradient(session.vertices, w)
@@ -81,7 +81,7 @@ def test_a_new_session_and_a_reset_one_are_exactly_at_rest(session: Session) -> 
 
 
 def test_a_moved_handle_follows_and_the_fixed_one_stays(session: Session) -> None:
-    """Handles of stiffness 100 give way by a few percent of the motion."""
+    """Handles of stiffness 100 miss their targets by a few percent of the motion."""
     problem = session.model.problem
     session.move("head", euler=(0, 0, 0.4), translation=(0.1, 0.2, 0.3))
     head, c = problem.handles["head"].vertices, problem.centroids[1]
@@ -118,7 +118,9 @@ def test_dragging_back_to_rest_returns_to_rest(session: Session) -> None:
     assert distance(session.vertices, rest(session)) < 1e-6
 
 
-def test_a_pose_is_the_moves_of_its_handles(posing_model: ReducedModel, session: Session) -> None:
+def test_a_pose_equals_the_moves_of_its_handles(
+    posing_model: ReducedModel, session: Session
+) -> None:
     w = parameters(session)
     session.pose(w)
     moves = posing_model.session(tolerance=TIGHT)
@@ -136,7 +138,7 @@ def test_a_pose_puts_the_fixed_handle_back(posing_model: ReducedModel, session: 
     assert distance(session.vertices, fresh.vertices) < 1e-6
 
 
-def test_a_rigid_matrix_is_a_move(posing_model: ReducedModel, session: Session) -> None:
+def test_a_rigid_matrix_equals_a_move(posing_model: ReducedModel, session: Session) -> None:
     euler, t = (0.2, -0.3, 0.4), np.array([0.1, 0.2, 0.3])
     session.move("head", euler=euler, translation=t)
     R, c = rotation_matrix(euler), posing_model.problem.centroids[1]
@@ -156,11 +158,11 @@ def test_an_affine_map_stretches_a_handle(session: Session) -> None:
     assert report.value == pytest.approx(elastic + handles, rel=1e-10)
 
 
-def test_moving_the_first_handle_is_moving_all_others_the_other_way(
+def test_moving_the_first_handle_moves_all_others_relative_to_it(
     posing_model: ReducedModel, session: Session
 ) -> None:
-    """The first handle is the frame of reference: its motion carries the shape along, and the other
-    handles, which stay where they are, are moved back in that frame.
+    """The first handle is the frame of reference, and its motion carries the shape along. The
+    other handles stay where they are, so they move back in that frame.
     """
     problem = posing_model.problem
     R, t = rotation_matrix((0.1, -0.2, 0.3)), np.array([0.2, -0.1, 0.3])
@@ -202,7 +204,7 @@ def test_a_common_rigid_motion_of_a_pose_moves_the_pose(session: Session) -> Non
 def test_a_warm_start_needs_fewer_iterations_than_the_rest_shape(
     posing_model: ReducedModel,
 ) -> None:
-    """At the default tolerance, which is the one that frames are solved to."""
+    """The sessions have the default tolerance, as live sessions do."""
     w = parameters(posing_model.session())
     warm, cold = [], []
     for direction in np.random.default_rng(2).normal(size=(8, len(w))):
@@ -215,7 +217,7 @@ def test_a_warm_start_needs_fewer_iterations_than_the_rest_shape(
     assert np.mean(warm) < 0.7 * np.mean(cold), (warm, cold)
 
 
-def test_frames_do_not_depend_on_where_the_drag_came_from(session: Session) -> None:
+def test_frames_do_not_depend_on_the_path_of_the_drag(session: Session) -> None:
     w = parameters(session)
     session.pose(w)
     direct = session.vertices
@@ -241,10 +243,10 @@ def test_an_exhausted_budget_is_reported(posing_model: ReducedModel) -> None:
     for _ in range(100):
         if (report := session.solve()).converged:
             break
-    assert report.converged, "solving on reaches the end"
+    assert report.converged, "further solves converge"
 
 
-def test_all_handles_at_once_are_the_same_pose_as_one_after_another(
+def test_moving_all_handles_at_once_equals_moving_them_one_by_one(
     posing_model: ReducedModel,
 ) -> None:
     names = posing_model.problem.handles.names[1:]
@@ -259,7 +261,7 @@ def test_all_handles_at_once_are_the_same_pose_as_one_after_another(
     np.testing.assert_allclose(together.vertices, one_by_one.vertices, atol=1e-6)
 
 
-def test_if_one_of_several_motions_is_refused_none_is_made(posing_model: ReducedModel) -> None:
+def test_if_one_of_several_motions_is_refused_none_is_applied(posing_model: ReducedModel) -> None:
     session = posing_model.session()
     first = posing_model.problem.handles.names[1]
     with pytest.raises(ValueError, match="no handle 'wing'"):

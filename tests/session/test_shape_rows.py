@@ -1,4 +1,4 @@
-"""Vertices for the screen: those in double, as far as single precision goes."""
+"""Vertices for the screen agree with those in double precision up to single precision."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from snapspace import PosingModel
 from snapspace import _core as core
 
-#: Modes in single precision, and coordinates that share the units of the others.
+#: Number of modes in single precision, and of coordinates that share a unit in the other modes.
 FINE, BLOCK = 16, 2048
 
 
@@ -30,7 +30,7 @@ def test_each_coordinate_keeps_the_bound(size: int, dimension: int, seed: int) -
         units = np.abs(modes[FINE:, begin : begin + BLOCK]).max(axis=1) / 32767
         most[begin : begin + BLOCK] += 0.5001 * np.abs(q[FINE:]) @ units
     exact = tau + q @ modes
-    rounding = 2.0**-23 * np.abs(exact)  # of the shape itself
+    rounding = 2.0**-23 * np.abs(exact)  # the rounding of the shape itself
     assert (np.abs(shape - exact) <= most + rounding + 1e-30).all()
 
 
@@ -42,7 +42,7 @@ def test_threads_change_nothing() -> None:
         np.testing.assert_array_equal(rows.shape(q, threads=threads), one)
 
 
-def test_modes_of_nothing_and_of_hardly_anything_add_nothing() -> None:
+def test_modes_of_zero_and_almost_zero_add_nothing() -> None:
     tau, modes, q = parts(3000, 30, 4)
     modes[20], modes[21] = 0.0, 1e-60
     exact = core.ShapeRows(tau, np.delete(modes, [20, 21], axis=0)).shape(np.delete(q, [20, 21]))
@@ -57,7 +57,7 @@ def test_the_first_coordinates_are_a_shape_of_fewer_modes(count: int) -> None:
     np.testing.assert_array_equal(shape, np.float32(tau) if few is None else few.shape(q[:count]))
 
 
-def test_what_does_not_match_is_refused() -> None:
+def test_arrays_that_do_not_match_are_refused() -> None:
     tau, modes, q = parts(12, 3, 3)
     with pytest.raises(ValueError, match=r"tau \(3n,\) and modes \(d, 3n\) do not match"):
         core.ShapeRows(tau[:-1], modes)

@@ -1,4 +1,4 @@
-"""Bars to pose: small, quick, and mild enough that nothing inverts."""
+"""Bars to pose: small, quick, and with motions too mild to invert tets."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def parameters(problem: PosingProblem, count: int, *, seed: int = 3) -> FloatArr
 
 
 def tight(solver: Solver = "newton") -> SolverOptions:
-    """Converged as far as double precision goes."""
+    """Options to converge as far as double precision goes."""
     return SolverOptions(solver=solver, tolerance=1e-14)
 
 
@@ -61,7 +61,7 @@ def core_solve(
 ) -> core.Batch:
     """One call of the compiled solver, on one thread: targets (k, p, 3), starts (k, 3n).
 
-    `widths` are lanes and single of the fast solver.
+    `widths` are the options lanes and single of the fast solver.
     """
     options: dict[str, Any] = {
         "tolerance": tolerance,
@@ -81,7 +81,7 @@ def core_solve(
 
 
 def without_seconds(snapshots: Snapshots) -> list[SampleReport]:
-    """Reports less the wall time, the one thing that may differ between equal runs."""
+    """Reports without the wall time, the only entry that may differ between equal runs."""
     return [replace(report, seconds=0.0) for report in snapshots.reports]
 
 

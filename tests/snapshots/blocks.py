@@ -1,4 +1,4 @@
-"""Blocks of samples for the executor backend, and what they must become."""
+"""Blocks of samples for the executor backend, and their expected solutions."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Work:
             backend.submit(rows.tolist(), self.inputs[rows], self.starts[rows])
 
     def solved_here(self, options: ResolvedOptions = OPTIONS) -> dict[int, Outcome]:
-        """All samples in one call of the solver, without any task."""
+        """Solves all samples in one call of the solver, without tasks."""
         arrays, control = (self.inputs, self.starts), core.SolveControl()
         if options.solver == "fast":
             shapes, reports = solve_fast(self.problem, *arrays, control, options, threads=2)
@@ -87,11 +87,11 @@ def backend_of(
 def collected(
     backend: ExecutorBackend, count: int, *, after_each: Callable[[int], None] | None = None
 ) -> dict[int, Outcome]:
-    """Waits until so many samples are back, each once; `after_each` gets their number."""
+    """Waits until `count` samples are back, each once; `after_each` gets the number so far."""
     found: dict[int, Outcome] = {}
     while len(found) < count:
         solved = backend.wait(PATIENCE)
-        assert solved, "nothing is under way, but samples are missing"
+        assert solved, "nothing is running, but samples are missing"
         fresh = outcomes(solved)
         assert not set(fresh) & set(found), "a sample came back twice"
         found.update(fresh)
@@ -105,26 +105,26 @@ def sent_once(
 ) -> None:
     """A run sends its problem to each worker process once, and not with later blocks.
 
-    Whoever solves them, the samples have the bits of one call.
+    Samples have the bits of one call, whichever worker solves them.
     """
     solvers = watched_solvers(executor, monkeypatch)
     work, backend = Work.of(problem, 24), backend_of(executor, problem)
     expected = work.solved_here()
     end = time.monotonic() + PATIENCE
-    while len(solvers()) < workers:  # on a busy machine one process may do all at first
+    while len(solvers()) < workers:  # on a busy machine one process may solve all blocks at first
         assert time.monotonic() < end, f"blocks were solved by {solvers()} only"
         work.submit(backend, 2)
         assert_same_outcomes(collected(backend, 24), expected)
     sent = backend.payloads_sent
-    # one may reach a process that has it by now, while another one asks again
+    # a payload may reach a process that already has it, while another process asks again
     assert workers <= sent <= 2 * workers
     work.submit(backend, 2)
     assert_same_outcomes(collected(backend, 24), expected)
-    assert backend.payloads_sent == sent, "later blocks need none"
+    assert backend.payloads_sent == sent, "later blocks need no payload"
 
 
 def watched_solvers(executor: Executor, monkeypatch: pytest.MonkeyPatch) -> Callable[[], set[str]]:
-    """Gives the names of the workers that have solved blocks from now on."""
+    """Returns a function that names the workers that have solved blocks since this call."""
     futures: list[Any] = []
     submit = executor.submit
 
@@ -146,7 +146,7 @@ def outcomes(solved: Iterable[Solved]) -> dict[int, Outcome]:
 
 
 def assert_same_outcomes(found: dict[int, Outcome], expected: dict[int, Outcome]) -> None:
-    """The same bits, less the wall time."""
+    """Asserts the same bits, except for the wall time."""
     assert sorted(found) == sorted(expected)
     for sample_number, (shape, report) in expected.items():
         np.testing.assert_array_equal(found[sample_number][0], shape)
@@ -154,7 +154,7 @@ def assert_same_outcomes(found: dict[int, Outcome], expected: dict[int, Outcome]
 
 
 class DeadlyProblem:
-    """Ends the process that unpickles it, as one does that runs out of memory."""
+    """Ends the process that unpickles it, as if the process ran out of memory."""
 
     tau = np.zeros(3)
 

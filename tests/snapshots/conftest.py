@@ -1,4 +1,4 @@
-"""Worker processes, which cost a second and are made once."""
+"""Worker processes, which take a second to start and are made once."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from concurrent.futures import ProcessPoolExecutor
 import pytest
 
 WORKERS = 2
-#: Iterations until an interpolation in a worker gets a factor of its own: fewer than any needs.
+#: Iterations until a worker factors an interpolation's own matrix; every sample needs more.
 WORKERS_PATIENCE = 17
-#: What a worker does first: none idles while another one imports.
+#: The code that a worker runs first, so that none is idle while another one imports.
 READY = f"""
 import snapspace, time
 snapspace.problem.solver_traits.PATIENCE = {WORKERS_PATIENCE}
@@ -21,7 +21,7 @@ time.sleep(0.3)
 
 @pytest.fixture(scope="package")
 def processes() -> Iterator[ProcessPoolExecutor]:
-    """Two fresh processes, both up: they share nothing with this one."""
+    """Two running processes, which share nothing with this one."""
     context = multiprocessing.get_context("spawn")
     with ProcessPoolExecutor(
         WORKERS, mp_context=context, initializer=exec, initargs=(READY,)

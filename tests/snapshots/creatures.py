@@ -8,7 +8,7 @@ from snapspace import HandleBox, Handles, Material, PosingProblem, StVK, generat
 
 
 def posing_creature(tets: int, material: Material | None = None) -> PosingProblem:
-    """A creature held at its feet, its head moved; of the paper's material unless told."""
+    """A creature held at its feet and moved by its head; the default material is the paper's."""
     mesh = generators.creature(tets)
     parts = generators.creature_handles(mesh)
     handles = Handles([parts["feet"], parts["head"]])

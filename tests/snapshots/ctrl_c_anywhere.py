@@ -1,7 +1,7 @@
 """A program that presses Ctrl-C in each function that a run of samples shares with its threads.
 
-Prints a JSON object: for each place what the run raised, and what it left behind. In a process of
-its own, since a run that waits for a lost lock or thread would take the tests with it.
+It prints a JSON object: what the run raised at each place, and what it left behind. It runs in a
+separate process, because a run that waits for a lost lock or thread would block the tests.
 """
 
 from __future__ import annotations
@@ -22,25 +22,25 @@ from snapspace.snapshots import run as run_of_samples
 
 from .bars import parameters, posing_bar
 
-#: Of the standard library and of snapspace.
+#: Files of the standard library and of snapspace.
 FILES = {"threading.py", "thread.py", "local_backend.py", "blas.py", "interruptible.py"}
-#: Behind a call that takes a lock the lock is taken, and the block that would let it go not begun.
+#: After a call that takes a lock, the block that would release it has not begun yet.
 EVENTS = {"call", "c_return"}
 SAMPLES = 6
 
 
 def place(frame: FrameType, event: str, argument: Any) -> str | None:
-    """Where the program is: at the begin of a function, or behind a compiled one that it calls."""
+    """Where the program is: at the start of a function, or after a compiled one that it calls."""
     file = os.path.basename(frame.f_code.co_filename)
     if file not in FILES or event not in EVENTS:
         return None
-    behind = f" behind {argument.__name__}" if event == "c_return" else ""
+    after = f" after {argument.__name__}" if event == "c_return" else ""
     caller = frame.f_back.f_code.co_name if frame.f_back else ""
-    return f"{file}: {frame.f_code.co_name} for {caller}{behind}"
+    return f"{file}: {frame.f_code.co_name} for {caller}{after}"
 
 
 def places() -> list[str]:
-    """Those that an undisturbed run passes, in their order, once all modules are loaded."""
+    """The places that an undisturbed run passes, in order, once all modules are loaded."""
     run(None)
     passed: dict[str, None] = {}
 
@@ -54,7 +54,7 @@ def places() -> list[str]:
 
 
 def run(profile: Any) -> str:
-    """How a run of a fresh problem ends."""
+    """Runs a new problem; returns how it ended."""
     problem = posing_bar(4, 1, 1)
     samples = parameters(problem, SAMPLES)
     sys.setprofile(profile)
@@ -68,11 +68,11 @@ def run(profile: Any) -> str:
 
 
 def watch(_: SolveProgress) -> None:
-    """Makes the run estimate its error, which takes BLAS."""
+    """Makes the run estimate its error, which uses BLAS."""
 
 
 def pressed_at(wanted: str) -> str | None:
-    """How a run ends in which Ctrl-C is pressed at a place; None if it did not pass there."""
+    """How a run ends if Ctrl-C is pressed at a place; None if it did not pass there."""
     pressed = False
 
     def press(frame: FrameType, event: str, argument: Any) -> None:
@@ -87,7 +87,7 @@ def pressed_at(wanted: str) -> str | None:
 
 
 def left_threads() -> list[str]:
-    """Threads that keep the program from ending, half a second later."""
+    """Threads that would keep the program from ending after half a second."""
     deadline = time.monotonic() + 0.5
     while True:
         others = set(threading.enumerate()) - {threading.main_thread()}
@@ -98,7 +98,7 @@ def left_threads() -> list[str]:
 
 
 def blas_threads() -> list[int]:
-    """Limits of the libraries that are loaded."""
+    """The thread limits of the BLAS libraries that are loaded."""
     info = threadpoolctl.threadpool_info()
     return [library["num_threads"] for library in info if library["user_api"] == "blas"]
 

@@ -1,4 +1,4 @@
-"""What solves have cost."""
+"""The cost of solves."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from snapspace import Snapshots
 
 
 def evaluations(snapshots: Snapshots) -> float:
-    """Of a sample, mean."""
+    """The mean number of evaluations per sample."""
     return float(np.mean([report.evaluations for report in snapshots.reports]))

@@ -1,4 +1,4 @@
-"""Finished samples to store: any numbers do."""
+"""Finished samples to store, with arbitrary numbers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def displacements(count: int, size: int, *, seed: int = 0) -> FloatArray:
 
 
 def report(index: int) -> SampleReport:
-    """A report that is told from the others, with numbers that JSON must not round."""
+    """A report that differs from all others, with numbers that JSON must not round."""
     return SampleReport(
         status="converged",
         iterations=index,

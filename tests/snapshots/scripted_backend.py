@@ -1,4 +1,4 @@
-"""A backend that gives samples back when the test says, one at a time."""
+"""A backend that returns samples one at a time, when the test says so."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ from snapspace.snapshots.solver_options import ResolvedOptions
 FloatArray = NDArray[np.float64]
 
 
-def nothing(_: int) -> None:
-    """Lets the run go on."""
+def proceed(_: int) -> None:
+    """Lets the run continue."""
 
 
 @dataclass
 class Script:
-    """What happens to a run.
+    """The script of a run.
 
-    seed : of the order in which samples under way are finished
-    before_wait : is told how many samples were given back, and may raise
-    given : the samples that were given back, in order
-    arrays : their displacements, as long as someone holds them
+    seed : seed of the order in which running samples finish
+    before_wait : called with the number of samples returned so far; may raise
+    given : the samples that were returned, in order
+    arrays : weak references to their displacements
     """
 
     seed: int = 0
-    before_wait: Callable[[int], None] = nothing
+    before_wait: Callable[[int], None] = proceed
     given: list[int] = field(default_factory=list)
     arrays: list[weakref.ref[FloatArray]] = field(default_factory=list)
 
     @contextmanager
     def plays(self) -> Iterator[None]:
-        """Runs without an executor are solved by a `ScriptedBackend`."""
+        """Inside, a `ScriptedBackend` solves runs that have no executor."""
 
         def backend(
             problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
@@ -56,7 +56,7 @@ class Script:
 
 
 class ScriptedBackend:
-    """Solves samples when they are handed over, and tells of one at each `wait`."""
+    """Solves samples when they are submitted, and returns one at each `wait`."""
 
     def __init__(self, problem: Problem, options: ResolvedOptions, script: Script) -> None:
         self._problem = problem
@@ -85,7 +85,7 @@ class ScriptedBackend:
             self._under_way.append(Solved(sample, shape.copy(), report))
 
     def running(self) -> dict[int, int]:
-        """Those under way, far enough for nobody to wait for them without need."""
+        """The running samples with all evaluations except one: they count as nearly done."""
         return {one.sample: one.report.evaluations - 1 for one in self._under_way}
 
     def no_more(self) -> None:

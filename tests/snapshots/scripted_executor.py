@@ -1,4 +1,4 @@
-"""An executor whose workers are played by the test."""
+"""An executor whose workers are scripted by the test."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ REPORT = SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 0)
 
 
 class ScriptedExecutor(Executor):
-    """Takes tasks and does nothing with them."""
+    """Collects tasks until the test answers them."""
 
     def __init__(self) -> None:
         self.waiting: list[tuple[BlockTask, Future[BlockAnswer]]] = []
@@ -28,7 +28,7 @@ class ScriptedExecutor(Executor):
 
     @property
     def tasks(self) -> list[BlockTask]:
-        """Those that no worker has answered yet, in order."""
+        """The tasks that no worker has answered yet, in order."""
         return [task for task, _ in self.waiting]
 
     def need_the_problem(self, worker: str, count: int = 1) -> None:

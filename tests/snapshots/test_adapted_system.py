@@ -1,4 +1,4 @@
-"""The scalar factor of an interpolation problem, made for shapes near given ones."""
+"""The scalar factor of an interpolation problem, adapted to shapes near given ones."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PROBLEM = interpolation_problem()
 
 
 def rest_system(problem: InterpolationProblem = PROBLEM) -> core.InterpolationSystem:
-    """With the factor for pose 0."""
+    """The system with the factor for pose 0."""
     shapes = problem._near_poses.reshape(problem.poses.shapes.shape)
     material = problem.material
     return core.InterpolationSystem(shapes, problem.poses.tets, material.core)
@@ -25,7 +25,7 @@ def rest_system(problem: InterpolationProblem = PROBLEM) -> core.InterpolationSy
 def solve(
     system: core.InterpolationSystem, problem: InterpolationProblem, weights: FloatArray
 ) -> core.Batch:
-    """From the mean shape."""
+    """Solves from the mean shape."""
     starts = np.repeat((problem.tau - problem.base)[None], len(weights), axis=0)
     return system.solve_fast(
         weights,
@@ -50,7 +50,7 @@ def scalar_hessian(x: FloatArray, problem: InterpolationProblem = PROBLEM) -> Fl
 
 
 def smallest_stretch(x: FloatArray) -> float:
-    """The least singular value of any tet, seen from any pose."""
+    """The least singular value of any tet, relative to any pose."""
     tets, shape = PROBLEM.poses.tets, x.reshape(-1, 3)
     edges = shape[tets[:, 1:]] - shape[tets[:, :1]]
     least = np.inf
@@ -64,7 +64,7 @@ def smallest_stretch(x: FloatArray) -> float:
 def adapted(
     system: core.InterpolationSystem, displacements: FloatArray
 ) -> core.InterpolationSystem:
-    """At equal weights."""
+    """The system adapted to displacements at equal weights."""
     weights = np.tile(PROBLEM.domain.center, (len(displacements), 1))
     other: core.InterpolationSystem = system.adapted(displacements, weights)
     return other
@@ -85,7 +85,7 @@ def forces(seed: int) -> FloatArray:
 
 @pytest.mark.parametrize("sizes", [(2.5,), (4.0,), (2.5, 4.0)])
 def test_the_matrix_is_the_mean_of_the_scalar_hessians(sizes: tuple[float, ...]) -> None:
-    """Where all tets are stretched nothing is clamped. The regular vertex changes translations."""
+    """Where all tets are stretched, nothing is clamped. The regular vertex changes translations."""
     shapes = np.stack([stretched(size, k) for k, size in enumerate(sizes)])
     system = adapted(rest_system(), shapes - PROBLEM.base)
     A = np.mean([scalar_hessian(x) for x in shapes], axis=0)
@@ -97,7 +97,7 @@ def test_the_matrix_is_the_mean_of_the_scalar_hessians(sizes: tuple[float, ...])
 
 @pytest.mark.parametrize("size", [0.0, 0.3, 2.0])
 def test_the_preconditioner_is_symmetric_and_positive(size: float) -> None:
-    """Also far from all poses, with tets that are pressed or turned inside out."""
+    """It is so even far from all poses, with compressed and inverted tets."""
     x = deformed(PROBLEM.mesh, size)
     system = adapted(rest_system(), (x - PROBLEM.base)[None])
     f = np.stack([forces(seed) for seed in range(12)])
@@ -122,7 +122,7 @@ def test_adapting_leaves_the_system_as_it_was() -> None:
     assert not np.allclose(other.precondition(f), preconditioned, rtol=0.1)
     np.testing.assert_array_equal(system.precondition(f), preconditioned)
     np.testing.assert_array_equal(solve(system, PROBLEM, weights).shapes, before.shapes)
-    del system  # the adapted one stands alone
+    del system  # the adapted system does not need it
     assert all(r.status.name == "converged" for r in solve(other, PROBLEM, weights).reports)
 
 
@@ -136,8 +136,8 @@ def test_adapting_does_not_change_the_objective() -> None:
         np.testing.assert_array_equal(gradient_again, gradient)
 
 
-def test_adapting_adapts_anew() -> None:
-    """Not on top of what was adapted before."""
+def test_adapting_starts_anew() -> None:
+    """An earlier adaptation does not count."""
     u, v = (stretched(size, 0) - PROBLEM.base for size in (2.5, 4.0))
     f = forces(5)
     direct = adapted(rest_system(), v[None])
@@ -146,7 +146,7 @@ def test_adapting_adapts_anew() -> None:
 
 
 def pressed_bar() -> InterpolationProblem:
-    """A bar, and one whose middle is a fifth as thick: the mean shape stretches those tets much."""
+    """A bar, and one with a middle a fifth as thick: the mean shape stretches those tets much."""
     mesh = irregular_bar(8, 2, 2)
     pose = mesh.vertices.copy()
     x, z = pose[:, 0], pose[:, 2]

@@ -46,13 +46,13 @@ def old() -> Snapshots:
 
 
 def given_shapes(problem: PosingProblem, w: FloatArray, shapes: FloatArray) -> Snapshots:
-    """Any shapes (k, 3n), as if they were solutions."""
+    """Snapshots of any shapes (k, 3n), as if they were solutions."""
     report = SampleReport("converged", 9, 11, 1.0, 1e-3, 1e-6, 0.1, 0)
     return Snapshots.from_shapes(problem, w, shapes.T, [report] * len(w))
 
 
 def following(problem: PosingProblem, w: FloatArray, *, seed: int = 0) -> FloatArray:
-    """A shape whose handles follow the motions exactly, and nothing else makes sense."""
+    """A shape whose handles follow the motions exactly; all other vertices are arbitrary."""
     x = deformed(MESH, 0.4, seed=seed).reshape(-1, 3)
     offsets = problem.offsets(w)
     x[problem.pinned] = MESH.vertices[problem.pinned] + problem.target_displacements(offsets)
@@ -78,11 +78,11 @@ def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) 
 def test_motions_count_from_the_handle_that_is_fixed(
     w: FloatArray, common: FloatArray, seed: int
 ) -> None:
-    """All is moved rigidly, the new first handle with it: the common motion is taken back."""
+    """Everything moves rigidly, also the new first handle; the common motion is undone."""
     new = PROBLEM.with_handles(HANDLES.replacing("foot", KNEE))
     x = following(new, w, seed=seed)
     there = (x.reshape(-1, 3) @ rotation_matrix(common[:3]).T + common[3:6]).reshape(1, -1)
-    # the old problem knows nothing of the handles that the new one has
+    # the old problem has none of the new one's handles
     other = PROBLEM.with_handles(Handles([X < 0.1, (X > 0.4) & (X < 0.6)]))
     result = carry_over(given_shapes(other, np.zeros((1, 6)), there), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
@@ -90,7 +90,7 @@ def test_motions_count_from_the_handle_that_is_fixed(
 
 
 def test_the_same_handles_keep_every_bit(old: Snapshots) -> None:
-    """Under other names and in another box as well: they are the same solutions."""
+    """They are the same solutions under other names and in another box."""
     renamed = Handles([handle.vertices for handle in HANDLES], names=["a", "b", "c"])
     box = HandleBox(translation=0.1, angle=0.1)
     for new in (PROBLEM, PROBLEM.with_handles(renamed, domain=box)):
@@ -145,7 +145,7 @@ def test_fixing_another_handle_moves_solutions_rigidly(old: Snapshots, name: str
         assert np.linalg.norm(gradient) == pytest.approx(report.gradient_norm, rel=1e-5, abs=1e-9)
 
 
-def test_there_and_back_is_where_it_was(old: Snapshots) -> None:
+def test_carrying_there_and_back_changes_nothing(old: Snapshots) -> None:
     there = carry_over(old, PROBLEM.with_handles(HANDLES.fixing("belly")))
     back = carry_over(there, PROBLEM)
     np.testing.assert_allclose(back.parameters, old.parameters, rtol=0, atol=1e-12)
@@ -153,15 +153,15 @@ def test_there_and_back_is_where_it_was(old: Snapshots) -> None:
 
 
 def test_a_fitted_handle_is_off_by_its_softness() -> None:
-    """A handle is held by springs: forces pull it off by force / (2 stiffness mass)."""
+    """Springs hold a handle: forces displace it by force / (2 stiffness mass)."""
     misses = []
     for stiffness in (1e3, 1e4):
         problem = bar_problem(stiffness=stiffness)
         snapshots = solved(problem, 4)
-        # one vertex less, so that it is not the old handle and its motion must be found
+        # one vertex fewer: it is not the old handle, and its motion must be found
         tip = HANDLES["head"].vertices[1:]
         result = carry_over(snapshots, problem.with_handles(HANDLES.replacing("head", tip)))
-        # another centroid: compare where the motions take the vertices
+        # the centroid differs: compare where the motions take the vertices
         both = [
             one.problem.target_displacements(one.problem.offsets(w))[
                 np.isin(one.problem.pinned, tip)
@@ -174,7 +174,7 @@ def test_a_fitted_handle_is_off_by_its_softness() -> None:
     assert 8 < misses[0] / misses[1] < 12
 
 
-def test_a_point_has_no_rotation_of_its_own(old: Snapshots) -> None:
+def test_a_point_has_no_rotation(old: Snapshots) -> None:
     vertex = int(np.flatnonzero(KNEE)[0])
     result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("point", [vertex])))
     moved = old.shapes.T.reshape(len(old), -1, 3)[:, vertex] - MESH.vertices[vertex]
@@ -183,7 +183,7 @@ def test_a_point_has_no_rotation_of_its_own(old: Snapshots) -> None:
 
 
 def test_a_line_takes_the_smallest_rotation(old: Snapshots) -> None:
-    """By the angle between the line and where it has gone."""
+    """It rotates by the angle between the line before and after."""
     pair = np.flatnonzero(KNEE)[[0, -1]]
     result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("line", pair)))
     before = np.subtract(*MESH.vertices[pair])
@@ -202,8 +202,8 @@ def test_reports_claim_no_solve(old: Snapshots) -> None:
     assert set(result.reports) == {SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)}
 
 
-def test_an_added_handle_hardly_pulls() -> None:
-    """Where it wants to be is where it is, up to how the region is bent."""
+def test_an_added_handle_exerts_little_force() -> None:
+    """Its target is its position, up to the bending of its region."""
     problem = PROBLEM.with_handles(HANDLES.without("belly"))
     knee = np.flatnonzero(KNEE)[:12]
     new = problem.with_handles(problem.handles.adding("knee", knee))
@@ -222,7 +222,7 @@ def test_an_added_handle_hardly_pulls() -> None:
     assert iterations[0] < 0.7 * iterations[1], iterations
 
 
-def test_another_material_makes_solutions_starts(old: Snapshots) -> None:
+def test_with_another_material_solutions_become_starts(old: Snapshots) -> None:
     soft = PosingProblem(MESH, HANDLES, domain=PROBLEM.domain, material=StVK(lam=0.0, mu=1.0))
     result = carry_over(old, soft)
     np.testing.assert_array_equal(result.parameters, old.parameters)
@@ -237,7 +237,7 @@ def failing(snapshots: Snapshots, *failed: int) -> Snapshots:
     return Snapshots.from_shapes(snapshots.problem, snapshots.parameters, snapshots.shapes, reports)
 
 
-def test_what_did_not_converge_stays_behind(old: Snapshots) -> None:
+def test_snapshots_that_did_not_converge_are_left_out(old: Snapshots) -> None:
     new = PROBLEM.with_handles(HANDLES.without("belly"))
     result = carry_over(failing(old, 1, 3), new)
     np.testing.assert_array_equal(result.shapes, old.shapes[:, [0, 2, 4]])
@@ -269,7 +269,7 @@ OTHER_MESH = bar_problem(irregular_bar(8, 2, 2, seed=6))
         ({"reports": "failed"}, PROBLEM, "none of the 5 snapshots converged; allow more iter"),
     ],
 )
-def test_what_cannot_be_carried_is_refused(
+def test_snapshots_that_cannot_be_carried_are_refused(
     old: Snapshots, changes: dict[str, Any], new: Any, message: str
 ) -> None:
     if "reports" in changes:

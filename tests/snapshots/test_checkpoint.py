@@ -1,4 +1,4 @@
-"""Finished samples on disk: found again, and trusted only if whole and of the same run."""
+"""Finished samples on disk: loaded again, and trusted only if complete and of the same run."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from snapspace.snapshots import CheckpointNotice, run_key, solver_key
 from .bars import assert_same_bits, parameters, posing_bar
 
 FloatArray = NDArray[np.float64]
-# blocks that wait for each other are saved one by one
+# Newton's blocks wait for each other, so they are saved one by one
 OPTIONS = SolverOptions(solver="newton", block=4)
 
 
 @pytest.fixture(scope="module")
 def whole() -> Snapshots:
-    """A run of three blocks that nothing interrupted."""
+    """An uninterrupted run of three blocks."""
     problem = posing_bar()
     return solve_snapshots(problem, parameters(problem, 10), options=OPTIONS, threads=1)
 
@@ -47,7 +47,7 @@ def resume(whole: Snapshots, checkpoint: Checkpoint) -> Snapshots:
 
 
 def keep(whole: Snapshots, checkpoint: Checkpoint, indices: list[int]) -> None:
-    """Puts these samples of a run into a checkpoint, as the run itself would."""
+    """Puts these samples of a run into a checkpoint, as the run would."""
     everything = Checkpoint(checkpoint.folder / "everything")
     resume(whole, everything)
     found = everything.load()
@@ -76,14 +76,14 @@ def test_a_full_checkpoint_leaves_nothing_to_solve(whole: Snapshots, tmp_path: P
     first = resume(whole, checkpoint)
     again = resume(whole, checkpoint)
     np.testing.assert_array_equal(again.shapes, first.shapes)
-    assert again.reports == first.reports  # the very same, down to the seconds they once took
+    assert again.reports == first.reports  # also the same seconds
 
 
 @pytest.mark.parametrize("indices", [[0, 2], [3], [0, 1, 2, 3, 5], [*range(8), 9]])
 def test_any_finished_samples_lead_to_the_same_end(
     whole: Snapshots, tmp_path: Path, indices: list[int]
 ) -> None:
-    """Ctrl-C may leave any part of a block: starts come from the blocks before it only."""
+    """Ctrl-C may leave any part of a block; starts come only from the blocks before it."""
     checkpoint = Checkpoint(tmp_path)
     keep(whole, checkpoint, indices)
     assert sorted(checkpoint.load()) == indices
@@ -168,7 +168,7 @@ def test_a_spoilt_file_is_ignored_and_its_samples_are_solved_again(
     assert sorted(checkpoint.load()) == list(range(10))
 
 
-def test_other_files_in_the_folder_do_no_harm(whole: Snapshots, tmp_path: Path) -> None:
+def test_other_files_in_the_folder_are_ignored(whole: Snapshots, tmp_path: Path) -> None:
     (tmp_path / "notes.txt").write_text("mine", encoding="utf-8")
     (tmp_path / ".samples-00000-4.1234.safetensors").write_bytes(b"half a file")
     assert_same_bits(resume(whole, Checkpoint(tmp_path)), whole)
@@ -183,7 +183,7 @@ def test_a_folder_that_cannot_be_made_is_named(whole: Snapshots, tmp_path: Path)
         assert_same_bits(resume(whole, Checkpoint(tmp_path / "file" / "run")), whole)
 
 
-def test_the_folder_lies_beside_the_output() -> None:
+def test_the_folder_is_beside_the_output() -> None:
     checkpoint = Checkpoint.beside(Path("models/dragon.snapspace"), "0123abcd")
     assert checkpoint.folder == Path("models/dragon.snapspace.partial-0123abcd")
 
@@ -255,11 +255,11 @@ def nudged_sample() -> FloatArray:
     ],
     ids=lambda change: next(iter(change)),
 )
-def test_the_key_changes_with_all_that_matters(change: dict[str, Any]) -> None:
+def test_the_key_depends_on_all_that_matters(change: dict[str, Any]) -> None:
     assert key(**change) != key()
 
 
-def test_the_key_knows_nothing_of_threads() -> None:
-    decided = set(solver_key(SolverOptions(), posing_bar()))
-    assert "threads" not in decided
-    assert decided == {"single"} | set(asdict(SolverOptions())) - {"precision"}
+def test_the_key_does_not_depend_on_threads() -> None:
+    entries = set(solver_key(SolverOptions(), posing_bar()))
+    assert "threads" not in entries
+    assert entries == {"single"} | set(asdict(SolverOptions())) - {"precision"}

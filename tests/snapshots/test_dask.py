@@ -1,4 +1,4 @@
-"""Blocks on a dask cluster, of which a worker may be lost."""
+"""Blocks on a dask cluster, which may lose a worker."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ PATIENCE = 60.0  # seconds
 
 @pytest.fixture
 def client(cluster: Any) -> Iterator[Any]:
-    """A client of the cluster with all workers there, also after a test that killed one."""
+    """A client of the cluster once all workers are up, also after a test that killed one."""
     with distributed.Client(cluster, set_as_default=False) as client:
         wait_for_processes(client)
-        client.run(exec, "import snapspace")  # none idles while another one imports
+        client.run(exec, "import snapspace")  # so that none is idle while another one imports
         yield client
 
 
 def wait_for_processes(client: Any) -> dict[str, int]:
-    """Process numbers of all workers, by address, once each of them answers.
+    """Process ids of all workers, by address, once each of them answers.
 
-    The scheduler counts one that was killed until it misses it.
+    The scheduler counts a killed worker until it notices its loss.
     """
     end = time.monotonic() + PATIENCE
     while True:
@@ -54,8 +54,8 @@ def test_a_cluster_gives_the_same_bits_and_has_the_problem_sent_once(
     sent_once(client.get_executor(), problem, WORKERS, monkeypatch)
 
 
-def test_large_meshes_do_not_make_dask_complain(client: Any) -> None:
-    """It warns of tasks above 10 MB, and of sending them more than once; warnings are errors."""
+def test_large_meshes_do_not_make_dask_warn(client: Any) -> None:
+    """Dask warns about tasks above 10 MB and about sending them twice; warnings are errors."""
     dask = pytest.importorskip("dask")
     work = Work.of(posing_bar(), 4)
     backend = backend_of(client.get_executor(), work.problem)
@@ -65,7 +65,7 @@ def test_large_meshes_do_not_make_dask_complain(client: Any) -> None:
     assert backend.payloads_sent
 
 
-def test_snapshots_of_poses_are_those_of_this_machine(client: Any) -> None:
+def test_snapshots_of_poses_equal_those_of_this_machine(client: Any) -> None:
     problem, options = interpolation_problem(), SolverOptions(block=4)
     samples = sample(problem.domain, 8, seed=1)
     here = solve_snapshots(problem, samples, options=options, threads=1)
@@ -75,7 +75,7 @@ def test_snapshots_of_poses_are_those_of_this_machine(client: Any) -> None:
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
 def test_nothing_is_lost_with_a_worker(client: Any) -> None:
-    """Killed in the middle: dask gives its blocks to the other one, which may lack the problem."""
+    """Dask gives the blocks of a killed worker to the other one, which may lack the problem."""
     work = Work.of(posing_bar(24, 4, 4, bound=0.7), 40)
     pids = wait_for_processes(client)
     killed: list[int] = []
@@ -84,7 +84,7 @@ def test_nothing_is_lost_with_a_worker(client: Any) -> None:
         if not killed:
             killed.append(pids[min(pids)])
             os.kill(killed[0], signal.SIGKILL)
-            assert finished < 20, "too late: hardly anything was left to do"
+            assert finished < 20, "too late: hardly any block was left"
 
     backend = backend_of(client.get_executor(), work.problem)
     work.submit(backend, 2)
@@ -113,7 +113,7 @@ def test_a_run_that_loses_a_worker_ends_with_the_same_snapshots(client: Any) -> 
 def test_a_problem_that_kills_every_worker_is_refused(
     client: Any, cluster: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """One worker is enough here; dask tries three more before it gives up."""
+    """One lost worker is enough here; by default dask tries three more."""
     monkeypatch.setattr(cluster.scheduler, "allowed_failures", 0)
     deadly: Any = DeadlyProblem()
     backend = backend_of(client.get_executor(), deadly)
@@ -123,15 +123,15 @@ def test_a_problem_that_kills_every_worker_is_refused(
     backend.close()
 
 
-def test_a_connection_that_closes_is_said(cluster: Any) -> None:
+def test_a_closed_connection_is_reported(cluster: Any) -> None:
     work = Work.of(posing_bar(24, 4, 4, bound=0.7), 40)
     client = distributed.Client(cluster, set_as_default=False)
     backend = backend_of(client.get_executor(), work.problem)
     work.submit(backend, 8)
     client.close()
-    # what was under way is cancelled, what would be next is refused
-    said = r"executor: (cancelled|does not take) samples .* in the checkpoint"
-    with pytest.raises(ValueError, match=said):
+    # running blocks are cancelled, and later ones refused
+    message = r"executor: (cancelled|does not take) samples .* in the checkpoint"
+    with pytest.raises(ValueError, match=message):
         while backend.wait(PATIENCE):
             pass
     backend.close()

@@ -1,4 +1,4 @@
-"""The same bits for any number of threads, whatever else is solved beside a sample."""
+"""The same bits for any number of threads and any other samples in the run."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_threads_do_not_change_a_bit(problem: PosingProblem, solver: Solver) -> 
 def test_the_problem_carries_nothing_from_run_to_run(
     problem: PosingProblem, solver: Solver
 ) -> None:
-    """Cached factors are shared, state is not: a fresh problem gives the bits of a used one."""
+    """Runs share factors but no state: a new problem gives the same bits as a used one."""
     samples = parameters(problem, 5)
     options = SolverOptions(solver=solver)
     used = solve_snapshots(problem, samples, options=options, threads=1)
@@ -75,10 +75,10 @@ def assert_equal(a: dict[str, Any], b: dict[str, Any]) -> None:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_sample_does_not_see_its_neighbours(problem: PosingProblem, solver: Solver) -> None:
-    """Lanes in lockstep share instructions only: permuted, halved, alone, a sample is the same."""
+    """Lanes share only instructions: permuted, halved or alone, a sample is the same."""
     samples = parameters(problem, 19)
     together = solve_batch(problem, solver, samples)
-    assert len(set(together["counts"])) > 5, "the paths must differ for this to mean anything"
+    assert len(set(together["counts"])) > 5, "the paths must differ for a meaningful test"
     permuted = np.random.default_rng(0).permutation(19)
     for which in (permuted, np.arange(0, 19, 2), *permuted[:4, None]):
         assert_equal(solve_batch(problem, solver, samples[which]), picked(together, which))

@@ -1,4 +1,4 @@
-"""Objectives of several samples at once: what each has alone."""
+"""Objectives of several samples at once equal those of each sample alone."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def samples(problem: PosingProblem | InterpolationProblem) -> tuple[FloatArray, 
 
 
 @pytest.mark.parametrize("make", [interpolation_problem, bar_problem])
-def test_together_is_what_each_has_alone(make) -> None:  # type: ignore[no-untyped-def]
+def test_values_and_gradients_equal_those_of_each_sample_alone(make) -> None:  # type: ignore[no-untyped-def]
     problem = make()
     shapes, inputs = samples(problem)
     values, gradients = problem.system.evaluate(shapes, inputs)
@@ -38,7 +38,7 @@ def test_together_is_what_each_has_alone(make) -> None:  # type: ignore[no-untyp
         )
 
 
-def test_neither_the_threads_nor_the_others_matter() -> None:
+def test_neither_threads_nor_other_samples_matter() -> None:
     problem = interpolation_problem()
     shapes, inputs = samples(problem)
     values, gradients = problem.system.evaluate(shapes, inputs, threads=1)
@@ -58,7 +58,7 @@ def test_rows_that_do_not_fit_are_refused(rows: int, columns: int, widths: int) 
         system.evaluate(np.zeros((4, size + columns)), np.zeros((rows, width + widths)))
 
 
-def test_the_lowest_of_some_guesses_is_the_start() -> None:
+def test_the_start_is_the_guess_of_least_energy() -> None:
     problem = interpolation_problem()
     shapes, inputs = samples(problem)
     calm = 0.01 * shapes

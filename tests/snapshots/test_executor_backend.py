@@ -1,4 +1,4 @@
-"""Blocks on an executor: same bits as at home, the problem sent once, nothing lost."""
+"""Blocks on an executor: the bits of a local run, one copy of the problem, nothing lost."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def work() -> Work:
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("size", [1, 5, 8])
 def test_threads_give_the_bits_of_one_call(work: Work, solver: Solver, size: int) -> None:
-    """However the samples are put into blocks and packs."""
+    """Any division of the samples into blocks and packs gives them."""
     options = replace(OPTIONS, solver=solver)
     with ThreadPoolExecutor(3) as pool:
         backend = backend_of(pool, work.problem, options)
         work.submit(backend, size)
         found = collected(backend, 22)
-        assert backend.payloads_sent == 0, "they have the problem itself"
+        assert backend.payloads_sent == 0, "threads share the problem"
         assert backend.wait(5.0) == []
         backend.close()
     assert_same_outcomes(found, work.solved_here(options))
@@ -55,10 +55,10 @@ def test_processes_give_the_same_bits(
     assert_same_outcomes(collected(backend, 22), work.solved_here(options))
 
 
-def test_an_interpolation_takes_its_mean_shape_along(
+def test_the_mean_shape_is_sent_with_an_interpolation(
     processes: ProcessPoolExecutor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Slow samples also get a factor of their own there."""
+    """Slow samples get their own factor in workers too."""
     monkeypatch.setattr(solver_traits, "PATIENCE", WORKERS_PATIENCE)
     work = Work.of(interpolation_problem(), 6)
     backend = backend_of(processes, work.problem)
@@ -71,7 +71,7 @@ def test_an_interpolation_takes_its_mean_shape_along(
 def test_the_problem_is_sent_once_per_process(
     processes: ProcessPoolExecutor, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """And not again for later blocks, nor for a later run on the same problem."""
+    """Neither later blocks nor a later run on the same problem send it again."""
     problem, equal = (posing_bar(16, 3, 3, bound=0.3) for _ in range(2))
     with monkeypatch.context() as patch:
         sent_once(processes, problem, WORKERS, patch)
@@ -81,7 +81,7 @@ def test_the_problem_is_sent_once_per_process(
     assert later.payloads_sent == 0
 
 
-def test_blocks_are_held_back_while_the_problem_is_on_its_way() -> None:
+def test_blocks_wait_while_the_problem_is_being_sent() -> None:
     work, executor = Work.of(posing_bar(), 10), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, 1)
@@ -95,7 +95,7 @@ def test_blocks_are_held_back_while_the_problem_is_on_its_way() -> None:
     assert all(task.payload is not None for task in carriers)
     executor.solve("one")
     assert [one.sample for one in backend.wait(0.0)] == list(carriers[0].samples)
-    # the other carrier, then all others without the problem
+    # the other task with the problem, then all tasks without it
     assert [task.payload is None for task in executor.tasks] == [False] + [True] * 8
     while executor.tasks:
         executor.solve("one")
@@ -104,7 +104,7 @@ def test_blocks_are_held_back_while_the_problem_is_on_its_way() -> None:
 
 
 def test_no_two_tasks_are_equal() -> None:
-    """dask takes equal calls for one: a block that is sent again would get its old answer."""
+    """Dask merges equal calls: a block that is sent again would get its old answer."""
     work, executor = Work.of(posing_bar(), 1), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, 1)
@@ -114,8 +114,8 @@ def test_no_two_tasks_are_equal() -> None:
     assert executor.tasks[0].number != before.number
 
 
-def test_what_a_worker_leaves_of_a_block_goes_to_another() -> None:
-    """Ctrl-C reaches the processes of a pool as well: they return what they have finished."""
+def test_the_rest_of_a_block_goes_to_another_worker() -> None:
+    """Ctrl-C also reaches the processes of a pool, which return their finished samples."""
     work, executor = Work.of(posing_bar(), 4), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, 4)
@@ -127,13 +127,13 @@ def test_what_a_worker_leaves_of_a_block_goes_to_another() -> None:
     np.testing.assert_array_equal(rest.starts, work.starts[[1, 3]])
 
 
-def test_what_was_finished_survives_cancel() -> None:
+def test_finished_samples_survive_cancel() -> None:
     work, executor = Work.of(posing_bar(), 4), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, 1)
     futures = [future for _, future in executor.waiting]
     executor.solve("one")
-    executor.fail(RuntimeError("nobody asks any more"))
+    executor.fail(RuntimeError("ignored"))
     backend.cancel()
     assert [future.cancelled() for future in futures] == [False, False, True, True]
     assert list(outcomes(backend.wait(5.0))) == [0]
@@ -143,7 +143,7 @@ def test_what_was_finished_survives_cancel() -> None:
 
 
 def test_cancel_ends_the_solves_of_threads_at_once() -> None:
-    # minutes of work, if it were not cancelled
+    # minutes of work unless it is cancelled
     work = Work.of(posing_bar(24, 6, 6, bound=0.7), 32)
     options = replace(OPTIONS, solver="newton", tolerance=1e-300, max_iterations=10**6)
     with ThreadPoolExecutor(2) as pool:
@@ -167,13 +167,13 @@ def test_a_problem_lives_no_longer_than_its_run() -> None:
         collected(backend, 2)
         problem = weakref.ref(work.problem)
         del work, backend
-        # a worker thread lets go of its last task when it takes the next one
+        # a worker thread drops its last task when it takes the next one
         pool.submit(int).result()
         gc.collect()
         assert problem() is None
 
 
-def test_a_worker_holds_a_few_problems_only() -> None:
+def test_a_worker_holds_only_a_few_problems() -> None:
     held = HeldProblems()
     payloads = {str(k): pickle.dumps(posing_bar(stiffness=k)) for k in (1.0, 2.0, 3.0)}
 
@@ -183,15 +183,15 @@ def test_a_worker_holds_a_few_problems_only() -> None:
     assert received("1.0") is None
     first = received("1.0", payloads["1.0"])
     received("2.0", payloads["2.0"])
-    assert received("1.0") is first, "used last, and not made again"
+    assert received("1.0") is first, "used last, so not unpickled again"
     received("3.0", payloads["3.0"])
     assert received("2.0") is None
     assert received("1.0") is first
 
 
 @pytest.mark.parametrize("soft_modes", [True, False])
-def test_a_worker_finds_only_the_modes_that_are_asked_for(soft_modes: bool) -> None:
-    """They cost as much as a few samples."""
+def test_a_worker_computes_soft_modes_only_on_request(soft_modes: bool) -> None:
+    """They take as long as a few samples."""
     problem = HeldProblems().received(
         "key", pickle.dumps(posing_bar()), replace(OPTIONS, soft_modes=soft_modes)
     )

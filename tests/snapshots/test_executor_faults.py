@@ -1,4 +1,4 @@
-"""What goes wrong on an executor is said in one line, with the samples that it happened to."""
+"""Faults on an executor are reported in one line that names the samples."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ KEPT = "finished samples are in the checkpoint, if there is one, and the same ca
 
 
 def raised_for(error: BaseException, *, size: int = 4) -> BaseException:
-    """What `wait` raises when the task of samples 0 to 3 ends with an exception."""
+    """The exception that `wait` raises when the task of samples 0 to 3 fails with `error`."""
     work, executor = Work.of(posing_bar(), 4), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, size)
@@ -39,7 +39,7 @@ def test_an_error_of_the_solve_keeps_its_kind_and_names_the_samples(kind: Any) -
     assert error.__cause__ is cause
 
 
-def test_a_fault_of_ours_is_no_mistake_of_the_user() -> None:
+def test_an_internal_fault_is_not_a_value_error() -> None:
     """A ValueError would hide its traceback on the command line."""
     assert type(raised_for(ZeroDivisionError(), size=1)) is RuntimeError
     assert str(raised_for(KeyError("x"), size=1)) == "executor: sample 0: KeyError: 'x'"
@@ -50,7 +50,7 @@ def test_ctrl_c_in_a_worker_is_ctrl_c() -> None:
     assert raised_for(interrupt) is interrupt
 
 
-def test_a_broken_pool_tells_what_is_kept() -> None:
+def test_a_broken_pool_says_what_is_kept() -> None:
     error = raised_for(BrokenProcessPool("A process in the pool was terminated abruptly"))
     assert type(error) is ValueError
     assert "lost the worker that solved samples 0 to 3 (BrokenProcessPool: A process" in str(error)
@@ -80,7 +80,7 @@ def test_an_executor_that_was_shut_down_takes_nothing() -> None:
         work.submit(backend, 1)
 
 
-def test_work_that_the_executor_drops_is_no_silence() -> None:
+def test_dropped_work_is_reported() -> None:
     work, executor = Work.of(posing_bar(), 2), ScriptedExecutor()
     backend = backend_of(executor, work.problem)
     work.submit(backend, 2)
@@ -106,7 +106,7 @@ def test_results_come_before_errors() -> None:
 
 def test_a_problem_that_cannot_be_pickled_is_named_early() -> None:
     problem = posing_bar()
-    problem.__dict__["material"] = lambda: None  # it is made of nothing that can travel
+    problem.__dict__["material"] = lambda: None  # cannot be pickled
     executor: Executor = ScriptedExecutor()
     with pytest.raises(ValueError, match="executor: the problem cannot be sent to workers"):
         backend_of(executor, problem)

@@ -1,4 +1,4 @@
-"""Snapshots that others solve: the bits of a run on this machine, and nothing finished is lost."""
+"""Snapshots of an executor: the bits of a local run, and no finished sample is lost."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from ..shapes import interpolation_problem
 from .bars import assert_same_bits, parameters, posing_bar
 from .conftest import WORKERS_PATIENCE
 
-PATIENCE = 20.0  # seconds until a test that waits for a thread has failed
+PATIENCE = 20.0  # seconds that a test waits for a thread before it fails
 
 
 @pytest.fixture(params=["threads", "processes"])
@@ -59,7 +59,7 @@ def test_an_executor_gives_the_bits_of_this_machine(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_samples_between_poses_also_when_patience_ends(
+def test_samples_between_poses_have_the_same_bits_beyond_the_patience(
     executor: Executor, monkeypatch: pytest.MonkeyPatch, solver: Solver
 ) -> None:
     monkeypatch.setattr(solver_traits, "PATIENCE", WORKERS_PATIENCE)
@@ -76,7 +76,7 @@ def test_samples_between_poses_also_when_patience_ends(
 def test_a_run_may_change_between_executors(
     executor: Executor, posing: PosingProblem, tmp_path: Path
 ) -> None:
-    """Its checkpoint knows nothing of who had solved the samples."""
+    """Its checkpoint does not depend on the executor that solved the samples."""
     samples, options = parameters(posing, 25), SolverOptions(block=4)
     whole, part = Checkpoint(tmp_path / "whole"), Checkpoint(tmp_path / "part")
     here = solve_snapshots(posing, samples, options=options, threads=1, checkpoint=whole)
@@ -92,7 +92,7 @@ def test_the_executor_is_not_shut_down(executor: Executor, posing: PosingProblem
     assert executor.submit(int, 5).result(PATIENCE) == 5
 
 
-def test_progress_is_told_as_ever(executor: Executor, posing: PosingProblem) -> None:
+def test_progress_is_reported_as_in_local_runs(executor: Executor, posing: PosingProblem) -> None:
     states: list[SolveProgress] = []
     options = SolverOptions(solver="newton", block=5)
     solve_snapshots(
@@ -107,10 +107,10 @@ def test_progress_is_told_as_ever(executor: Executor, posing: PosingProblem) -> 
     assert states[-1].eta == 0.0 and states[-1].held_out_error is not None
 
 
-def test_ctrl_c_keeps_what_tasks_have_finished(
+def test_ctrl_c_keeps_finished_samples_of_tasks(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    """A block may be hours of work, of which a part is finished when Ctrl-C comes."""
+    """A block may be hours of work, and partly finished when Ctrl-C comes."""
     controls: list[core.SolveControl] = []
 
     def control() -> core.SolveControl:
@@ -148,17 +148,17 @@ def test_ctrl_c_keeps_what_tasks_have_finished(
     assert_same_bits(resumed, solve_snapshots(problem, samples, options=options, threads=1))
 
 
-def test_an_error_of_a_worker_keeps_what_is_finished(
+def test_an_error_of_a_worker_keeps_finished_samples(
     monkeypatch: pytest.MonkeyPatch, posing: PosingProblem, tmp_path: Path
 ) -> None:
     class Failing(ThreadPoolExecutor):
-        """Takes three blocks and no more."""
+        """Accepts only three blocks."""
 
-        taken = 0
+        accepted = 0
 
         def submit(self, *args, **kwargs):  # type: ignore[no-untyped-def]
-            self.taken += 1
-            if self.taken > 3:
+            self.accepted += 1
+            if self.accepted > 3:
                 raise RuntimeError("cannot schedule new futures after shutdown")
             return super().submit(*args, **kwargs)
 

@@ -1,4 +1,4 @@
-"""Guesses: warped linear responses, and what finished samples make of them."""
+"""Guesses: warped linear responses, and their corrections by finished samples."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ def problem() -> PosingProblem:
     return posing_bar(bound=0.7)
 
 
-def turned(problem: PosingProblem, axis: FloatArray) -> FloatArray:
-    """What the pinned vertices are asked for by small turns of everything about an axis."""
+def rotation_inputs(problem: PosingProblem, axis: FloatArray) -> FloatArray:
+    """Inputs of the pinned vertices for a small rotation of everything about an axis."""
     return np.cross(axis, problem.mesh.vertices[problem.pinned]).reshape(-1)
 
 
@@ -46,22 +46,24 @@ def errors(problem: PosingProblem, found: FloatArray, exact: FloatArray) -> Floa
 
 
 @pytest.mark.parametrize("angle", [0.1, 1.0, np.pi, 6.0, 12.0])
-def test_a_rigid_motion_of_all_handles_stays_one(problem: PosingProblem, angle: float) -> None:
+def test_a_rigid_motion_of_all_handles_stays_rigid(problem: PosingProblem, angle: float) -> None:
     """Its linear response is the spin field, whose gradient is the same skew matrix everywhere."""
     axes = np.eye(3)
-    response = core.LinearResponse(problem.system, np.array([turned(problem, a) for a in axes]))
+    response = core.LinearResponse(
+        problem.system, np.array([rotation_inputs(problem, a) for a in axes])
+    )
     vector = angle * np.array([0.6, 0.0, 0.8])
     vertices = problem.mesh.vertices
     rotation = Rotation.from_rotvec(vector).as_matrix()
     wanted = vertices @ rotation.T + [1.0, -2.0, 0.5] - vertices
     found = response.warped(problem.system, vector[None], wanted[problem.pinned].reshape(1, -1))
-    # what responses are solved to, a thousandth of the angle
+    # responses are solved to a thousandth of the angle
     assert np.abs(found[0] - wanted.reshape(-1)).max() < 1e-3 * angle * problem.mesh.diagonal
 
 
 def test_responses_solve_the_problem_linearised_at_rest(problem: PosingProblem) -> None:
-    """Up to a hundredth of the energy, against a direct solver's."""
-    inputs = np.array([turned(problem, axis) for axis in np.eye(3)])
+    """They agree with a direct solver's to a hundredth of the energy."""
+    inputs = np.array([rotation_inputs(problem, axis) for axis in np.eye(3)])
     inputs[:, 54:] = 0.0  # the tip is held
     held = np.zeros(problem.base.size)
     forces = np.zeros((3, problem.base.size))
@@ -70,7 +72,7 @@ def test_responses_solve_the_problem_linearised_at_rest(problem: PosingProblem) 
         forces[:, 3 * problem.pinned + axis] = 2.0 * problem.pin_weights * inputs[:, axis::3]
     hessian = problem.energy.hessian(problem.base).toarray() + np.diag(held)
     exact = np.linalg.solve(hessian, forces.T).T
-    # where nothing moves, and turns vanish, a warp is the Poisson problem of the response itself
+    # for small motions, rotations vanish, and a warp is the Poisson problem of the response
     response = core.LinearResponse(problem.system, inputs)
     small = 1e-3
     found = response.warped(problem.system, small * np.eye(3), small * inputs) / small
@@ -80,8 +82,8 @@ def test_responses_solve_the_problem_linearised_at_rest(problem: PosingProblem) 
     assert (gap < 1e-2 * energy).all()
 
 
-def test_guesses_are_right_to_first_order(problem: PosingProblem) -> None:
-    """What is left of small motions is of second order, above what responses are solved to."""
+def test_guesses_are_exact_to_first_order(problem: PosingProblem) -> None:
+    """Their error is of second order, above the tolerance of responses."""
     samples = parameters(problem, 4)
     misses = []
     for share in (0.05, 0.4, 0.8):
@@ -102,7 +104,7 @@ def test_guesses_have_nearly_the_least_energy(problem: PosingProblem) -> None:
         assert value < 0.05 * problem.value_and_gradient(problem.base, w)[0]
 
 
-def test_a_guess_does_not_depend_on_its_company() -> None:
+def test_a_guess_does_not_depend_on_the_other_samples() -> None:
     problem = posing_creature(5000)
     samples = parameters(problem, 21)
     together = problem.guesses(samples)
@@ -133,7 +135,7 @@ def test_several_handles_and_one_that_is_never_sampled() -> None:
 
 
 def test_a_cycle_gives_nearly_the_same_guesses() -> None:
-    """Four cycles stand for an inverse in the warp; responses converge with either."""
+    """Four cycles replace an inverse in the warp; responses converge with either."""
     mesh = creature(110_000)
     x = mesh.vertices[:, 0]
     handles = Handles([x < np.quantile(x, 0.1), x > np.quantile(x, 0.9)])
@@ -155,20 +157,20 @@ def test_a_cycle_gives_nearly_the_same_guesses() -> None:
 
 
 def test_a_problem_that_has_guessed_leaves_the_memory_at_once() -> None:
-    """Its responses do not hold it, as a cycle would until the collector comes."""
+    """Its responses hold no reference to it, which would last until garbage collection."""
     problem = posing_bar()
     problem.guesses(parameters(problem, 2))
-    gone = weakref.ref(problem)
+    reference = weakref.ref(problem)
     gc.disable()
     try:
         del problem
-        assert gone() is None
+        assert reference() is None
     finally:
         gc.enable()
 
 
 def test_samples_take_fewer_evaluations_from_guesses() -> None:
-    """Above all those that are solved loosely: a first model's."""
+    """The gain is largest for loose solves, as those of a first model."""
     problem = posing_creature(5000)
     samples = parameters(problem, 12)
     options: dict[str, Any] = {
@@ -189,16 +191,16 @@ def test_samples_take_fewer_evaluations_from_guesses() -> None:
 
 
 class TestCorrected:
-    """Guesses, with what they missed at finished samples interpolated and added."""
+    """Guesses plus their interpolated errors at finished samples."""
 
-    def test_it_is_the_sample_at_a_sample(self, problem: PosingProblem) -> None:
+    def test_a_corrected_guess_is_the_sample_at_a_sample(self, problem: PosingProblem) -> None:
         samples = parameters(problem, 8)
         rows = DisplacementRows(solutions(problem, samples), problem.base.size)
         starts = Guesses(problem, samples).corrected([2, 5], range(8), rows)
         assert starts is not None
         np.testing.assert_allclose(starts, rows.array()[[2, 5]], atol=1e-9)
 
-    def test_it_is_nearer_than_the_guess(self, problem: PosingProblem) -> None:
+    def test_a_corrected_guess_is_nearer_than_the_guess(self, problem: PosingProblem) -> None:
         samples = 0.5 * parameters(problem, 26)
         exact = solutions(problem, samples)
         rows = DisplacementRows(exact[:20], problem.base.size)
@@ -213,7 +215,7 @@ class TestCorrected:
         starts = Guesses(problem, samples).corrected([1, 2, 3], [0], rest)
         np.testing.assert_array_equal(starts, problem.guesses(samples[1:]))
 
-    def test_many_samples_do_without(self, problem: PosingProblem) -> None:
+    def test_many_samples_need_no_guesses(self, problem: PosingProblem) -> None:
         count = GUESSED * 6
         samples = parameters(problem, count + 1)
         rows = DisplacementRows(np.zeros((count, problem.base.size)), problem.base.size)
@@ -222,7 +224,7 @@ class TestCorrected:
         fewer = guesses.corrected([count], range(count - 1), rows[: count - 1])
         assert fewer is not None
 
-    def test_blends_have_none(self) -> None:
+    def test_blends_have_no_guesses(self) -> None:
         problem = interpolation_problem()
         weights = np.full((1, problem.parameter_count), 1.0 / problem.parameter_count)
         rows = DisplacementRows(np.zeros((1, problem.base.size)), problem.base.size)

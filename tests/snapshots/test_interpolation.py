@@ -1,4 +1,4 @@
-"""Full solves between poses: what is known of them without solving."""
+"""Full solves between poses, compared with properties known without solving."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def test_equal_poses_give_that_pose_for_any_weights(solver: Solver) -> None:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_rigidly_moved_copies_give_a_rigid_copy(solver: Solver) -> None:
-    """In the frame of the first one: nothing shrinks between a pose and its turned copy."""
+    """The shape is in the frame of the first pose; blends with rotated copies do not shrink."""
     mesh = irregular_bar(6, 2, 2)
     pose = bent(mesh, 0.8)
     copies = [pose]
@@ -75,7 +75,7 @@ def test_one_hot_weights_give_back_the_pose(solver: Solver) -> None:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_one_hot_weights_lead_to_the_pose_from_the_mean_shape(solver: Solver) -> None:
-    """The compiled solvers themselves, which know no poses to start from."""
+    """The compiled solvers have no poses to start from."""
     starts = np.tile(PROBLEM.tau - PROBLEM.base, (3, 1))
     batch = core_solve(PROBLEM, solver, np.eye(3), starts, tolerance=1e-13, max_iterations=2000)
     assert [report.status.name for report in batch.reports] == ["converged"] * 3
@@ -85,7 +85,7 @@ def test_one_hot_weights_lead_to_the_pose_from_the_mean_shape(solver: Solver) ->
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_mirrored_weights_on_mirrored_poses_give_mirrored_shapes(solver: Solver) -> None:
-    """A bar bent to the left and to the right; equal weights give one that is its own mirror."""
+    """A bar bends left and right; equal weights give a shape that is its own mirror image."""
     mesh = symmetric_bar()
     image = mirror_image(mesh)
     left, right = bent(mesh, 1.0), bent(mesh, -1.0)
@@ -124,7 +124,7 @@ def test_shapes_are_registered_to_the_mean_shape() -> None:
 
 
 def test_weights_beyond_the_simplex_are_solved_in_a_larger_domain() -> None:
-    """Beyond the bent pose the bar bends on, beyond the straight one it bends the other way."""
+    """Beyond the bent pose the bar bends further; beyond the straight one, the other way."""
     mesh = irregular_bar(8, 2, 2)
     poses = Poses(np.stack([mesh.vertices, bent(mesh, 0.8)]), mesh.tets)
     problem = InterpolationProblem(poses, extrapolation=0.4)
@@ -158,8 +158,8 @@ def coil() -> InterpolationProblem:
 
 
 def test_the_volume_stays_from_cylinder_to_helix(coil: InterpolationProblem) -> None:
-    """Within 5 % of the straight line between the volumes of the ends, where the straight path of
-    the vertices loses up to 60 %. (Measured: 4.1 %; 3.2 % with twice the layers of tets.)
+    """It stays within 5 % of the volumes between those of the ends. The straight path of the
+    vertices loses up to 60 %. (Measured: 4.1 %; 3.2 % with twice the layers of tets.)
     """
     share = np.linspace(0, 1, 9)
     weights = np.column_stack([1 - share, share])
@@ -178,7 +178,7 @@ def test_the_volume_stays_from_cylinder_to_helix(coil: InterpolationProblem) -> 
 
 
 def test_the_path_from_cylinder_to_helix_has_no_jumps(coil: InterpolationProblem) -> None:
-    """All samples end in one family of minima: a step is like the one before."""
+    """All samples end in one family of minima, so consecutive steps are alike."""
     share = np.linspace(0, 1, 41)
     solved = solve_snapshots(coil, np.column_stack([1 - share, share]), threads=1)
     steps = np.linalg.norm(np.diff(solved.shapes, axis=1), axis=0)

@@ -1,4 +1,4 @@
-"""Samples between poses are the same bits for any threads, neighbours and interruptions."""
+"""Samples between poses have the same bits for any threads, neighbours and interruptions."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_threads_do_not_change_a_bit(problem: InterpolationProblem, solver: Solv
 
 
 def test_the_problem_carries_nothing_from_run_to_run(problem: InterpolationProblem) -> None:
-    """The mean shape included, which is solved for anew."""
+    """That includes the mean shape, which is solved for again."""
     samples = weights(problem, 5)
     fresh = interpolation_problem(extrapolation=0.3)
     assert np.array_equal(fresh.tau, problem.tau)
@@ -110,7 +110,7 @@ def test_a_resumed_run_ends_like_one_that_was_not_interrupted(
     checkpoint = Checkpoint(tmp_path / "run")
 
     def progress(state: SolveProgress) -> None:
-        if state.done >= 4:  # of at most 24 that are handed out by then
+        if state.done >= 4:  # at most 24 are submitted by then
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted):

@@ -1,4 +1,4 @@
-"""Poses with a tet that is nearly flat: its energy is huge elsewhere, and must not drown the rest.
+"""Poses with a nearly flat tet: its energy, huge away from the pose, must not swamp the rest.
 
 Poses that were fitted to surfaces have such tets.
 """
@@ -14,11 +14,16 @@ from snapspace import InterpolationProblem, Poses, TetMesh, solve_snapshots
 from ..shapes import bent, irregular_bar
 
 FloatArray = NDArray[np.float64]
-HEIGHTS = [1e-1, 1e-2, 1e-3, 1e-4]  # of a corner over the opposite face, as a share of before
+HEIGHTS = [
+    1e-1,
+    1e-2,
+    1e-3,
+    1e-4,
+]  # heights of a corner over the opposite face, as shares of the original
 
 
 def flattened(height: float) -> InterpolationProblem:
-    """A bar and a bent one, in which one corner was pressed down on the opposite face of a tet."""
+    """A bar and a bent one with one corner pressed towards the opposite face of a tet."""
     mesh = irregular_bar(6, 2, 2)
     pose = bent(mesh, 0.8)
     corner = int(np.argmax(mesh.vertices.sum(axis=1)))
@@ -34,7 +39,7 @@ def flattened(height: float) -> InterpolationProblem:
 
 @pytest.mark.parametrize("height", HEIGHTS)
 def test_values_and_forces_keep_their_digits(height: float) -> None:
-    """A pose costs its own energy nothing, to the rounding of what it costs the other's."""
+    """The energy of a pose vanishes at the pose, up to the rounding of the other's energy."""
     problem = flattened(height)
     pose = problem.poses.shapes[1].reshape(-1)
     away, forces = problem.value_and_gradient(pose, [1.0, 0.0])

@@ -1,4 +1,4 @@
-"""Ctrl-C keeps what is finished, wherever it arrives, and the same call goes on from there."""
+"""Ctrl-C keeps finished samples, wherever it arrives, and the same call resumes from there."""
 
 from __future__ import annotations
 
@@ -31,11 +31,11 @@ from snapspace.snapshots.solver_options import Solver
 
 from .bars import assert_same_bits, parameters, posing_bar
 
-PATIENCE = 20.0  # seconds until a test that waits for a thread has failed
+PATIENCE = 20.0  # seconds that a test waits for a thread before it fails
 
 
 class FakeControl:
-    """A SolveControl that tells when it was cancelled."""
+    """A SolveControl that reports its cancellation."""
 
     def __init__(self) -> None:
         self.cancelled = threading.Event()
@@ -100,7 +100,7 @@ def test_ctrl_c_cancels_the_solve_and_keeps_its_result() -> None:
 
 
 @pytest.mark.usefixtures("fake_control")
-def test_ctrl_c_while_progress_is_drawn_is_no_different() -> None:
+def test_ctrl_c_while_progress_is_drawn_keeps_the_result() -> None:
     def progress(finished: int) -> None:
         if finished == 3:
             raise KeyboardInterrupt
@@ -131,7 +131,7 @@ def test_an_error_of_the_solve_reaches_the_caller() -> None:
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solver) -> None:
+def test_an_interrupted_run_resumes_to_the_same_result(tmp_path: Path, solver: Solver) -> None:
     problem = posing_bar()
     samples = parameters(problem, 32)
     options = SolverOptions(solver=solver, block=4)
@@ -141,7 +141,7 @@ def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solv
     def progress(state: SolveProgress) -> None:
         nonlocal seen
         seen = state.done
-        if seen > 4:  # of at most 24 that are handed out by then
+        if seen > 4:  # at most 24 are submitted by then
             raise KeyboardInterrupt
 
     with pytest.raises(Interrupted, match=r"of 32 samples are finished") as caught:
@@ -161,12 +161,12 @@ def test_an_interrupted_run_goes_on_to_the_same_end(tmp_path: Path, solver: Solv
         progress=lambda state: first_call.append(state.done),
         checkpoint=checkpoint,
     )
-    assert first_call[0] == len(saved), "progress counts what was kept"
+    assert first_call[0] == len(saved), "progress counts the samples that were kept"
     assert_same_bits(resumed, solve_snapshots(problem, samples, options=options, threads=1))
 
 
 def test_a_solve_of_the_core_ends_soon_after_ctrl_c(tmp_path: Path) -> None:
-    """A block of many seconds, interrupted by a signal after a twentieth of one."""
+    """The block would take many seconds; a signal interrupts it after 0.05 s."""
     problem = posing_bar(16, 4, 4, bound=1.0)
     options = SolverOptions(tolerance=1e-14, block=1000)
     checkpoint = Checkpoint(tmp_path / "run")
@@ -190,10 +190,10 @@ def test_a_solve_of_the_core_ends_soon_after_ctrl_c(tmp_path: Path) -> None:
     assert len(checkpoint.load()) < 1000
 
 
-def test_a_sample_that_is_finished_while_ctrl_c_comes_is_not_lost(
+def test_a_sample_that_finishes_during_ctrl_c_is_not_lost(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The signal waits for the call that gives the sample back, and is raised behind it."""
+    """The signal waits for the call that returns the sample, and is raised after it."""
     controls: list[core.SolveControl] = []
 
     def control() -> core.SolveControl:
@@ -224,8 +224,8 @@ def test_a_sample_that_is_finished_while_ctrl_c_comes_is_not_lost(
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> None:
-    """Wherever it falls: the sample is reported as cancelled, or ended where it always ends."""
+def test_a_cancelled_solve_never_counts_as_finished(solver: Solver) -> None:
+    """At any time, the sample is either reported as cancelled or has its usual solution."""
     problem = posing_bar(12, 4, 4, bound=1.0)
     w = parameters(problem, 1)[0]
     inputs = problem.inputs(w[None])
@@ -253,7 +253,7 @@ def test_a_cancelled_solve_never_passes_for_a_finished_one(solver: Solver) -> No
 
 
 def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
-    """Callers that know nothing of Interrupted still stop."""
+    """Callers that do not handle Interrupted still stop."""
     problem = posing_bar()
 
     def progress(state: SolveProgress) -> None:
@@ -263,8 +263,8 @@ def test_without_a_checkpoint_an_interrupt_is_a_keyboard_interrupt() -> None:
         solve_snapshots(problem, parameters(problem, 2), progress=progress)
 
 
-def test_ctrl_c_is_answered_wherever_it_comes() -> None:
-    """In the middle of a standard lock as elsewhere; no thread is left that the program awaits."""
+def test_ctrl_c_is_answered_wherever_it_arrives() -> None:
+    """Even inside a standard lock it is answered, and no thread is left that would block exit."""
     command = [sys.executable, "-m", "tests.snapshots.ctrl_c_anywhere"]
     result = subprocess.run(
         command, capture_output=True, text=True, timeout=9 * PATIENCE, cwd=Path(__file__).parents[2]
@@ -279,7 +279,7 @@ def test_ctrl_c_is_answered_wherever_it_comes() -> None:
 
 
 def test_ctrl_c_does_not_wait_for_work_that_cannot_be_stopped() -> None:
-    """Such as a factorisation; its thread is left to itself."""
+    """A factorisation is such work; its thread is abandoned."""
     release, begin = threading.Event(), time.monotonic()
     timer = threading.Timer(0.05, _thread.interrupt_main)
     timer.start()

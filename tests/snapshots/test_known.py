@@ -1,4 +1,4 @@
-"""Known solutions are starts: they save iterations and change no minimum."""
+"""Known solutions serve as starts: they save iterations and change no minimum."""
 
 from __future__ import annotations
 
@@ -43,10 +43,10 @@ def values(snapshots: Snapshots) -> list[float]:
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
-def test_a_known_solution_has_no_way_to_go(
+def test_a_known_solution_takes_no_iterations(
     problem: PosingProblem, known: Snapshots, solver: Solver
 ) -> None:
-    """In single precision as well: the way from a number to its rounding is short."""
+    """In single precision there may be one, from a number to its rounding."""
     wanted = known.parameters[[17, 3, 8]]
     found = solve_snapshots(
         problem, wanted, options=SolverOptions(solver=solver), threads=1, known=known
@@ -56,7 +56,7 @@ def test_a_known_solution_has_no_way_to_go(
     np.testing.assert_allclose(found.shapes, known.shapes[:, [17, 3, 8]], atol=1e-6)
 
 
-def test_between_poses_a_known_solution_has_no_way_to_go() -> None:
+def test_between_poses_a_known_solution_takes_hardly_any_iterations() -> None:
     problem = interpolation_problem()
     options = SolverOptions(tolerance=1e-11)
     known = solve_snapshots(problem, sample(problem.domain, 12, seed=2), options=options, threads=1)
@@ -79,14 +79,14 @@ def test_solutions_nearby_save_iterations_and_change_no_minimum(
     np.testing.assert_allclose(values(warm), values(cold), rtol=1e-11)
 
 
-def test_later_blocks_know_them_too(problem: PosingProblem, known: Snapshots) -> None:
-    """Beside the samples of earlier blocks."""
+def test_later_blocks_start_from_them_too(problem: PosingProblem, known: Snapshots) -> None:
+    """They use them beside the samples of earlier blocks."""
     wanted = np.vstack([parameters(problem, 16, seed=9), known.parameters[[2, 11, 20, 5]]])
     found = solve_snapshots(problem, wanted, options=SolverOptions(block=4), threads=1, known=known)
     assert max(iterations(found)[16:]) <= 1
 
 
-def test_samples_that_did_not_converge_are_no_starts(problem: PosingProblem) -> None:
+def test_samples_that_did_not_converge_are_not_starts(problem: PosingProblem) -> None:
     """They may be anywhere; a run without them has the same bits."""
     samples, wanted = parameters(problem, 6), parameters(problem, 6, seed=9)
     whole = solve_snapshots(problem, samples, threads=1)
@@ -105,7 +105,7 @@ def test_samples_that_did_not_converge_are_no_starts(problem: PosingProblem) -> 
     )
 
 
-def test_nothing_changes_what_is_known(problem: PosingProblem, known: Snapshots) -> None:
+def test_known_solutions_are_not_changed(problem: PosingProblem, known: Snapshots) -> None:
     shapes, reports = known.shapes.copy(), without_seconds(known)
     solve_snapshots(problem, parameters(problem, 4, seed=9), threads=1, known=known)
     np.testing.assert_array_equal(known.shapes, shapes)
@@ -134,7 +134,7 @@ def test_known_solutions_are_the_same_for_threads_executors_and_interruptions(
 
 
 def test_solutions_of_another_problem_are_refused(known: Snapshots) -> None:
-    """Their shapes may have another size, or be far from what is wanted."""
+    """Their shapes may have another size, or be far from the solutions."""
     other = posing_bar(stiffness=999.0)
     message = "solve_snapshots: the known snapshots are of another problem; `carry_over` makes them"
     with pytest.raises(ValueError, match=re.escape(message)):

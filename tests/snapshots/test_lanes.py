@@ -1,4 +1,4 @@
-"""A sample in single precision sees neither its neighbours nor what its lane did before."""
+"""A sample depends neither on its neighbours nor on earlier samples of its lane."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Bits = tuple[bytes, str, int, int, float, float, float]
 def solve(
     inputs: FloatArray, starts: FloatArray, lanes: int, single: bool, *, threads: int = 1
 ) -> list[Bits]:
-    """All that is known of each sample, less the wall time."""
+    """All results of each sample, except the wall time."""
     batch = PROBLEM.system.solve_fast(
         inputs,
         starts,
@@ -45,7 +45,7 @@ def solve(
     )
     return [
         (
-            # adding zero makes one of the two zeros
+            # adding zero makes -0.0 and 0.0 the same
             (shape + 0.0).tobytes(),
             report.status.name,
             report.iterations,
@@ -60,7 +60,7 @@ def solve(
 
 @pytest.fixture(scope="module")
 def alone() -> dict[bool, list[Bits]]:
-    """Each sample in a pack of its own, in single precision and in double."""
+    """Each sample in its own pack, in single and in double precision."""
     return {
         single: [solve(INPUTS[[k]], STARTS[[k]], 2, single)[0] for k in range(COUNT)]
         for single in (True, False)
@@ -81,11 +81,11 @@ def test_neighbours_threads_and_widths_do_not_change_a_bit(
 
 
 def test_the_paths_differ(alone: Any) -> None:
-    """Without that the tests above and below would mean little."""
+    """Otherwise the tests above and below would mean little."""
     assert len({bits[3] for bits in alone[True]}) > 5
 
 
-#: What ends as not_finite: at once, with an infinite shape, and by a gradient that overflows.
+#: Samples that end as not_finite: at once, with an infinite shape, or by gradient overflow.
 SPOILT = {
     "target": (1e200, 0.0),
     "start": (1.0, 1e12),
@@ -96,7 +96,7 @@ SPOILT = {
 
 
 def spoilt(kind: str) -> tuple[FloatArray, FloatArray]:
-    """Input and start of a sample that is not finite, in one of the two precisions at least."""
+    """Input and start of a sample that is not finite in at least one of the two precisions."""
     factor, size = SPOILT[kind]
     noise = np.random.default_rng(0).normal(size=PROBLEM.base.size)
     return factor * INPUTS[[0]], size * noise[None]
@@ -104,7 +104,7 @@ def spoilt(kind: str) -> tuple[FloatArray, FloatArray]:
 
 @per_width
 @pytest.mark.parametrize("kind", list(SPOILT))
-def test_a_lane_forgets_what_was_not_finite(
+def test_a_lane_forgets_a_sample_that_was_not_finite(
     alone: Any, lanes: int, single: bool, kind: str
 ) -> None:
     """The first samples of all lanes end at once, and the next ones take their lanes."""
@@ -120,10 +120,10 @@ def test_a_lane_forgets_what_was_not_finite(
 
 @pytest.mark.parametrize(("lanes", "single"), [(8, True), (8, False)])
 @pytest.mark.parametrize("kind", list(SPOILT))
-def test_what_was_not_finite_is_told_the_same_in_any_lane(
+def test_a_sample_that_is_not_finite_has_the_same_report_in_any_lane(
     lanes: int, single: bool, kind: str
 ) -> None:
-    """Whatever the lane had solved before."""
+    """The samples that the lane solved before do not matter."""
     w, start = spoilt(kind)
     expected = solve(w, start, lanes, single)[0]
     after = solve(np.vstack([INPUTS, w]), np.vstack([STARTS, start]), lanes, single)[-1]
@@ -132,7 +132,7 @@ def test_what_was_not_finite_is_told_the_same_in_any_lane(
 
 @pytest.mark.parametrize("samples", [7, 20, 30])
 def test_threads_and_executors_do_not_change_a_bit_of_snapshots(samples: int) -> None:
-    """In packs of several widths, with starts from earlier blocks."""
+    """Packs have several widths, and starts come from earlier blocks."""
     problem, options = PROBLEM, SolverOptions(precision="single", block=4)
     assert options.resolved(problem).single
     w = parameters(problem, samples)

@@ -62,10 +62,10 @@ def solve(level: str) -> Any:
 
 
 def test_levels_agree() -> None:
-    """To 1e-6 of the displacement for shapes, which leave F within rounding at tolerance 1e-13.
+    """Shapes agree to 1e-6 of the displacement; F agrees to rounding at tolerance 1e-13.
 
-    Sums run in another order and fused multiply-adds round once less, so bits differ; 1e-6 is what
-    those differences grow to along a path of forty iterations.
+    Sums have another order and fused multiply-adds round once less, so bits differ. Along a path of
+    forty iterations these differences grow to 1e-6.
     """
     levels = _core.available_levels()
     assert _core.level in levels
@@ -90,7 +90,7 @@ def test_levels_agree() -> None:
         )
 
 
-def test_a_level_that_does_not_exist_is_refused_with_those_that_do() -> None:
+def test_an_unknown_level_is_refused_with_the_known_ones() -> None:
     finished = run("from snapspace import ElasticEnergy", "avx")
     assert finished.returncode != 0
     assert finished.stderr.splitlines()[-1] == (
@@ -132,7 +132,7 @@ def test_the_widest_level_is_chosen(
 
 
 def test_a_build_that_is_not_installed_is_not_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Universal macOS wheels and old compilers have the plain build only."""
+    """Universal macOS wheels and old compilers have only the plain build."""
     monkeypatch.setattr(_core, "cpu_level", lambda: 4)
     monkeypatch.setattr(
         "importlib.util.find_spec", lambda name: name if name.endswith("baseline") else None
@@ -141,7 +141,7 @@ def test_a_build_that_is_not_installed_is_not_chosen(monkeypatch: pytest.MonkeyP
 
 
 def test_a_build_of_a_better_processor_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An environment that `make setup` made on one machine, and another machine uses."""
+    """`make setup` made the environment on one machine, and another machine uses it."""
     monkeypatch.setattr(_core, "cpu_level", lambda: 3)
     monkeypatch.setattr(
         "importlib.util.find_spec", lambda name: name if name.endswith("v4") else None

@@ -1,4 +1,4 @@
-"""Threads that share a queue: the bits of one call, each sample back once, and all of them end."""
+"""Threads that share a queue: the bits of one call, each sample once, and all threads end."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ from ..shapes import interpolation_problem
 from .bars import posing_bar
 from .blocks import OPTIONS, Outcome, Work, assert_same_outcomes, outcomes
 
-PATIENCE = 20.0  # seconds until a test that waits for a thread has failed
+PATIENCE = 20.0  # seconds that a test waits for a thread before it fails
 COUNT = 19
 # wide enough for refused steps, restarts and inverted tets: paths differ from sample to sample
 WORK = Work.of(posing_bar(6, 2, 2, bound=0.7), COUNT)
-# hours of work, if it were not cancelled
+# hours of work unless it is cancelled
 ENDLESS = replace(OPTIONS, solver="newton", tolerance=1e-300, max_iterations=10**9)
 
 
@@ -43,7 +43,7 @@ def expected() -> dict[Solver, dict[int, Outcome]]:
 def backend_for(
     problem: Problem, options: ResolvedOptions, *, expected: int, threads: int = 1
 ) -> Iterator[LocalBackend]:
-    """A backend that is closed behind the test, and has no thread left then."""
+    """A backend that is closed after the test, and then has no threads left."""
     before = threading.active_count()
     backend = LocalBackend(problem, options, expected=expected, threads=threads)
     try:
@@ -58,7 +58,7 @@ def submit(backend: LocalBackend, work: Work, samples: list[int]) -> None:
 
 
 def collected(backend: LocalBackend, count: int) -> dict[int, Outcome]:
-    """So many samples, each once."""
+    """Waits for `count` samples, each once."""
     found: dict[int, Outcome] = {}
     end = time.monotonic() + PATIENCE
     while len(found) < count:
@@ -79,7 +79,7 @@ def test_samples_in_any_order_and_portions_have_the_bits_of_one_call(
     threads: int,
     missing: int,
 ) -> None:
-    """Also where it was told of more or fewer samples than come, which is for the threads only."""
+    """The expected number may be wrong; it only determines the number of threads."""
     order = random.Random(seed)
     left, found = order.sample(range(COUNT), COUNT), dict[int, Outcome]()
     options = replace(OPTIONS, solver=solver)
@@ -96,18 +96,18 @@ def test_samples_in_any_order_and_portions_have_the_bits_of_one_call(
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_thread_waits_for_samples_that_come_later(solver: Solver) -> None:
-    """A block may have to wait for another one; all threads are without work meanwhile."""
+    """A block may have to wait for another one, and meanwhile no thread has work."""
     options = replace(OPTIONS, solver=solver)
     with backend_for(WORK.problem, options, expected=COUNT, threads=3) as backend:
         for some in ([4], [2, 9, 11], [0]):
             begin = time.perf_counter()
             assert backend.wait(0.03) == []
-            assert 0.02 < time.perf_counter() - begin < 5.0, "it returns when the time is over"
+            assert 0.02 < time.perf_counter() - begin < 5.0, "it returns after the timeout"
             submit(backend, WORK, some)
             assert sorted(collected(backend, len(some))) == sorted(some)
 
 
-def test_more_threads_than_samples_do_no_harm(
+def test_there_may_be_more_threads_than_samples(
     expected: dict[Solver, dict[int, Outcome]],
 ) -> None:
     with backend_for(WORK.problem, OPTIONS, expected=1, threads=8) as backend:
@@ -131,7 +131,7 @@ def test_cancel_ends_the_solves_soon(solver: Solver) -> None:
     assert all(report.status != "cancelled" for _, report in found.values())
 
 
-def test_what_was_finished_survives_cancel() -> None:
+def test_finished_samples_survive_cancel() -> None:
     with backend_for(WORK.problem, OPTIONS, expected=COUNT) as backend:
         submit(backend, WORK, [1, 2, 3])
         end = time.monotonic() + PATIENCE
@@ -143,7 +143,7 @@ def test_what_was_finished_survives_cancel() -> None:
 
 
 class SlowToCompile(PosingProblem):
-    """Tells how often it was compiled; from Python 3.12 on no cached property has a lock."""
+    """Counts its compilations; from Python 3.12 on cached properties have no lock."""
 
     compiled = 0
 
@@ -157,7 +157,7 @@ class SlowToCompile(PosingProblem):
 
 
 def test_the_problem_is_compiled_once() -> None:
-    """A factor may take minutes and most of the memory; two threads need it first."""
+    """A factor may take minutes and most of the memory, and two threads need it at once."""
     bar = posing_bar(6, 2, 2)
     problem = SlowToCompile(bar.mesh, bar.handles, domain=bar.domain)
     with backend_for(problem, OPTIONS, expected=2) as backend:
@@ -172,17 +172,17 @@ def test_closing_without_any_sample_and_twice_is_fine() -> None:
 
 
 def test_an_error_of_the_solver_reaches_the_caller() -> None:
-    """Nobody would ever answer, and the caller would wait for good."""
+    """Otherwise the caller would wait forever."""
 
     def fail(*_: Any, **__: Any) -> None:
-        raise MemoryError("no room for the pairs")
+        raise MemoryError("no memory for the pairs")
 
     problem: PosingProblem = posing_bar(6, 2, 2)
     system = problem.system
     problem.__dict__["system"] = SimpleNamespace(put=system.put, serve_fast=fail)
     with backend_for(problem, OPTIONS, expected=2) as backend:
         submit(backend, WORK, [0, 1])
-        with pytest.raises(MemoryError, match="no room"):
+        with pytest.raises(MemoryError, match="no memory"):
             for _ in range(100):
                 backend.wait(0.05)
 
@@ -197,10 +197,10 @@ def test_samples_of_another_size_are_refused(inputs: int, starts: int) -> None:
 
 
 @pytest.mark.parametrize("threads", [1, 3])
-def test_slow_samples_go_on_alone_and_come_back_once(
+def test_slow_samples_continue_alone_and_are_returned_once(
     monkeypatch: pytest.MonkeyPatch, threads: int
 ) -> None:
-    """While the others are still solved; the bits are those of one call."""
+    """Others are still being solved; the bits are those of one call."""
     monkeypatch.setattr(solver_traits, "PATIENCE", 17)
     work = Work.of(interpolation_problem(), 9)
     with backend_for(work.problem, OPTIONS, expected=9, threads=threads) as backend:
@@ -213,26 +213,26 @@ def test_slow_samples_go_on_alone_and_come_back_once(
     assert_same_outcomes(found, here)
 
 
-def test_cancel_in_a_second_try_gives_nothing_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A sample that has lost patience is not finished."""
+def test_cancel_in_a_second_try_returns_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sample that has used up its patience is not finished."""
     monkeypatch.setattr(solver_traits, "PATIENCE", 3)
     work = Work.of(interpolation_problem(), 4)
-    begun, go_on = threading.Event(), threading.Event()
+    started, proceed = threading.Event(), threading.Event()
     near = InterpolationProblem._system_near
-    _ = work.problem.system  # which is made by the same method
+    _ = work.problem.system  # the same method makes it
 
     def slow(problem: InterpolationProblem, displacement: Any) -> Any:
-        begun.set()
-        assert go_on.wait(PATIENCE)
+        started.set()
+        assert proceed.wait(PATIENCE)
         return near(problem, displacement)
 
     monkeypatch.setattr(InterpolationProblem, "_system_near", slow)
     with backend_for(work.problem, OPTIONS, expected=4) as backend:
         submit(backend, work, [0, 1, 2, 3])
         end = time.monotonic() + PATIENCE
-        while not begun.is_set():
+        while not started.is_set():
             assert backend.wait(0.02) == [] and time.monotonic() < end
         backend.cancel()
-        go_on.set()
+        proceed.set()
         for _ in range(10):
             assert backend.wait(0.01) == []

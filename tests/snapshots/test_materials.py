@@ -1,4 +1,4 @@
-"""Samples of every material, soft and stiff parts included, by both solvers."""
+"""Samples of every material, also with soft and stiff parts, by both solvers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ KINDS = sorted(set(MATERIALS) - {"symmetric-dirichlet"})
 
 
 def graded(kind: type[Material], problem: PosingProblem) -> PosingProblem:
-    """Four times as stiff at one end as at the other."""
+    """The bar, four times as stiff at one end as at the other."""
     x = problem.mesh.vertices[problem.mesh.tets].mean(axis=1)[:, 0]
     moduli = {name: 1.0 + 3.0 * x / x.max() for name in kind.names()}
     return posing_bar(material=kind(**moduli))
@@ -53,7 +53,7 @@ def test_both_solvers_find_the_same_minimum(kind: str, parts: bool) -> None:
 
 
 @pytest.mark.parametrize("projection", ["stretches", "clamp", "absolute"])
-def test_projections_change_the_way_and_not_the_end(projection: str) -> None:
+def test_projections_change_the_path_and_not_the_minimum(projection: str) -> None:
     problem = posing_bar(material=StVK())
     samples = parameters(problem, 4)
     options = SolverOptions(solver="newton", tolerance=1e-13, projection=projection)  # type: ignore[arg-type]
@@ -71,8 +71,8 @@ def test_workers_know_moduli_of_single_tets(processes: ProcessPoolExecutor) -> N
     assert_same_bits(here, solve_snapshots(problem, samples, executor=processes))
 
 
-def test_another_material_does_not_go_on_from_a_checkpoint() -> None:
-    """Even one with the same moduli: keys hold the whole material."""
+def test_another_material_does_not_resume_from_a_checkpoint() -> None:
+    """Even one with the same moduli does not, because keys contain the whole material."""
     options = SolverOptions(tolerance=1e-6)
     keys = set()
     for material in (StVK(), StableNeoHookean(), StVK(mu=np.ones(192)), StVK(lam=1.0000001)):

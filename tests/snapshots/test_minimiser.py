@@ -1,4 +1,4 @@
-"""Both solvers end at the minimiser of F: against each other, SciPy, and the gradient itself."""
+"""Both solvers find the minimiser of F: compared with each other, SciPy and the gradient."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def samples(problem: PosingProblem) -> FloatArray:
 
 @pytest.fixture(scope="module")
 def minimisers(problem: PosingProblem, samples: FloatArray) -> Snapshots:
-    """Newton's, with no singular value as small as the clamp: its Hessian is the true one."""
+    """Newton's minimisers. No singular value reaches the clamp, so its Hessian is the true one."""
     found = solve_snapshots(problem, samples, options=tight("newton"), threads=1)
     assert found.converged.all()
     assert max(report.inverted_tets for report in found.reports) == 0
@@ -72,7 +72,7 @@ def test_fast_and_newton_agree_for_soft_and_hard_handles(stiffness: float) -> No
 
 @pytest.mark.parametrize("method", ["Newton-CG", "L-BFGS-B"])
 def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str) -> None:
-    """From rest, with F assembled in NumPy by the problem, on none of the solvers' own code."""
+    """SciPy starts at rest, with F assembled in NumPy, and uses no code of the solvers."""
     problem = minimisers.problem
     pull = np.zeros(problem.mesh.vertices.shape)
     pull[problem.pinned] = 2.0 * problem.pin_weights[:, None]
@@ -99,7 +99,7 @@ def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str) -> None
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_no_force_is_left(problem: PosingProblem, samples: FloatArray, solver: Solver) -> None:
-    """Elastic forces and handles balance to 1e-6 of either one, by the problem's own gradient."""
+    """Elastic and handle forces balance to 1e-6 of either, by the problem's own gradient."""
     solved = solve_snapshots(problem, samples, options=tight(solver), threads=1)
     for w, x, report in zip(samples, solved.shapes.T, solved.reports, strict=True):
         value, gradient = problem.value_and_gradient(x, w)
@@ -114,10 +114,10 @@ def test_no_force_is_left(problem: PosingProblem, samples: FloatArray, solver: S
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_tighter_tolerance_is_nearer_to_the_limit(minimisers: Snapshots, solver: Solver) -> None:
-    """And the tolerance is what it says: a bound on the excess of F, relative to F."""
+    """The tolerance bounds the excess of F relative to F."""
     errors = []
     for tolerance in 10.0 ** np.arange(-2, -11, -2):
-        # one block: warm starts would mix the tolerance of other samples in
+        # one block: warm starts would bring in the tolerance of other samples
         options = SolverOptions(solver=solver, tolerance=tolerance, block=8)
         solved = solve_snapshots(
             minimisers.problem, minimisers.parameters, options=options, threads=1
@@ -152,8 +152,8 @@ def test_newton_is_superlinear_near_the_minimum(problem: PosingProblem) -> None:
         assert all(following < d**1.3 for d, following in itertools.pairwise(near)), near
 
 
-def test_nine_decades_cost_newton_few_steps(minimisers: Snapshots) -> None:
-    """Linear convergence at its first rate would need three times the steps; so does L-BFGS."""
+def test_nine_decades_take_newton_few_steps(minimisers: Snapshots) -> None:
+    """Linear convergence at the first rate would take three times the steps, as L-BFGS does."""
     loose = SolverOptions(solver="newton", tolerance=1e-4, block=8)
     tighter = SolverOptions(solver="newton", tolerance=1e-13, block=8)
     few, more = (
@@ -165,7 +165,9 @@ def test_nine_decades_cost_newton_few_steps(minimisers: Snapshots) -> None:
 
 
 @pytest.mark.parametrize("clamp", [0.5, 0.8, 1.0])
-def test_the_clamp_changes_the_path_not_the_end(minimisers: Snapshots, clamp: float) -> None:
+def test_the_clamp_changes_the_path_and_not_the_minimum(
+    minimisers: Snapshots, clamp: float
+) -> None:
     options = SolverOptions(solver="newton", tolerance=1e-13, clamp=clamp)
     solved = solve_snapshots(
         minimisers.problem, minimisers.parameters[:3], options=options, threads=1
@@ -183,9 +185,9 @@ def test_warm_starts_change_iterations_not_energies(minimisers: Snapshots) -> No
         )
         for block in (96, 12)
     )
-    # the first two blocks have none before them that they wait for
+    # the first two blocks wait for no other block
     np.testing.assert_array_equal(cold.shapes[:, :24], warm.shapes[:, :24])
     np.testing.assert_allclose(values(warm), values(cold), rtol=1e-10)
-    # the last three have 27 and more; fewer do not help guesses that are as good as those of a bar
+    # the last three have 27 starts or more; fewer do not improve a bar's good guesses
     iterations = [[r.iterations for r in s.reports[60:]] for s in (cold, warm)]
     assert np.mean(iterations[1]) < 0.97 * np.mean(iterations[0])

@@ -20,8 +20,8 @@ SAMPLES = 3
 every_kind = pytest.mark.parametrize("kind", MATERIALS.values(), ids=lambda kind: kind.kind)
 
 
-def bar_of(kind: type[Material], *, varied: bool = False) -> PosingProblem:
-    """A bar of one material, or with a stiffness of every tet of its own, up to 1 to 10."""
+def material_bar(kind: type[Material], *, varied: bool = False) -> PosingProblem:
+    """A bar of one material, uniform or with random stiffness per tet, in ratios up to 1 : 10."""
     if not varied:
         return posing_bar(material=kind.from_lame(lam=1.5, mu=0.7))
     tets = len(posing_bar().mesh.tets)
@@ -36,7 +36,7 @@ def solved(
     inputs: FloatArray | None = None,
     tolerance: float = 1e-13,
 ) -> core.Batch:
-    """From rest: Newton's method with a projection, or the fast solver."""
+    """Solves from rest, by Newton's method with a projection or by the fast solver."""
     if inputs is None:
         inputs = problem.inputs(parameters(problem, SAMPLES))
     starts = np.zeros((SAMPLES, problem.base.size))
@@ -54,7 +54,7 @@ def solved(
 def test_every_projection_ends_where_the_fast_solver_does(
     kind: type[Material], varied: bool
 ) -> None:
-    problem = bar_of(kind, varied=varied)
+    problem = material_bar(kind, varied=varied)
     fast = solved(problem, None)
     scale = np.abs(fast.shapes).max()
     for projection in PROJECTIONS:
@@ -69,8 +69,8 @@ def test_every_projection_ends_where_the_fast_solver_does(
 
 @every_kind
 def test_no_force_is_left(kind: type[Material]) -> None:
-    """By the gradient of the problem, which is assembled in NumPy and in the order of the mesh."""
-    problem = bar_of(kind, varied=True)
+    """The problem's gradient is assembled in NumPy, in the order of the mesh."""
+    problem = material_bar(kind, varied=True)
     samples = parameters(problem, SAMPLES)
     found = solve_snapshots(problem, samples, options=tight("newton"), threads=1)
     assert found.converged.all()
@@ -83,8 +83,8 @@ def test_no_force_is_left(kind: type[Material]) -> None:
 
 @every_kind
 def test_small_motions_take_few_steps_with_every_projection(kind: type[Material]) -> None:
-    """Near rest little is projected: Newton's method is itself."""
-    problem = bar_of(kind)
+    """Near rest little is projected, and the method is nearly Newton's own."""
+    problem = material_bar(kind)
     inputs = problem.inputs(0.02 * parameters(problem, SAMPLES))
     for projection in PROJECTIONS:
         batch = solved(problem, projection, inputs=inputs, tolerance=1e-10)
@@ -93,8 +93,8 @@ def test_small_motions_take_few_steps_with_every_projection(kind: type[Material]
 
 
 @every_kind
-def test_the_projection_is_the_materials_unless_options_say_another(kind: type[Material]) -> None:
-    problem = bar_of(kind)
+def test_the_default_projection_is_that_of_the_material(kind: type[Material]) -> None:
+    problem = material_bar(kind)
     usual = SolverOptions(solver="newton").resolved(problem).projection
     assert usual == problem.solving.projection
     assert usual == "stretches" or kind is not StVK
@@ -104,6 +104,6 @@ def test_the_projection_is_the_materials_unless_options_say_another(kind: type[M
         assert solve_snapshots(problem, parameters(problem, 1), options=options).converged.all()
 
 
-def test_a_projection_that_there_is_not_is_refused() -> None:
+def test_an_unknown_projection_is_refused() -> None:
     with pytest.raises(ValueError, match="unknown projection 'none'; known are stretches, clamp"):
         SolverOptions(solver="newton", projection="none")  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""A sample that uses up the problem's patience goes on alone, on a factor of its own."""
+"""A sample that uses up the problem's patience continues alone, with its own factor."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def weights(problem: InterpolationProblem, count: int = 9) -> FloatArray:
 def solved(
     problem: InterpolationProblem, samples: FloatArray, *, max_iterations: int = 1000
 ) -> Solution:
-    """The samples from the mean shape."""
+    """The samples, solved from the mean shape."""
     starts = np.repeat((problem.tau - problem.base)[None], len(samples), axis=0)
     options = replace(OPTIONS, tolerance=1e-11, max_iterations=max_iterations)
     return solve_fast(problem, samples, starts, core.SolveControl(), options, threads=1)
@@ -66,7 +66,7 @@ def counted(reports: list[SampleReport]) -> list[tuple[str, int, int, float, flo
 
 
 class Spy:
-    """`system_near`, with the shapes it was called for and the reports of its systems."""
+    """A `system_near` that records the shapes of its calls and the reports of its systems."""
 
     def __init__(self, problem: InterpolationProblem) -> None:
         self._problem = problem
@@ -90,7 +90,7 @@ class Spy:
 @pytest.fixture
 def spy(problem: InterpolationProblem, monkeypatch: pytest.MonkeyPatch) -> Spy:
     watch = Spy(problem)
-    _ = problem.system  # which is made by the same method
+    _ = problem.system  # the same method makes it
     monkeypatch.setattr(InterpolationProblem, "_system_near", lambda _, shape: watch(shape))
     return watch
 
@@ -112,8 +112,8 @@ def test_the_minimum_is_that_of_a_patient_solve(problem: InterpolationProblem) -
 
 
 @pytest.mark.usefixtures("impatient")
-def test_a_report_tells_of_the_whole_way(problem: InterpolationProblem, spy: Spy) -> None:
-    """Each factor is made for the shape reached; iterations and evaluations are added up."""
+def test_a_report_covers_all_tries(problem: InterpolationProblem, spy: Spy) -> None:
+    """Each factor is made for the shape reached; iterations and evaluations are summed."""
     samples = weights(problem)[:1]
     _, (report,) = solved(problem, samples)
     first = solved(problem, samples, max_iterations=PATIENCE)
@@ -143,14 +143,14 @@ def test_a_slow_sample_does_not_see_its_neighbours(problem: InterpolationProblem
     samples = weights(problem)
     shapes, reports = solved(problem, samples)
     for which in ([8, 1, 4, 0], [3], [2, 7]):
-        some, of_some = solved(problem, samples[which])
+        some, some_reports = solved(problem, samples[which])
         np.testing.assert_array_equal(some, shapes[which])
-        assert counted(of_some) == [counted(reports)[k] for k in which]
+        assert counted(some_reports) == [counted(reports)[k] for k in which]
 
 
 @pytest.mark.usefixtures("impatient")
 def test_threads_do_not_change_a_bit(problem: InterpolationProblem) -> None:
-    """And the counts that are shown never go beyond the total."""
+    """The counts that are shown never exceed the total."""
     samples, shown = weights(problem, 14), [0]
     options = SolverOptions(block=9)
 
@@ -166,7 +166,7 @@ def test_threads_do_not_change_a_bit(problem: InterpolationProblem) -> None:
 
 
 def cancelled_after_the_first_try(samples: FloatArray) -> tuple[Solution, Spy]:
-    """Ctrl-C comes when all samples have used up their patience."""
+    """The solution if Ctrl-C comes when all samples have used up their patience."""
     problem, control = interpolation_problem(extrapolation=0.3), core.SolveControl()
     system, spy = problem.system, Spy(problem)
 
@@ -186,7 +186,7 @@ def cancelled_after_the_first_try(samples: FloatArray) -> tuple[Solution, Spy]:
 def test_ctrl_c_cancels_slow_samples_without_another_factor(problem: InterpolationProblem) -> None:
     samples = np.vstack([[0.0, 1.0, 0.0], weights(problem, 4)])
     (_, reports), spy = cancelled_after_the_first_try(samples)
-    # the first starts at its solution, a pose, and is finished
+    # the first sample starts at its solution, a pose, and is finished
     assert [report.status for report in reports] == ["converged", *["cancelled"] * 4]
     assert [report.iterations for report in reports[1:]] == [PATIENCE] * 4
     assert spy.shapes == []
@@ -200,7 +200,7 @@ def test_ctrl_c_during_a_second_try_makes_no_third(
     _ = problem.system
 
     def near(_: InterpolationProblem, displacement: FloatArray) -> Any:
-        if len(spy.shapes) == 1:  # the first slow sample has gone on by one factor
+        if len(spy.shapes) == 1:  # the first slow sample has continued with one factor
             control.cancel()
         return spy(displacement)
 

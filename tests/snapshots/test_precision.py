@@ -1,4 +1,4 @@
-"""Single precision: the shapes of double to less than the tolerance, and as deterministic."""
+"""Single precision: the shapes of double precision to less than the tolerance."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ FloatArray = NDArray[np.float64]
 def solved(
     problem: PosingProblem, samples: FloatArray, precision: Precision, **options: Any
 ) -> Snapshots:
-    """From the rest shape: starts would mix the precision of other samples in.
+    """Solves from the rest shape: other starts would bring in the precision of other samples.
 
-    Without soft modes, whose longer steps part two runs sooner: they have a test of their own.
+    It uses no soft modes, whose longer steps separate two runs sooner; they have their own test.
     """
     given = {"block": len(samples), "precision": precision, "tolerance": 1e-5, "soft_modes": False}
     options = {**given, **options}
@@ -40,7 +40,7 @@ def solved(
 
 
 def distances(a: Snapshots, b: Snapshots) -> FloatArray:
-    """Of shapes, in the M-norm relative to the displacements, (k,)."""
+    """Distances of shapes in the M-norm, relative to the displacements, (k,)."""
     mass, rest = a.problem.mass(), a.problem.base[:, None]
     norms: FloatArray = mass_norms(mass, a.shapes - b.shapes) / mass_norms(mass, b.shapes - rest)
     return norms
@@ -53,9 +53,9 @@ def values(snapshots: Snapshots) -> FloatArray:
 def assert_single_is_good_enough(
     problem: PosingProblem, samples: FloatArray, *, share: float = 1.0
 ) -> None:
-    """A hundredth of what the tolerance leaves of shapes, a tenth of it in F, on the same way.
+    """Shapes differ by a hundredth of the tolerance's error, F by a tenth; paths are the same.
 
-    The first holds for a share of the samples.
+    The bound on shapes holds for a share of the samples.
     """
     single, double = (solved(problem, samples, p) for p in ("single", "double"))  # type: ignore[arg-type]
     limit = solved(problem, samples, "double", tolerance=1e-12)
@@ -67,7 +67,7 @@ def assert_single_is_good_enough(
         assert abs(ours.iterations - theirs.iterations) <= 1
 
 
-# a line search decided by a hair leaves one of the second further apart on some processors
+# a nearly undecided line search separates one sample of the second on some processors
 @pytest.mark.parametrize(("bound", "share"), [(0.05, 1.0), (0.25, 0.9), (0.7, 1.0)])
 def test_bars(bound: float, share: float) -> None:
     problem = posing_bar(bound=bound)
@@ -75,7 +75,7 @@ def test_bars(bound: float, share: float) -> None:
 
 
 def test_with_soft_modes() -> None:
-    """They are kept in single precision for both, and both end in the same shapes."""
+    """Both keep them in single precision, and both end in the same shapes."""
     problem = posing_bar()
     samples = parameters(problem, 16)
     single, double = (solved(problem, samples, p, soft_modes=True) for p in ("single", "double"))  # type: ignore[arg-type]
@@ -85,8 +85,8 @@ def test_with_soft_modes() -> None:
     assert np.abs(values(single) / values(double) - 1.0).max() < 1e-6
 
 
-# softer ones than 10 hardly hold the shape: rounding decides line searches, and shapes differ by as
-# much as the tolerance leaves
+# softer handles than 10 hardly hold the shape: rounding decides line searches, and shapes differ by
+# the error that the tolerance allows
 @pytest.mark.parametrize("stiffness", [10.0, 1e6])
 def test_soft_and_hard_handles(stiffness: float) -> None:
     problem = posing_bar(stiffness=stiffness)
@@ -94,7 +94,7 @@ def test_soft_and_hard_handles(stiffness: float) -> None:
 
 
 def bar_with_a_flat_tet(height: float) -> PosingProblem:
-    """One corner of a tet pressed towards the opposite face, to this share of its height."""
+    """A bar with one corner of a tet pressed to a share of its height over the opposite face."""
     mesh = irregular_bar(8, 2, 2)
     vertices, (corner, *face) = mesh.vertices.copy(), np.roll(mesh.tets[60], -1)
     a, b, c = vertices[face]
@@ -108,17 +108,17 @@ def bar_with_a_flat_tet(height: float) -> PosingProblem:
 
 @pytest.mark.parametrize("height", [1e-2, 1e-4, 1e-5])
 def test_slivers(height: float) -> None:
-    """Edge vectors of a flat tet have their digits, but its inverse is large."""
+    """Edge vectors of a flat tet keep their digits, but the inverse of their matrix is large."""
     problem = bar_with_a_flat_tet(height)
-    # a line search that is decided by a hair leaves one in twelve further apart, in any precision
+    # a nearly undecided line search separates one sample in twelve, in any precision
     assert_single_is_good_enough(problem, parameters(problem, 12), share=0.9)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1e-7, 1e-10])
 def test_tiny_motions(size: float) -> None:
-    """Displacements have all their digits however small they are: rest is where they count from.
+    """Displacements count from rest, so they keep all digits however small they are.
 
-    Strains below 1e-12 are none in either precision.
+    Strains below 1e-12 are zero in either precision.
     """
     problem = posing_bar()
     single, double = (
@@ -132,7 +132,7 @@ def test_tiny_motions(size: float) -> None:
 
 @pytest.mark.parametrize("size", [1e-18, 1e-25, 1e-42, 1e-310])
 def test_motions_that_single_precision_does_not_see(size: float) -> None:
-    """No shape has an energy, and the answer is the guess, which is as small as they are."""
+    """No shape has any energy, and the solution is the guess, which is as small as the motions."""
     problem = posing_bar()
     samples = size * parameters(problem, 4)
     single = solved(problem, samples, "single")
@@ -144,7 +144,7 @@ def test_motions_that_single_precision_does_not_see(size: float) -> None:
 
 
 @pytest.mark.parametrize("scale", [1e-12, 1e-11, 1e-8, 1e-3, 1e6, 1e12])
-def test_units_do_not_matter_or_are_told_of(scale: float) -> None:
+def test_units_do_not_matter_or_are_reported(scale: float) -> None:
     """A copy in other units has the same solutions. Volumes beyond the range must not be silent."""
     here = posing_bar()
     there = PosingProblem(

@@ -1,4 +1,4 @@
-"""A run ends with the same bits whatever finished first, and wherever it was stopped before."""
+"""A run has the same bits whichever sample finishes first and wherever it was stopped."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ any_samples = st.sets(st.integers(0, COUNT - 1))
 
 @pytest.fixture(scope="module")
 def wholes() -> Iterator[dict[Solver, tuple[Snapshots, Checkpoint]]]:
-    """Runs that nothing interrupted, and what they have saved."""
+    """Uninterrupted runs, and their checkpoints."""
     with TemporaryDirectory() as folder:
         checkpoints = {solver: Checkpoint(Path(folder) / solver) for solver in SOLVERS}
         yield {
@@ -65,7 +65,7 @@ def solved(solver: Solver, *, checkpoint: Checkpoint | None = None, threads: int
 
 
 def assert_same_run(found: Snapshots, whole: Snapshots) -> None:
-    """The Gram matrix as well, which the subspace is made of."""
+    """Asserts the same bits, also of the Gram matrix, which the subspace needs."""
     assert_same_bits(found, whole)
     assert found.gram is not None and whole.gram is not None
     np.testing.assert_array_equal(found.gram.matrix, whole.gram.matrix)
@@ -73,7 +73,7 @@ def assert_same_run(found: Snapshots, whole: Snapshots) -> None:
 
 @contextmanager
 def folder_with(whole: Checkpoint, kept: set[int], seed: int) -> Iterator[Checkpoint]:
-    """A checkpoint of some of a run's samples, as if they had been finished in any order."""
+    """A checkpoint of some of a run's samples, as if they had finished in some order."""
     order = random.Random(seed)
     left = order.sample(sorted(kept), len(kept))
     samples = whole.load()
@@ -112,7 +112,7 @@ def test_the_order_of_finishing_does_not_matter(wholes: Wholes, solver: Solver, 
 @per_solver
 @few
 @given(stop=st.integers(0, COUNT - 1), seed=st.integers(0, 2**32))
-def test_ctrl_c_saves_what_is_finished(
+def test_ctrl_c_saves_finished_samples(
     wholes: Wholes, solver: Solver, stop: int, seed: int
 ) -> None:
     def ctrl_c(given: int) -> None:
@@ -122,8 +122,8 @@ def test_ctrl_c_saves_what_is_finished(
     script = Script(seed, ctrl_c)
     with TemporaryDirectory() as folder:
         checkpoint = Checkpoint(Path(folder) / "run")
-        told = f"^{stop} of {COUNT} samples are finished$"
-        with script.plays(), pytest.raises(Interrupted, match=told):
+        message = f"^{stop} of {COUNT} samples are finished$"
+        with script.plays(), pytest.raises(Interrupted, match=message):
             solved(solver, checkpoint=checkpoint)
         assert checkpoint.numbers() == set(script.given)
         assert len(script.given) == stop
@@ -131,11 +131,11 @@ def test_ctrl_c_saves_what_is_finished(
 
 
 class BrokenDisplayError(Exception):
-    """What a progress callable raises."""
+    """The error that a progress callable raises."""
 
 
 @per_solver
-def test_an_error_of_the_display_ends_the_run_and_keeps_what_is_finished(
+def test_an_error_of_the_display_ends_the_run_and_keeps_finished_samples(
     wholes: Wholes, solver: Solver, tmp_path: Path
 ) -> None:
     checkpoint, error, seen = Checkpoint(tmp_path / "run"), BrokenDisplayError(), 0
@@ -143,7 +143,7 @@ def test_an_error_of_the_display_ends_the_run_and_keeps_what_is_finished(
     def display(state: SolveProgress) -> None:
         nonlocal seen
         seen = state.done
-        if seen:  # of at most 16 that are handed out by then
+        if seen:  # at most 16 are submitted by then
             raise error
 
     before = threading.active_count()
@@ -157,7 +157,7 @@ def test_an_error_of_the_display_ends_the_run_and_keeps_what_is_finished(
             checkpoint=checkpoint,
         )
     assert caught.value is error
-    assert threading.active_count() == before, "the solve goes on behind the caller's back"
+    assert threading.active_count() == before, "the solve must not continue after the error"
     assert seen <= len(checkpoint.numbers()) < COUNT
     assert_same_run(solved(solver, checkpoint=checkpoint), wholes[solver][0])
 
@@ -179,5 +179,5 @@ def test_a_finished_run_is_not_solved_again(wholes: Wholes, solver: Solver) -> N
             checkpoint=checkpoint,
         )
     assert_same_run(again, whole)
-    assert again.reports == whole.reports  # down to the seconds they once took
+    assert again.reports == whole.reports  # also the same seconds
     assert [(state.done, state.solved) for state in states] == [(COUNT, 0)]

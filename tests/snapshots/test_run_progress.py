@@ -1,4 +1,4 @@
-"""What a run tells of itself: never backwards, and the error that unseen samples really have."""
+"""Progress of a run: it never decreases, and reports the true error of unseen samples."""
 
 from __future__ import annotations
 
@@ -33,14 +33,14 @@ PROBLEMS = {"posing": posing_bar(bound=0.7), "interpolation": interpolation_prob
 both = pytest.mark.parametrize("kind", list(PROBLEMS))
 
 
-def told(
+def run_with_progress(
     problem: Problem,
     samples: FloatArray,
     options: SolverOptions,
     *,
     checkpoint: Checkpoint | None = None,
 ) -> tuple[Snapshots, list[SolveProgress]]:
-    """A run with one sample at a time in an order of its own, and what it told."""
+    """A run that finishes one sample at a time in a random order, and its progress."""
     states: list[SolveProgress] = []
     with Script(seed=5).plays():
         found = solve_snapshots(
@@ -49,9 +49,11 @@ def told(
     return found, states
 
 
-def test_it_counts_and_never_goes_backwards() -> None:
+def test_progress_counts_and_never_decreases() -> None:
     problem = PROBLEMS["posing"]
-    _, states = told(problem, sample(problem.domain, 22, seed=3), SolverOptions(block=4))
+    _, states = run_with_progress(
+        problem, sample(problem.domain, 22, seed=3), SolverOptions(block=4)
+    )
     assert [state.done for state in states] == list(range(23))
     assert {state.total for state in states} == {22}
     seconds = [state.seconds for state in states]
@@ -65,16 +67,16 @@ def test_it_counts_and_never_goes_backwards() -> None:
     assert states[-1].eta == 0.0
 
 
-def test_what_was_there_before_is_done_but_not_solved(tmp_path: Path) -> None:
-    """It would make the rate, and the time that is left, look better than they are."""
+def test_samples_of_a_checkpoint_are_done_but_not_solved(tmp_path: Path) -> None:
+    """As solved samples they would make the rate and the time left look better than they are."""
     problem = PROBLEMS["posing"]
     samples, options = sample(problem.domain, 12, seed=3), SolverOptions(block=4)
     whole, found = Checkpoint(tmp_path / "whole"), Checkpoint(tmp_path / "run")
-    told(problem, samples, options, checkpoint=whole)
+    run_with_progress(problem, samples, options, checkpoint=whole)
     rows = whole.load()
     kept = [1, 3, 4, 8, 9]
     found.save(kept, [rows[i][0] for i in kept], [rows[i][1] for i in kept])
-    _, states = told(problem, samples, options, checkpoint=found)
+    _, states = run_with_progress(problem, samples, options, checkpoint=found)
     assert [(state.done, state.solved) for state in states] == [(5 + k, k) for k in range(8)]
     assert states[0].eta is None
     last = states[-1]
@@ -84,7 +86,7 @@ def test_what_was_there_before_is_done_but_not_solved(tmp_path: Path) -> None:
 def projection_error(
     problem: Problem, snapshots: Snapshots, before: int, stop: int
 ) -> float | None:
-    """Median error of samples in the best subspace of those before them, by dense shapes alone."""
+    """Median error of samples in the best subspace of all earlier ones, from dense shapes alone."""
     good = snapshots.converged
     known = solutions_beyond_tau(problem)[1].T
     # in these coordinates the M-norm is the Euclidean one
@@ -102,11 +104,11 @@ def projection_error(
 
 @both
 def test_the_error_of_unseen_samples_is_that_of_their_projection(kind: str) -> None:
-    """Of each block on all before it; with the last one on more samples than dimensions."""
+    """Each block is projected onto all before it; the last one has more samples than dimensions."""
     problem = PROBLEMS[kind]
-    # blocks that wait for each other, so that each one is told of
+    # blocks that wait for each other, so that each one is reported
     options = SolverOptions(solver="newton", block=16)
-    found, states = told(problem, sample(problem.domain, 63, seed=3), options)
+    found, states = run_with_progress(problem, sample(problem.domain, 63, seed=3), options)
     errors = list(dict.fromkeys(state.held_out_error for state in states))
     expected = [projection_error(problem, found, k, min(k + 16, 63)) for k in range(0, 64, 16)]
     assert len(found) - 16 > DIMENSION
@@ -115,7 +117,7 @@ def test_the_error_of_unseen_samples_is_that_of_their_projection(kind: str) -> N
         errors, expected = errors[1:], expected[1:]
     else:
         assert errors.pop(0) is None, "no block is finished"
-    # it comes from differences of squares, which have half the digits
+    # errors are differences of squares, which have half the digits
     np.testing.assert_allclose(
         np.array(errors, float), np.array(expected, float), rtol=1e-5, atol=1e-6
     )
@@ -124,10 +126,10 @@ def test_the_error_of_unseen_samples_is_that_of_their_projection(kind: str) -> N
 
 
 def test_only_converged_samples_count() -> None:
-    """Neither as training nor as unseen ones, as in `snapshot_pca`."""
+    """Others are neither training nor unseen samples, as in `snapshot_pca`."""
     problem = PROBLEMS["posing"]
     options = SolverOptions(solver="newton", block=8, max_iterations=5)
-    found, states = told(problem, sample(problem.domain, 24, seed=3), options)
+    found, states = run_with_progress(problem, sample(problem.domain, 24, seed=3), options)
     good = found.converged
     assert all(0 < part.sum() < 8 for part in np.split(good, 3))
     assert states[-1].held_out_error == pytest.approx(
@@ -138,5 +140,5 @@ def test_only_converged_samples_count() -> None:
 def test_a_block_without_any_converged_sample_has_no_error() -> None:
     problem = PROBLEMS["posing"]
     options = SolverOptions(block=4, max_iterations=1)
-    _, states = told(problem, sample(problem.domain, 12, seed=3), options)
+    _, states = run_with_progress(problem, sample(problem.domain, 12, seed=3), options)
     assert {state.held_out_error for state in states} == {None}

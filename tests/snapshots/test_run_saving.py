@@ -1,4 +1,4 @@
-"""What is finished leaves the memory for the disk, or stays there if the disk has no room."""
+"""Finished samples move from memory to disk, or stay in memory if the disk is full."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SAMPLES = parameters(PROBLEM, COUNT)
 
 
 class FullDisk(Checkpoint):
-    """Fails to save for a while."""
+    """A checkpoint that fails to save a number of times."""
 
     def __init__(self, folder: Path, *, failures: int) -> None:
         super().__init__(folder)
@@ -63,7 +63,7 @@ def solved(checkpoint: Checkpoint | None) -> Snapshots:
     )
 
 
-def test_what_cannot_be_saved_is_saved_later(whole: Snapshots, tmp_path: Path) -> None:
+def test_samples_that_cannot_be_saved_are_saved_later(whole: Snapshots, tmp_path: Path) -> None:
     checkpoint = FullDisk(tmp_path / "run", failures=2)
     with (
         Script().plays(),
@@ -78,9 +78,7 @@ def test_what_cannot_be_saved_is_saved_later(whole: Snapshots, tmp_path: Path) -
         np.testing.assert_array_equal(displacement, whole.displacements[index])
 
 
-def test_a_disk_that_stays_full_costs_nothing_but_the_checkpoint(
-    whole: Snapshots, tmp_path: Path
-) -> None:
+def test_a_disk_that_stays_full_costs_only_the_checkpoint(whole: Snapshots, tmp_path: Path) -> None:
     checkpoint = FullDisk(tmp_path / "run", failures=1000)
     with Script().plays(), pytest.warns(CheckpointNotice):
         found = solved(checkpoint)
@@ -89,7 +87,7 @@ def test_a_disk_that_stays_full_costs_nothing_but_the_checkpoint(
 
 
 def test_a_full_disk_is_tried_again_block_by_block(tmp_path: Path) -> None:
-    """Not for every sample: each attempt writes all that is not saved, and each has a notice."""
+    """Each attempt writes all unsaved samples and gives a notice, so samples do not try alone."""
     checkpoint = FullDisk(tmp_path / "run", failures=1000)
     with Script().plays(), pytest.warns(CheckpointNotice) as notices:
         solved(checkpoint)
@@ -110,17 +108,19 @@ def test_ctrl_c_on_a_full_disk_is_still_ctrl_c(whole: Snapshots, tmp_path: Path)
 
 @pytest.mark.parametrize("seed", range(3))
 def test_saved_samples_leave_the_memory(whole: Snapshots, tmp_path: Path, seed: int) -> None:
-    """They may take more room than there is: what is left of them is mapped from the files."""
+    """They may exceed the memory; later accesses map them from the files."""
     script = Script(seed)
     with script.plays():
         found = solved(Checkpoint(tmp_path / "run"))
     gc.collect()
-    held = [i for i, array in zip(script.given, script.arrays, strict=True) if array() is not None]
-    assert held == []
+    in_memory = [
+        i for i, array in zip(script.given, script.arrays, strict=True) if array() is not None
+    ]
+    assert in_memory == []
     assert_same_bits(found, whole)
 
 
-def test_without_a_checkpoint_they_are_kept_once(whole: Snapshots) -> None:
+def test_without_a_checkpoint_samples_are_kept_once(whole: Snapshots) -> None:
     script = Script()
     with script.plays():
         found = solved(None)

@@ -1,4 +1,4 @@
-"""Files of samples: plain safetensors, mapped, and never believed when a single bit has changed."""
+"""Files of samples: plain safetensors, memory-mapped, and refused if a single bit has changed."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def written(folder: Path) -> Path:
     return path
 
 
-def test_everything_comes_back_bit_by_bit(tmp_path: Path) -> None:
+def test_everything_is_read_again_bit_by_bit(tmp_path: Path) -> None:
     path = written(tmp_path)
     assert read_indices(path) == INDICES
     found = read_samples(path)
@@ -46,7 +46,7 @@ def test_any_reader_of_safetensors_reads_it(tmp_path: Path) -> None:
 
 
 def test_rows_are_views_of_the_file(tmp_path: Path) -> None:
-    """Reading the rows makes no copy: a change in the file is seen, and cannot come from here."""
+    """Reading makes no copy: rows show changes of the file, and are read-only."""
     path = written(tmp_path)
     row = read_samples(path)[11][0]
     assert type(row) is np.ndarray
@@ -78,8 +78,8 @@ def test_any_changed_bit_is_noticed(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = written(Path(folder))
         content = bytearray(path.read_bytes())
-        place = data.draw(st.integers(0, 8 * len(content) - 1))
-        content[place // 8] ^= 1 << place % 8
+        position = data.draw(st.integers(0, 8 * len(content) - 1))
+        content[position // 8] ^= 1 << position % 8
         path.write_bytes(content)
         with pytest.raises(ValueError):
             read_samples(path)
@@ -87,7 +87,7 @@ def test_any_changed_bit_is_noticed(data: st.DataObject) -> None:
 
 @settings(max_examples=50)
 @given(data=st.data())
-def test_any_missing_or_further_byte_is_noticed(data: st.DataObject) -> None:
+def test_any_missing_or_additional_byte_is_noticed(data: st.DataObject) -> None:
     with tempfile.TemporaryDirectory() as folder:
         path = written(Path(folder))
         content = path.read_bytes()

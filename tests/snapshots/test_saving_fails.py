@@ -1,4 +1,4 @@
-"""Disks fill up and processes die: what was saved stays, and what could not be is handed back."""
+"""Disks fill up and processes die: saved samples stay, and unsaved ones are returned."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from snapspace.snapshots import UnsavedSamplesError
 from .samples import displacements, report
 
 SIZE = 3000
-#: Saves ever more samples, each full of its own number, until it is killed.
+#: Saves more and more samples, each filled with its own number, until it is killed.
 SAVING = """
 import itertools, sys
 import numpy as np
@@ -39,7 +39,7 @@ def save(checkpoint: Checkpoint, first: int, count: int) -> list[np.ndarray]:
 
 @contextmanager
 def largest_file(size: int) -> Iterator[None]:
-    """As if the disk were full: no file of this process may grow beyond so many bytes."""
+    """Simulates a full disk: no file of this process may grow beyond `size` bytes."""
     resource = pytest.importorskip("resource")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
@@ -49,12 +49,12 @@ def largest_file(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-@pytest.mark.parametrize("room", [0, 100, 50_000])
-def test_a_full_disk_loses_nothing(tmp_path: Path, room: int) -> None:
+@pytest.mark.parametrize("size", [0, 100, 50_000])
+def test_a_full_disk_loses_nothing(tmp_path: Path, size: int) -> None:
     checkpoint = Checkpoint(tmp_path / "run")
     save(checkpoint, 0, 3)
     with (
-        largest_file(room),
+        largest_file(size),
         pytest.raises(
             UnsavedSamplesError,
             match=r"run: 4 finished samples, 0\.1 MB, are not saved: cannot be written: .*; 3 "
@@ -76,7 +76,7 @@ def test_a_full_disk_loses_nothing(tmp_path: Path, room: int) -> None:
 
 
 def test_the_folder_is_loadable_after_a_kill(tmp_path: Path) -> None:
-    """Wherever it falls; a notice of a damaged file would fail the test."""
+    """It is loadable whenever the kill comes; a notice of a damaged file would fail the test."""
     for delay in (0.0, 0.03):
         checkpoint = Checkpoint(tmp_path / str(delay))
         process = subprocess.Popen([sys.executable, "-c", SAVING, checkpoint.folder])
@@ -94,7 +94,7 @@ def test_the_folder_is_loadable_after_a_kill(tmp_path: Path) -> None:
         assert not checkpoint.folder.exists()
 
 
-def test_what_is_saved_can_take_the_place_of_what_was_computed(tmp_path: Path) -> None:
+def test_saved_rows_can_replace_the_computed_ones(tmp_path: Path) -> None:
     checkpoint = Checkpoint(tmp_path / "run")
     rows = save(checkpoint, 0, 5)
     np.testing.assert_array_equal(rows, displacements(5, SIZE, seed=0))
@@ -110,7 +110,7 @@ def test_rows_outlive_their_folder(tmp_path: Path) -> None:
     np.testing.assert_array_equal(rows.array(), displacements(5, SIZE, seed=0))
 
 
-def test_numbers_are_those_of_whole_files(tmp_path: Path) -> None:
+def test_numbers_are_those_of_complete_files(tmp_path: Path) -> None:
     checkpoint = Checkpoint(tmp_path / "run")
     assert checkpoint.numbers() == set()
     save(checkpoint, 0, 3)

@@ -1,4 +1,4 @@
-"""Blocks partition the samples, and what they start from does not depend on who is quicker."""
+"""Blocks partition the samples, and their starts do not depend on which samples finish first."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ SCHEDULES = st.builds(Schedule, st.integers(1, 200), block=st.integers(1, 40), s
 SEEDS = st.integers(0, 2**32)
 
 
-def evaluations_of(schedule: Schedule, rng: Random) -> dict[int, int]:
-    """What the samples need: few different numbers, so that many are equal."""
+def random_evaluations(schedule: Schedule, rng: Random) -> dict[int, int]:
+    """Evaluations that the samples need, from few different numbers, so that many are equal."""
     return {i: rng.randint(1, 6) for i in range(schedule.count)}
 
 
@@ -29,21 +29,21 @@ def test_every_sample_is_in_one_block(schedule: Schedule) -> None:
 
 @given(SCHEDULES)
 def test_starts_come_from_earlier_blocks(schedule: Schedule) -> None:
-    """From the first ones: whether they are finished is a matter of one number."""
+    """They are the first blocks, so one number says whether they are finished."""
     for index in range(len(schedule)):
         before = schedule.before(index)
         assert before == range(len(before)) and len(before) <= index
 
 
 @given(SCHEDULES)
-def test_later_blocks_know_no_less(schedule: Schedule) -> None:
+def test_later_blocks_start_from_no_fewer(schedule: Schedule) -> None:
     known = [len(schedule.before(index)) for index in range(len(schedule))]
     assert known == sorted(known)
 
 
 @given(SCHEDULES)
-def test_a_block_knows_three_quarters_of_those_before_it_or_all(schedule: Schedule) -> None:
-    """More would wait for slow samples, less would leave early blocks without starts."""
+def test_a_block_starts_from_three_quarters_of_those_before_it_or_all(schedule: Schedule) -> None:
+    """More would have to wait for slow samples; fewer would leave early blocks without starts."""
     for index in range(len(schedule)):
         known, size = len(schedule.before(index)), len(schedule.samples(index))
         if schedule.strict:
@@ -58,7 +58,7 @@ def test_a_block_knows_three_quarters_of_those_before_it_or_all(schedule: Schedu
 def test_the_quick_samples_of_a_block_are_those_with_the_fewest_evaluations(
     schedule: Schedule, seed: int
 ) -> None:
-    needed = evaluations_of(schedule, Random(seed))
+    needed = random_evaluations(schedule, Random(seed))
     for index in range(len(schedule)):
         quick = schedule.quick(index, needed, {})
         assert quick is not None and len(quick) == schedule.waited_for(index)
@@ -69,27 +69,27 @@ def test_the_quick_samples_of_a_block_are_those_with_the_fewest_evaluations(
 
 
 @given(SCHEDULES, SEEDS)
-def test_which_are_quick_does_not_depend_on_how_far_the_others_are(
+def test_the_quick_samples_do_not_depend_on_the_progress_of_the_others(
     schedule: Schedule, seed: int
 ) -> None:
-    """Told too early, the starts of a block would be another matter of chance."""
+    """If they were chosen too early, the starts of a block would be random."""
     rng = Random(seed)
-    needed = evaluations_of(schedule, rng)
+    needed = random_evaluations(schedule, rng)
     index = rng.randrange(len(schedule))
     expected = schedule.quick(index, needed, {})
     block = schedule.samples(index)
     for _ in range(5):
         finished = {i: needed[i] for i in block if rng.random() < 0.8}
-        # a sample tells of fewer evaluations than it needs, or of none, in a queue or elsewhere
-        told = {i: rng.randint(0, needed[i]) for i in block if i not in finished}
-        running = {i: count for i, count in told.items() if rng.random() < 0.8}
+        # a running sample reports fewer evaluations than it needs, or none, as in a queue
+        so_far = {i: rng.randint(0, needed[i]) for i in block if i not in finished}
+        running = {i: count for i, count in so_far.items() if rng.random() < 0.8}
         assert schedule.quick(index, finished, running) in (None, expected)
 
 
 @given(st.integers(4, 60), SEEDS)
-def test_nobody_waits_for_a_sample_that_is_slow_for_certain(block: int, seed: int) -> None:
+def test_no_block_waits_for_a_sample_that_is_certainly_slow(block: int, seed: int) -> None:
     schedule = Schedule(block, block, strict=False)
-    needed = evaluations_of(schedule, Random(seed))
+    needed = random_evaluations(schedule, Random(seed))
     quick = schedule.quick(0, needed, {})
     assert quick is not None
     most = max(needed[i] for i in quick)
@@ -101,21 +101,21 @@ def test_nobody_waits_for_a_sample_that_is_slow_for_certain(block: int, seed: in
 
 
 @given(SCHEDULES, SEEDS)
-def test_whatever_finishes_first_all_blocks_get_their_turn(schedule: Schedule, seed: int) -> None:
-    """Handed out in order, as soon as it is known what they start from."""
+def test_all_blocks_are_submitted_whatever_finishes_first(schedule: Schedule, seed: int) -> None:
+    """Blocks are submitted in order, as soon as their starts are known."""
     rng = Random(seed)
-    needed = evaluations_of(schedule, rng)
+    needed = random_evaluations(schedule, rng)
     finished: dict[int, int] = {}
-    handed = known = 0
+    submitted = known = 0
     while len(finished) < schedule.count:
-        while handed < len(schedule) and known >= len(schedule.before(handed)):
-            handed += 1
-        under_way = [
-            i for i in range(min(handed * schedule.block, schedule.count)) if i not in finished
+        while submitted < len(schedule) and known >= len(schedule.before(submitted)):
+            submitted += 1
+        running = [
+            i for i in range(min(submitted * schedule.block, schedule.count)) if i not in finished
         ]
-        assert under_way, "nobody has anything to do, but samples are left"
-        for i in rng.sample(under_way, rng.randint(1, len(under_way))):
+        assert running, "nothing is running, but samples are left"
+        for i in rng.sample(running, rng.randint(1, len(running))):
             finished[i] = needed[i]
         while known < len(schedule) and schedule.quick(known, finished, {}) is not None:
             known += 1
-    assert handed == len(schedule)
+    assert submitted == len(schedule)

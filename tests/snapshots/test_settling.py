@@ -1,4 +1,4 @@
-"""The stopping test that looks at shapes: what it leaves, and that it does not see the mesh."""
+"""The stopping test on shapes: the error that it leaves, and its cost on finer meshes."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ SAMPLES = 24
 
 
 def solved(problem: PosingProblem, **options: Any) -> Snapshots:
-    """From rest, so that samples do not help each other."""
+    """Solves all samples from rest, so that they do not help each other."""
     samples = sample(problem.domain, SAMPLES, method="sobol", seed=3)
-    how = SolverOptions(block=SAMPLES, **options)
-    return solve_snapshots(problem, samples, options=how, threads=1)
+    solver = SolverOptions(block=SAMPLES, **options)
+    return solve_snapshots(problem, samples, options=solver, threads=1)
 
 
 def errors(snapshots: Snapshots, limit: Snapshots) -> NDArray[np.float64]:
-    """In the M-norm, relative to the displacement."""
+    """Errors in the M-norm, relative to the displacement."""
     mass, rest = limit.problem.mass(), limit.problem.base[:, None]
     misses: NDArray[np.float64] = mass_norms(mass, snapshots.shapes - limit.shapes)
     return misses / mass_norms(mass, limit.shapes - rest)
@@ -43,9 +43,9 @@ def small() -> PosingProblem:
     return posing_creature(5_000)
 
 
-def test_it_bounds_what_is_left(small: PosingProblem) -> None:
-    """Each direction is an estimate of the distance. Soft shapes are further than that, by a factor
-    that does not depend on the test, and a tighter test leaves less."""
+def test_settling_bounds_the_error(small: PosingProblem) -> None:
+    """Each direction estimates the distance. Soft shapes are further away, by a factor that does
+    not depend on the test, and a tighter test leaves a smaller error."""
     limit = solved(small, tolerance=1e-12)
     settlings = np.array([0.01, 0.003, 0.001])
     left = np.array([np.median(errors(solved(small, settling=s), limit)) for s in settlings])
@@ -53,8 +53,8 @@ def test_it_bounds_what_is_left(small: PosingProblem) -> None:
     assert (left < 6.0 * settlings).all()
 
 
-def test_its_cost_sees_less_of_the_mesh(small: PosingProblem) -> None:
-    """The energy of a finer mesh goes on falling when its shape has settled."""
+def test_the_cost_of_settling_depends_less_on_the_mesh(small: PosingProblem) -> None:
+    """The energy of a finer mesh continues to fall after its shape has settled."""
     large = posing_creature(30_000)
     settled, by_energy = (
         evaluations(solved(large, **how)) / evaluations(solved(small, **how))
@@ -63,15 +63,15 @@ def test_its_cost_sees_less_of_the_mesh(small: PosingProblem) -> None:
     assert settled < 0.95 * by_energy
 
 
-def test_a_tolerance_alone_decides_by_the_energy(small: PosingProblem) -> None:
-    """The tight test on request: not a bit differs from a run that knows of no other test."""
+def test_a_tolerance_alone_tests_only_the_energy(small: PosingProblem) -> None:
+    """A run with a given tolerance has the same bits as one without the other test."""
     assert SolverOptions(tolerance=1e-7).resolved(small).settling == 0.0
     given, never = solved(small, tolerance=1e-7), solved(small, tolerance=1e-7, settling=0.0)
     assert np.array_equal(given.shapes, never.shapes)
 
 
 def test_samples_at_rest_are_done_at_once(small: PosingProblem) -> None:
-    """No displacement has no share."""
+    """A share of no displacement is zero."""
     at_rest = solve_snapshots(small, np.zeros((3, 6)), threads=1)
     assert at_rest.converged.all()
     assert evaluations(at_rest) <= 2
@@ -86,7 +86,7 @@ def test_both_tests_may_be_given(small: PosingProblem) -> None:
     )
 
 
-def test_newton_knows_only_the_tolerance(small: PosingProblem) -> None:
+def test_newton_uses_only_the_tolerance(small: PosingProblem) -> None:
     resolved = SolverOptions(solver="newton").resolved(small)
     assert resolved.settling == 0.0
     assert resolved.tolerance == small.solving.tolerance > SETTLED_TOLERANCE
@@ -98,8 +98,8 @@ def test_bad_settling(bad: float) -> None:
         SolverOptions(settling=bad)
 
 
-def test_nobody_waits_long_for_the_slowest(small: PosingProblem) -> None:
-    """The share grows with the iterations: a few samples would crawl along flat valleys."""
+def test_a_run_does_not_wait_long_for_the_slowest(small: PosingProblem) -> None:
+    """The share grows with the iterations, because a few samples crawl along flat valleys."""
     counts = [
         report.evaluations for report in solved(small, settling=3e-4, soft_modes=False).reports
     ]

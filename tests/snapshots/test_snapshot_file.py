@@ -1,4 +1,4 @@
-"""Files of snapshots come back bit by bit, for the same problem, and undamaged or not at all."""
+"""Files of snapshots are read bit by bit, for the same problem, and refused if damaged."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def written(snapshots: Snapshots, folder: Path) -> Path:
     return save_snapshots(snapshots.select(np.arange(60) < 4), folder / "bar.samples")
 
 
-def test_everything_comes_back(posing_snapshots: Snapshots, tmp_path: Path) -> None:
+def test_everything_is_read_again(posing_snapshots: Snapshots, tmp_path: Path) -> None:
     path = written(posing_snapshots, tmp_path)
     found, few = load_snapshots(path, posing_snapshots.problem), np.arange(60) < 4
     np.testing.assert_array_equal(found.parameters, posing_snapshots.parameters[few])
@@ -34,10 +34,10 @@ def test_everything_comes_back(posing_snapshots: Snapshots, tmp_path: Path) -> N
 
 
 @pytest.mark.parametrize("name", ["posing_model", "blending_model"])
-def test_they_judge_a_model_that_was_loaded(
+def test_loaded_snapshots_judge_a_loaded_model(
     name: str, request: pytest.FixtureRequest, tmp_path: Path
 ) -> None:
-    """Also where the mean shape, that displacements count from, was loaded with the model."""
+    """That works even if the mean shape, from which displacements count, was loaded too."""
     model: PosingModel | InterpolationModel = request.getfixturevalue(name)
     checked = validate(model, samples=3, threads=1)
     path = save_snapshots(checked.reference, tmp_path / "reference.samples")
@@ -54,11 +54,13 @@ def test_samples_of_another_problem_are_refused(
         load_snapshots(path, blending_model.problem)
 
 
-@pytest.mark.parametrize("place", [40, 300, -9])
-def test_a_damaged_file_is_refused(posing_snapshots: Snapshots, tmp_path: Path, place: int) -> None:
+@pytest.mark.parametrize("position", [40, 300, -9])
+def test_a_damaged_file_is_refused(
+    posing_snapshots: Snapshots, tmp_path: Path, position: int
+) -> None:
     path = written(posing_snapshots, tmp_path)
     content = bytearray(path.read_bytes())
-    content[place] ^= 1
+    content[position] ^= 1
     path.write_bytes(content)
     with pytest.raises(ValueError, match=r"bar\.samples: (not a|its content has changed)"):
         load_snapshots(path, posing_snapshots.problem)

@@ -25,7 +25,9 @@ def from_before() -> Snapshots:
     return carry_over(before, PROBLEM)
 
 
-def test_joined_are_the_samples_of_both_in_order(fresh: Snapshots, from_before: Snapshots) -> None:
+def test_joined_snapshots_have_the_samples_of_both_in_order(
+    fresh: Snapshots, from_before: Snapshots
+) -> None:
     both = fresh.joined(from_before)
     assert len(both) == 7 and both.problem is PROBLEM
     for part, samples in ((fresh, np.arange(7) < 4), (from_before, np.arange(7) >= 4)):
@@ -43,7 +45,7 @@ def test_samples_of_another_problem_are_not_joined(fresh: Snapshots) -> None:
     assert "\n" not in str(caught.value)
 
 
-def test_carried_ones_are_usable_but_not_converged(
+def test_carried_snapshots_are_usable_but_not_converged(
     fresh: Snapshots, from_before: Snapshots
 ) -> None:
     both = fresh.joined(from_before)
@@ -51,14 +53,16 @@ def test_carried_ones_are_usable_but_not_converged(
     assert both.usable.all()
 
 
-def test_carried_ones_are_part_of_the_basis(fresh: Snapshots, from_before: Snapshots) -> None:
+def test_carried_snapshots_are_part_of_the_basis(fresh: Snapshots, from_before: Snapshots) -> None:
     both = fresh.joined(from_before)
     subspace = snapshot_pca(both, dimension=7)
     again = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(both.shapes)
     np.testing.assert_allclose(again, both.shapes, rtol=0, atol=1e-9)
 
 
-def test_the_summary_tells_carried_ones_apart(fresh: Snapshots, from_before: Snapshots) -> None:
+def test_the_summary_counts_carried_snapshots_separately(
+    fresh: Snapshots, from_before: Snapshots
+) -> None:
     """They neither failed to converge nor took iterations."""
     both = fresh.joined(from_before)
     mean = np.mean([report.iterations for report in fresh.reports])

@@ -1,4 +1,4 @@
-"""Soft modes: those of the Hessian at rest against the factor, and what L-BFGS gains by them."""
+"""Soft modes: the lowest of the Hessian at rest relative to the factor, and their gain."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .effort import evaluations
 
 FloatArray = NDArray[np.float64]
 
-#: What the core multiplies eigenvalues with: solutions are stiffer than the rest shape.
+#: The core's factor of eigenvalues, because solutions are stiffer than the rest shape.
 STIFFENING = 40.0
 
 
@@ -39,7 +39,7 @@ def small() -> PosingProblem:
 
 @pytest.fixture(scope="module")
 def matrices(small: PosingProblem) -> tuple[FloatArray, FloatArray]:
-    """Hessian at rest and scalar matrix, dense, made in other ways than the core's."""
+    """Hessian at rest and scalar matrix, dense, computed independently of the core."""
     size = small.base.size
     inverse = np.array([small.system.precondition(unit) for unit in np.eye(size)])
     handles = np.zeros(size)
@@ -100,7 +100,7 @@ def test_fewer_evaluations_leave_smaller_errors() -> None:
         return solve_snapshots(problem, samples, options=SolverOptions(block=24, **options))
 
     def error(snapshots: Snapshots) -> float:
-        # the same minimum from both, or the comparison says nothing
+        # only samples with the same minimum from both can be compared
         limits = [solved(tolerance=1e-10, soft_modes=soft).shapes for soft in (True, False)]
         same = mass_norms(mass, limits[0] - limits[1]) < 1e-3 * np.sqrt(problem.mesh.volume)
         assert same.sum() > 12
@@ -112,7 +112,7 @@ def test_fewer_evaluations_leave_smaller_errors() -> None:
     assert error(soft) < error(plain)
 
 
-def test_a_mesh_with_fewer_unknowns_than_a_block_has_none() -> None:
+def test_a_mesh_with_fewer_unknowns_than_a_block_has_no_modes() -> None:
     mesh = TetMesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2, 3]])
     handles = Handles([[0, 1, 2], [3]])
     problem = PosingProblem(mesh, handles, domain=HandleBox(translation=0.1, angle=0.1))
@@ -134,7 +134,7 @@ def test_modes_of_another_mesh_are_refused(small: PosingProblem) -> None:
         )
 
 
-def test_without_modes_a_fifth_of_the_settling_is_asked(small: PosingProblem) -> None:
+def test_without_modes_settling_is_a_fifth(small: PosingProblem) -> None:
     softened = SolverOptions().resolved(small)
     plain = SolverOptions(soft_modes=False).resolved(small)
     assert softened.modes_of(small) is not None

@@ -1,4 +1,4 @@
-"""Guesses from known samples."""
+"""Starts interpolated from known samples."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from .bars import parameters, posing_bar
 FloatArray = NDArray[np.float64]
 
 
-def rows_of(shapes: FloatArray) -> DisplacementRows:
+def as_rows(shapes: FloatArray) -> DisplacementRows:
     return DisplacementRows(shapes, shapes.shape[1])
 
 
-def test_nearest_takes_the_nearest() -> None:
+def test_a_nearest_start_is_the_nearest_sample() -> None:
     known = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
     shapes = np.arange(12.0).reshape(3, 4)
     wanted = np.array([[0.9, 0.2], [0.1, 0.2], [0.4, 0.6], [0.0, 0.0]])
-    found = nearest_start(known, rows_of(shapes), wanted)
+    found = nearest_start(known, as_rows(shapes), wanted)
     np.testing.assert_array_equal(found, shapes[[1, 0, 2, 0]])
 
 
 @given(st.integers(0, 1000), st.integers(2, 30), st.integers(1, 12))
-def test_interpolation_reproduces_what_is_known(seed: int, count: int, dimension: int) -> None:
+def test_interpolation_reproduces_known_samples(seed: int, count: int, dimension: int) -> None:
     rng = np.random.default_rng(seed)
     known, shapes = rng.random((count, dimension)), rng.normal(size=(count, 9))
-    found = interpolated_start(known, rows_of(shapes), known)
-    # the closer the closest samples, the larger the numbers that cancel
+    found = interpolated_start(known, as_rows(shapes), known)
+    # the closer the samples, the larger the numbers that cancel
     closest = pdist(known).min()
     bound = 1e-14 / min(closest, 1.0) ** 2
     if closest > 1e-5:
@@ -46,29 +46,29 @@ def test_interpolation_reproduces_what_is_known(seed: int, count: int, dimension
 
 
 def test_interpolation_between_equal_shapes_is_that_shape() -> None:
-    """The weights of a start add up to one: it does not fade towards rest away from the samples."""
+    """The weights of a start sum to one: away from the samples it does not fade towards rest."""
     rng = np.random.default_rng(1)
     shapes = np.tile(rng.normal(size=9), (20, 1))
-    starts = interpolated_start(rng.random((20, 6)), rows_of(shapes), rng.random((5, 6)))
+    starts = interpolated_start(rng.random((20, 6)), as_rows(shapes), rng.random((5, 6)))
     np.testing.assert_allclose(starts, shapes[:5], atol=1e-12)
 
 
-def test_many_samples_carry_what_is_linear_in_the_parameters() -> None:
+def test_many_samples_reproduce_linear_functions_of_the_parameters() -> None:
     rng = np.random.default_rng(4)
     known, wanted = rng.random((40, 3)), rng.random((6, 3))
     slopes = rng.normal(size=(3, 9))
-    starts = interpolated_start(known, rows_of(known @ slopes + 1.0), wanted)
+    starts = interpolated_start(known, as_rows(known @ slopes + 1.0), wanted)
     np.testing.assert_allclose(starts, wanted @ slopes + 1.0, atol=1e-9)
 
 
 @pytest.mark.parametrize("thickness", [0.0, 1e-14, 1e-9, 1e-7])
 def test_samples_in_a_plane_are_enough(thickness: float) -> None:
-    """As a path or a slice of the domain; a start off the plane stays between the shapes."""
+    """They may be a path or a slice of the domain; a start off the plane stays near the shapes."""
     rng = np.random.default_rng(5)
     known, wanted = rng.random((40, 3)), rng.random((6, 3))
     known[:, 2] = 0.5 + thickness * rng.normal(size=40)
     shapes = np.hstack([known, np.ones((40, 6))])
-    starts = interpolated_start(known, rows_of(shapes), wanted)
+    starts = interpolated_start(known, as_rows(shapes), wanted)
     assert np.isfinite(starts).all()
     np.testing.assert_allclose(starts[:, :2], wanted[:, :2], atol=0.5)
     np.testing.assert_allclose(
@@ -78,7 +78,7 @@ def test_samples_in_a_plane_are_enough(thickness: float) -> None:
 
 def test_one_known_sample_is_every_start() -> None:
     shapes = np.ones((1, 9))
-    starts = interpolated_start(np.full((1, 6), 0.5), rows_of(shapes), np.zeros((3, 6)))
+    starts = interpolated_start(np.full((1, 6), 0.5), as_rows(shapes), np.zeros((3, 6)))
     np.testing.assert_array_equal(starts, np.ones((3, 9)))
 
 
@@ -86,18 +86,18 @@ def test_repeated_samples_count_once() -> None:
     rng = np.random.default_rng(2)
     known, shapes, wanted = rng.random((8, 6)), rng.normal(size=(8, 9)), rng.random((4, 6))
     twice = interpolated_start(
-        np.vstack([known, known[:3]]), rows_of(np.vstack([shapes, shapes[:3]])), wanted
+        np.vstack([known, known[:3]]), as_rows(np.vstack([shapes, shapes[:3]])), wanted
     )
-    once = interpolated_start(known, rows_of(shapes), wanted)
+    once = interpolated_start(known, as_rows(shapes), wanted)
     np.testing.assert_allclose(twice, once, atol=1e-12)
     same = np.tile(known[:1], (5, 1))
-    one = interpolated_start(same, rows_of(np.tile(shapes[:1], (5, 1))), wanted)
+    one = interpolated_start(same, as_rows(np.tile(shapes[:1], (5, 1))), wanted)
     np.testing.assert_array_equal(one, np.tile(shapes[:1], (4, 1)))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_samples_that_repeat_each_other_or_rest_are_solved(solver: Solver) -> None:
-    """A Sobol sequence without scrambling contains the rest pose itself, as every odd grid does."""
+    """An unscrambled Sobol sequence contains the rest pose, as every odd grid does."""
     problem = posing_bar()
     samples = sample(problem.domain, 6, method="sobol", scramble=False)
     assert not samples[1].any()
@@ -111,7 +111,7 @@ def test_samples_that_repeat_each_other_or_rest_are_solved(solver: Solver) -> No
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_the_rest_pose_in_a_later_block_converges(solver: Solver) -> None:
-    """As in the middle of an odd grid: F vanishes there, so that no share of it is ever reached."""
+    """F vanishes there, as in the middle of an odd grid, so no share of F is ever reached."""
     problem = posing_bar()
     samples = np.vstack([parameters(problem, 8), np.zeros((1, 6))])
     options = SolverOptions(solver=solver, block=4)
@@ -121,7 +121,7 @@ def test_the_rest_pose_in_a_later_block_converges(solver: Solver) -> None:
 
 
 def test_known_samples_start_where_they_end() -> None:
-    """A sample asked for again in a later block has no way to go."""
+    """A sample that is repeated in a later block takes no iterations."""
     problem = posing_bar()
     samples = parameters(problem, 8)
     options = SolverOptions(solver="newton", block=8, tolerance=1e-8)

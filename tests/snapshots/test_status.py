@@ -1,4 +1,4 @@
-"""What the caller is told, and what is refused."""
+"""What reports say, and what is refused."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .bars import parameters, posing_bar
     [("newton", "double", 1e-12), ("fast", "double", 1e-12), ("fast", "single", 1e-6)],
 )
 def test_a_tiny_budget_is_reported(solver: Solver, precision: Precision, rounding: float) -> None:
-    """The rest pose needs no iteration, in the precision of which the numbers are."""
+    """The rest pose needs no iteration; the numbers agree to the rounding of the precision."""
     problem = posing_bar()
     samples = np.vstack([parameters(problem, 5), np.zeros((1, 6))])
     options = SolverOptions(solver=solver, max_iterations=2, precision=precision)
@@ -42,7 +42,7 @@ def test_a_tiny_budget_is_reported(solver: Solver, precision: Precision, roundin
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_unconverged_snapshots_start_no_others(solver: Solver) -> None:
-    """The later blocks start at rest, as if those that they wait for had not been."""
+    """Later blocks start at rest, as if the blocks that they wait for did not exist."""
     problem = posing_bar()
     samples = parameters(problem, 16)
     options = SolverOptions(solver=solver, max_iterations=2, block=4)
@@ -52,7 +52,7 @@ def test_unconverged_snapshots_start_no_others(solver: Solver) -> None:
     np.testing.assert_array_equal(after.shapes[:, 8:], alone.shapes)
 
 
-def test_unconverged_snapshots_stay_out_of_the_basis() -> None:
+def test_unconverged_snapshots_are_left_out_of_the_basis() -> None:
     problem = posing_bar(bound=0.7)
     samples = parameters(problem, 12)
     solved = solve_snapshots(problem, samples, threads=1)
@@ -70,7 +70,7 @@ def test_unconverged_snapshots_stay_out_of_the_basis() -> None:
 
 
 def test_inverted_tets_are_counted() -> None:
-    """Pushed through its own foot, the bar must turn tets inside out; the energy counts them."""
+    """A bar pushed through its own foot must have inverted tets; the energy counts them."""
     problem = posing_bar(bound=3.0)
     solved = solve_snapshots(problem, [[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0]], threads=1)
     assert solved.reports[0].inverted_tets > 0
@@ -87,7 +87,7 @@ def test_progress_rises_to_the_total_on_the_callers_thread() -> None:
         calls.append((state.done, state.total))
         threads.add(threading.current_thread())
 
-    options = SolverOptions(solver="newton", block=3)  # whose blocks wait for each other
+    options = SolverOptions(solver="newton", block=3)  # Newton's blocks wait for each other
     solve_snapshots(problem, parameters(problem, 7), options=options, progress=progress)
     done = [call[0] for call in calls]
     assert {total for _, total in calls} == {7}

@@ -1,4 +1,4 @@
-"""Answers that are known without solving: rest, rigid motions, mirror images."""
+"""Solutions known without solving: rest, rigid motions, mirror images."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FloatArray = NDArray[np.float64]
 def solve_targets(
     problem: PosingProblem, positions: FloatArray, *, solver: Solver, tolerance: float = 1e-14
 ) -> tuple[FloatArray, Any]:
-    """Vertices (n, 3) that minimise F for pinned vertices asked to be at `positions` (p, 3)."""
+    """Vertices (n, 3) that minimise F with the targets `positions` (p, 3) of pinned vertices."""
     targets = (positions - problem.mesh.vertices[problem.pinned])[None]
     starts = np.zeros((1, problem.mesh.vertices.size))
     batch = core_solve(problem, solver, targets, starts, tolerance=tolerance, max_iterations=300)
@@ -42,7 +42,7 @@ def test_no_motion_is_the_rest_shape(solver: Solver) -> None:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_handles_that_move_as_one_body_carry_the_shape_along(solver: Solver) -> None:
-    """The rigid motion of the rest shape costs nothing, so it is the minimiser, exactly."""
+    """The rigidly moved rest shape has no energy, so it is exactly the minimiser."""
     problem = posing_bar()
     rotation, shift = rotation_matrix([0.4, -0.3, 0.9]), np.array([0.3, 0.2, -0.5])
     moved = problem.mesh.vertices @ rotation.T + shift
@@ -56,19 +56,19 @@ def test_handles_that_move_as_one_body_carry_the_shape_along(solver: Solver) -> 
 def test_a_common_rigid_motion_moves_the_minimiser(solver: Solver) -> None:
     problem = posing_bar()
     offsets = problem.offsets(parameters(problem, 1)[0])
-    asked = problem.mesh.vertices[problem.pinned] + problem.target_displacements(offsets)
-    here, report = solve_targets(problem, asked, solver=solver)
+    targets = problem.mesh.vertices[problem.pinned] + problem.target_displacements(offsets)
+    here, report = solve_targets(problem, targets, solver=solver)
     assert report.value > 0.0
     rotation, shift = rotation_matrix([0.2, 0.5, -0.3]), np.array([-0.2, 0.4, 0.1])
-    there, moved_report = solve_targets(problem, asked @ rotation.T + shift, solver=solver)
+    there, moved_report = solve_targets(problem, targets @ rotation.T + shift, solver=solver)
     assert moved_report.value == pytest.approx(report.value, rel=1e-12)
     np.testing.assert_allclose(there, here @ rotation.T + shift, atol=1e-6)
 
 
 def mirrored(problem: PosingProblem) -> NDArray[np.intp]:
-    """The vertex that takes the place of each one when y and z change roles.
+    """The mirror image of each vertex when y and z are exchanged.
 
-    A bar of square cross-section is cut alike along y and z, so that the mesh is its own image.
+    A bar of square cross-section is divided alike along y and z, so the mesh is its own image.
     """
     order = {tuple(vertex): i for i, vertex in enumerate(problem.mesh.vertices.round(9).tolist())}
     image = [order[x, z, y] for x, y, z in problem.mesh.vertices.round(9).tolist()]
@@ -101,7 +101,7 @@ def test_mirrored_motions_give_mirrored_shapes(solver: Solver) -> None:
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_larger_copy_is_solved_by_the_larger_shape(solver: Solver) -> None:
-    """F grows with the volume if stiffness times squared length stays, its minimiser with size."""
+    """With stiffness times squared length constant, F grows with the volume, x with the size."""
     small = posing_bar(stiffness=500.0)
     large = PosingProblem(
         TetMesh(3.0 * small.mesh.vertices, small.mesh.tets),

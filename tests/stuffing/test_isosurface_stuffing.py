@@ -46,7 +46,7 @@ def test_surface_vertices_lie_on_the_zero_set() -> None:
     assert torus(mesh.vertices[inner]).max() < 0.0
 
 
-def test_interior_tets_are_the_lattices() -> None:
+def test_interior_tets_are_those_of_the_lattice() -> None:
     mesh = stuff(ball, *BOX, 0.2)
     deep = np.linalg.norm(mesh.vertices[mesh.tets], axis=2).max(axis=1) < 0.6
     np.testing.assert_allclose(mesh.volumes[deep], 0.2**3 / 12.0, rtol=1e-9)
@@ -79,7 +79,7 @@ def test_mirror_planes_are_kept_to_the_last_bit() -> None:
         assert {tuple(v) for v in mirrored + 0.0} == {tuple(v) for v in vertices + 0.0}
 
 
-def test_same_call_same_bits() -> None:
+def test_the_same_call_gives_the_same_bits() -> None:
     assert stuff(ball, *BOX, 0.2).fingerprint == stuff(ball, *BOX, 0.2).fingerprint
 
 
@@ -118,7 +118,7 @@ def test_refuses(implicit: object, lower: object, upper: object, cell: float, me
 
 def test_refuses_a_surface_that_touches_itself() -> None:
     def crossed_plates(points: Floats) -> Floats:
-        # Two wedges that meet in a line: not a manifold at any resolution.
+        # Two wedges that meet in a line are not a manifold at any resolution.
         x, y, z = points.T
         return np.maximum(x * y, np.maximum(ball(points), np.abs(z) - 0.5))
 

@@ -15,7 +15,7 @@ SHAPE = np.array([[-1.0, 0.0, -0.5], [1.0, 0.0, -0.5], [0.0, 1.0, 0.5], [0.0, -1
 
 
 def test_stencils_fill_exactly_the_inside_of_a_linear_function() -> None:
-    # The part of a simplex below a plane has a volume in closed form: a divided difference of
+    # The volume of a simplex below a plane has a closed form, a divided difference of
     # max(-v, 0)^3 over the corner values (Curry & Schoenberg 1966).
     rng = np.random.default_rng(0)
     for number, stencil in enumerate(stencil_table()):
@@ -34,7 +34,7 @@ def test_stencils_fill_exactly_the_inside_of_a_linear_function() -> None:
 
 
 def _fraction_below_zero(values: np.ndarray) -> float:
-    """Part of a tet where the linear function with these corner values is negative."""
+    """The share of a tet where the linear function with these corner values is negative."""
     if values.max() <= 0.0:
         return 1.0 if values.min() < 0.0 else 0.0
     if values.min() >= 0.0:
@@ -64,7 +64,7 @@ def test_random_signs_and_worst_cuts_conform_and_are_well_shaped(seed: int) -> N
     vertices = np.concatenate([moved, kept.points])
     assert tet_volumes(vertices, clipped).min() > 0.0
     assert dihedral_angles(vertices, clipped).min() > 8.0
-    # Conforming: all faces that are not shared lie on the zero set, none is left inside.
+    # Conforming means that all unshared faces lie on the zero set and none inside.
     surface = boundary_faces(clipped.astype(np.int32))
     on_surface = np.concatenate([signs == 0, np.ones(len(kept.points), dtype=bool)])
     assert on_surface[surface].all()

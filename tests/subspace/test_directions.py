@@ -26,7 +26,7 @@ def products(basis: FloatArray) -> FloatArray:
 
 
 def left(directions: FloatArray, basis: FloatArray) -> float:
-    """What of directions is not in the span of a basis."""
+    """The largest part of directions outside the span of a basis, relative to the directions."""
     fit = np.linalg.lstsq(basis, directions, rcond=None)[0]
     return float(np.abs(basis @ fit - directions).max() / np.abs(directions).max())
 
@@ -43,7 +43,7 @@ def test_the_basis_is_orthonormal_and_spans_the_directions() -> None:
     assert subspace.leading(3).dimension == 3
 
 
-def test_leading_parts_span_leading_directions_and_keep_their_sense() -> None:
+def test_leading_columns_span_leading_directions_and_keep_their_signs() -> None:
     given = directions(5)
     basis = affine_subspace(given, PROBLEM).basis
     for k in range(1, 6):
@@ -51,8 +51,8 @@ def test_leading_parts_span_leading_directions_and_keep_their_sense() -> None:
     assert (np.diag(basis.T @ apply_mass(PROBLEM.mass(), given)) > 0).all()
 
 
-def test_nearly_dependent_directions_come_out_orthonormal() -> None:
-    """The Gram matrix of these is singular to rounding."""
+def test_nearly_dependent_directions_give_an_orthonormal_basis() -> None:
+    """Their Gram matrix is singular to rounding."""
     given = directions(4)
     given[:, 1:] = given[:, :1] + 1e-9 * given[:, 1:]
     basis = affine_subspace(given, PROBLEM).basis
@@ -71,15 +71,15 @@ def test_dependent_directions_are_refused_or_dropped() -> None:
     assert 1 <= loose.dimension < 4
 
 
-def test_a_model_can_be_made_of_it() -> None:
-    """The exact energy at tau + U q, whatever U."""
+def test_a_model_can_be_reduced_to_any_basis() -> None:
+    """Its energy is the exact energy at tau + U q for any U."""
     subspace = affine_subspace(directions(5), PROBLEM)
     model = reduce(PROBLEM, subspace, threads=1)
     q = 0.1 * np.random.default_rng(3).normal(size=5)
     assert model.elastic.value(q) == pytest.approx(PROBLEM.energy.value(subspace.shape(q)))
 
 
-def test_of_poses_it_goes_through_the_mean_shape() -> None:
+def test_the_subspace_of_poses_contains_the_mean_shape() -> None:
     problem = interpolation_problem()
     subspace = affine_subspace(np.random.default_rng(1).normal(size=(problem.tau.size, 3)), problem)
     np.testing.assert_array_equal(subspace.tau, problem.tau)

@@ -1,4 +1,4 @@
-"""Heavy handles: the PCA in their norm, and reduced solutions that get better with every d."""
+"""Heavy handles: the PCA in their norm, and reduced solutions that improve with d."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_handles_count_for_more_than_their_mass(snapshots: Snapshots, weight: fl
 
 
 def test_errors_of_reduced_solutions_fall_with_the_dimension() -> None:
-    """At few dimensions the PCA in the mass alone misses the handles, which are stiff."""
+    """In few dimensions the PCA in the mass alone misses the handles, which are stiff."""
     mesh = generators.bar(24, 4, 4, length=6.0)
     x = mesh.vertices[:, 0]
     problem = PosingProblem(
@@ -79,11 +79,11 @@ def test_errors_of_reduced_solutions_fall_with_the_dimension() -> None:
     heavy, plain = medians(1000.0), medians(0.0)
     assert all(later < earlier for earlier, later in pairwise(heavy))
     assert heavy[1] < 0.75 * plain[1], "at d = 10"
-    assert heavy[-1] < 1.15 * plain[-1], "at d = 40 nothing is lost"
+    assert heavy[-1] < 1.15 * plain[-1], "at d = 40"
 
 
 @pytest.mark.parametrize("weight", [0.0, 1000.0])
-def test_energies_beyond_a_dimension_are_its_squared_error(
+def test_energies_beyond_a_dimension_sum_to_its_squared_error(
     snapshots: Snapshots, weight: float
 ) -> None:
     subspace = snapshot_pca(snapshots, dimension=6, handle_weight=weight)
@@ -106,6 +106,6 @@ def test_blends_have_no_handles() -> None:
 
 
 @pytest.mark.parametrize("weight", [-1.0, np.nan, np.inf])
-def test_a_weight_that_is_no_weight_is_refused(snapshots: Snapshots, weight: float) -> None:
+def test_a_bad_weight_is_refused(snapshots: Snapshots, weight: float) -> None:
     with pytest.raises(ValueError, match=r"handle_weight is .*, but must be finite and not neg"):
         snapshot_pca(snapshots, dimension=2, handle_weight=weight)

@@ -1,4 +1,4 @@
-"""Mass-weighted PCA: orthonormal, optimal, nested, and honest about how much is left out."""
+"""Mass-weighted PCA: orthonormal, optimal, nested, and exact about its error."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ def test_by_hand() -> None:
 
 @pytest.mark.parametrize("mass", MASSES.values(), ids=MASSES)
 def test_orthonormal_over_six_decades(mass: csr_array) -> None:
-    """The Gram matrix alone would leave 1e-4 on the last direction."""
+    """The Gram matrix alone would leave an error of 1e-4 in the last direction."""
     shapes = planted(10.0 ** -np.arange(7.0), 20)
     subspace = pca(shapes, TAU, mass, dimension=7)
     gram = mass_gram(mass, subspace.basis, subspace.basis)
     np.testing.assert_allclose(gram, np.eye(7), rtol=0, atol=1e-12)
-    # and every direction of the plan is in the space, the faintest too
+    # the space contains every planted direction, even the weakest
     assert squared_error(shapes, subspace.basis, mass) < 1e-20 * subspace.snapshot_energies[0]
 
 
@@ -101,7 +101,7 @@ def test_the_planted_space_is_found_and_nothing_more() -> None:
 
 
 def test_beats_random_subspaces() -> None:
-    """Of snapshots' own combinations as well, which are much better than arbitrary directions."""
+    """It beats combinations of the snapshots, which are much better than arbitrary directions."""
     mass = MASSES["consistent"]
     shapes = planted(np.array([3.0, 2.0, 1.0, 0.7, 0.5, 0.3, 0.2, 0.1]), 12)
     best = squared_error(shapes, pca(shapes, TAU, mass, dimension=4).basis, mass)
@@ -116,7 +116,7 @@ def test_beats_random_subspaces() -> None:
 @settings(max_examples=25)
 @given(seed=st.integers(0, 10_000), count=st.integers(6, 12), dimension=st.integers(1, 5))
 def test_for_any_snapshots(seed: int, count: int, dimension: int) -> None:
-    """Orthonormal; the error is what the eigenvalues say; order, and moving all, is irrelevant."""
+    """Orthonormal, with the eigenvalues' error; neither order nor a common shift matters."""
     mass = MASSES["consistent"]
     rng = np.random.default_rng(seed)
     shapes = planted(rng.uniform(0.1, 1.0, 5), count, seed=seed)
@@ -135,13 +135,13 @@ def test_for_any_snapshots(seed: int, count: int, dimension: int) -> None:
     gap = subspace.snapshot_energies[dimension - 1] - subspace.snapshot_energies[dimension]
     assert angles(subspace.basis, shuffled.basis, mass).max() < 1e-7 + 1e-12 * scale / gap
 
-    carried = shapes + 5.0
-    there = pca(carried, TAU + 5.0, mass, dimension=dimension)
+    shifted = shapes + 5.0
+    there = pca(shifted, TAU + 5.0, mass, dimension=dimension)
     assert angles(subspace.basis, there.basis, mass).max() < 1e-7 + 1e-12 * scale / gap
 
 
 def test_signs_are_fixed() -> None:
-    """The largest entry is positive: mirrored or shuffled snapshots give the same columns."""
+    """The largest entry is positive, so mirrored or shuffled snapshots give the same columns."""
     mass = MASSES["consistent"]
     shapes = planted(np.array([3.0, 1.0, 0.4, 0.1]), 9)
     subspace = pca(shapes, TAU, mass, dimension=4)
@@ -167,7 +167,7 @@ def test_leading_is_the_pca_of_that_dimension(mass: csr_array) -> None:
 
 
 @pytest.mark.parametrize("fraction", [0.5, 0.9, 0.99, 0.9999, 0.999999, 1.0])
-def test_energy_fraction_takes_the_fewest_that_suffice(fraction: float) -> None:
+def test_energy_fraction_takes_the_fewest_sufficient_dimensions(fraction: float) -> None:
     mass = MASSES["consistent"]
     shapes = planted(10.0 ** -np.linspace(0, 3, 8), 20)
     chosen = pca(shapes, TAU, mass, energy_fraction=fraction)
@@ -180,7 +180,7 @@ def test_energy_fraction_takes_the_fewest_that_suffice(fraction: float) -> None:
 
 
 def test_a_fraction_met_exactly_needs_no_more() -> None:
-    """Eigenvalues 9 and 1: one direction holds 90 %, and 90 % asks for no second one."""
+    """With eigenvalues 9 and 1 one direction holds 90 %, so 90 % needs no second one."""
     e1, e2 = np.eye(12)[:2]
     tau = np.arange(12.0)
     shapes = tau[:, None] + np.column_stack([3 * e1, e2])

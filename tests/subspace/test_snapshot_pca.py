@@ -1,4 +1,4 @@
-"""The basis of solved snapshots: about rest, of the converged ones, with the mesh's mass."""
+"""The basis of solved snapshots: about rest, from converged ones, with the mesh's mass."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_is_the_pca_about_rest_with_the_mass_of_the_mesh(
     np.testing.assert_allclose(gram, np.eye(6), rtol=0, atol=1e-12)
     np.testing.assert_array_equal(subspace.tau, mesh.vertices.reshape(-1))
     same = pca(snapshots.shapes, subspace.tau, mass, dimension=6)
-    # the displacements are stored, so that shapes have lost digits to their positions
+    # displacements are stored; shapes have lost digits to their positions
     np.testing.assert_allclose(subspace.basis, same.basis, rtol=0, atol=1e-9)
 
 
@@ -48,7 +48,7 @@ def test_all_snapshots_are_in_their_own_span(snapshots: Snapshots) -> None:
     np.testing.assert_allclose(again, snapshots.shapes, rtol=0, atol=1e-9)
 
 
-def test_unconverged_ones_are_left_out_unless_asked_for(snapshots: Snapshots) -> None:
+def test_unconverged_snapshots_are_left_out_unless_requested(snapshots: Snapshots) -> None:
     failing = with_failures(snapshots, [1, 4, 7])
     chosen = snapshot_pca(failing, dimension=7)
     np.testing.assert_array_equal(
@@ -64,7 +64,7 @@ def test_unconverged_ones_are_left_out_unless_asked_for(snapshots: Snapshots) ->
         snapshot_pca(failing, dimension=8)
 
 
-def test_none_converged_is_refused_with_the_cure(snapshots: Snapshots) -> None:
+def test_snapshots_without_a_converged_one_are_refused_with_the_cure(snapshots: Snapshots) -> None:
     failing = with_failures(snapshots, list(range(10)))
     with pytest.raises(
         ValueError, match=r"none of the 10 snapshots converged; .*include_unconverged=True"
@@ -81,7 +81,7 @@ def test_rest_alone_spans_nothing() -> None:
 
 
 def test_more_dimensions_never_hurt(snapshots: Snapshots) -> None:
-    """The spaces are nested: with every column the error falls on unseen shapes as well."""
+    """The spaces are nested, so the error of unseen shapes falls with every column."""
     subspace = snapshot_pca(snapshots, dimension=10)
     problem = snapshots.problem
     unseen = solve_snapshots(problem, parameters(problem, 4, seed=11), threads=1).shapes

@@ -1,4 +1,4 @@
-"""Bases of snapshots that are in files: the same bits, from blocks, with products known before."""
+"""Bases of snapshots in files: the same bits, from blocks and with known products."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def snapshots(request: pytest.FixtureRequest) -> Snapshots:
 
 
 def stored(snapshots: Snapshots, folder: Path) -> Snapshots:
-    """The same with displacements that are mapped from two files."""
+    """The same snapshots, with displacements mapped from two files."""
     checkpoint = Checkpoint(folder)
     rows, half = snapshots.displacements, len(snapshots) // 2
     mapped = checkpoint.save(range(half), rows[:half], snapshots.reports[:half])
@@ -51,7 +51,7 @@ def stored(snapshots: Snapshots, folder: Path) -> Snapshots:
 
 
 def grown(snapshots: Snapshots, *, lumped: bool = False) -> SnapshotGram:
-    """As it grows while samples are solved, block by block."""
+    """The Gram matrix, built block by block as while samples are solved."""
     gram = SnapshotGram.of(snapshots.problem, lumped=lumped)
     for begin in range(0, len(snapshots), 8):
         gram.add(snapshots.displacements[begin : begin + 8])
@@ -72,7 +72,7 @@ def test_files_known_products_and_threads_do_not_change_a_bit(
     assert_same_bits(snapshot_pca(there, dimension=8, lumped=lumped), basis)
     gram = grown(there, lumped=lumped)
     assert_same_bits(snapshot_pca(there, dimension=8, lumped=lumped, gram=gram), basis)
-    assert len(gram) == 20, "the poses were not added to the caller's"
+    assert len(gram) == 20, "the poses must not be added to the caller's matrix"
     with threadpool_limits(limits=2, user_api="blas"):
         assert_same_bits(snapshot_pca(there, dimension=8, lumped=lumped), basis)
 
@@ -101,11 +101,11 @@ def test_row_coordinates_are_the_coordinates(snapshots: Snapshots, tmp_path: Pat
 
 
 def test_memory_does_not_grow_with_the_samples(tmp_path: Path) -> None:
-    """200 samples take 46 MB; what grows with their number are blocks and small matrices."""
+    """200 samples take 46 MB; only blocks and small matrices grow with their number."""
     problem = posing_bar(32, 16, 16)
     few, many = (peak_memory(problem, count, tmp_path / str(count)) for count in (50, 200))
-    further_rows = 150 * problem.base.nbytes
-    assert many - few < 0.3 * further_rows
+    added_rows = 150 * problem.base.nbytes
+    assert many - few < 0.3 * added_rows
 
 
 def peak_memory(problem: Problem, count: int, folder: Path) -> int:

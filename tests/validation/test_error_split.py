@@ -1,4 +1,4 @@
-"""The parts of an error, against the cubature of all tets and against Pythagoras."""
+"""The parts of an error, compared with the cubature of all tets and with Pythagoras."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ COUNT = 4
 
 
 @pytest.fixture(scope="module")
-def stiff_in_part() -> PosingModel:
-    """A bar whose moduli differ from tet to tet, with far too few tets."""
+def graded_model() -> PosingModel:
+    """A bar with different moduli in every tet, and a cubature of far too few tets."""
     count = len(posing_bar().mesh.tets)
     material = StableNeoHookean(lam=1.5, mu=np.linspace(0.5, 2.0, count))
     problem = posing_bar(bound=0.5, material=material)
@@ -46,7 +46,7 @@ def reference(model: ReducedModel) -> Snapshots:
 
 
 def with_all_tets(model: PosingModel | InterpolationModel) -> PosingModel | InterpolationModel:
-    """The same subspace with the energy of all tets, which is exact but for rounded rows."""
+    """The same subspace with the energy of all tets, which is exact except for rounded rows."""
     mesh = model.problem.mesh
     every = np.arange(len(mesh.tets), dtype=np.int32)
     if isinstance(model, PosingModel):
@@ -56,11 +56,11 @@ def with_all_tets(model: PosingModel | InterpolationModel) -> PosingModel | Inte
     return replace(model, blends=blended)
 
 
-@pytest.mark.parametrize("name", ["stiff_in_part", "blended_cubature_model"])
-def test_the_middle_part_is_what_a_cubature_of_all_tets_leaves(
+@pytest.mark.parametrize("name", ["graded_model", "blended_cubature_model"])
+def test_the_error_of_all_tets_is_that_of_a_cubature_of_all_tets(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """An independent way to the same minimiser: a compiled loop on 9 d numbers for each tet."""
+    """The same minimiser from independent code: a compiled loop with 9 d numbers per tet."""
     model = request.getfixturevalue(name)
     full = reference(model)
     split = split_errors(model, full)
@@ -69,10 +69,10 @@ def test_the_middle_part_is_what_a_cubature_of_all_tets_leaves(
     # bases in single precision are M-orthonormal to 1e-8
     wanted = pytest.approx(_errors(exact, full, session), rel=1e-3, abs=5e-8)
     assert split.error_of_all_tets == wanted
-    of_exact = split_errors(exact, full)
-    assert of_exact.cubature.max() < 0.05 * split.error.max(), "then there is nothing that tets add"
-    np.testing.assert_array_equal(of_exact.stiffness, split.stiffness)
-    np.testing.assert_array_equal(of_exact.subspace, split.subspace)
+    exact_split = split_errors(exact, full)
+    assert exact_split.cubature.max() < 0.05 * split.error.max(), "all tets leave no cubature error"
+    np.testing.assert_array_equal(exact_split.stiffness, split.stiffness)
+    np.testing.assert_array_equal(exact_split.subspace, split.subspace)
 
 
 def _errors(model: ReducedModel, full: Snapshots, session: object) -> np.ndarray:
@@ -95,17 +95,17 @@ def _square(model: ReducedModel, displacement: np.ndarray) -> float:
     return float((shape * (model.subspace.mass @ shape)).sum())
 
 
-def test_the_first_two_parts_are_at_right_angles(stiff_in_part: PosingModel) -> None:
-    """And the last is at most the rest: the triangle inequality."""
-    split = split_errors(stiff_in_part, reference(stiff_in_part))
+def test_the_first_two_parts_are_at_right_angles(graded_model: PosingModel) -> None:
+    """The error is at most their sum with the last part, by the triangle inequality."""
+    split = split_errors(graded_model, reference(graded_model))
     both = np.hypot(split.subspace, split.stiffness)
     np.testing.assert_allclose(split.error_of_all_tets, both, rtol=1e-12)
     assert (split.error <= split.error_of_all_tets + split.cubature + 1e-12).all()
     assert split.largest == "cubature", "24 tets for 24 modes are too few"
 
 
-@pytest.mark.parametrize("name", ["stiff_in_part", "posing_model", "blending_model"])
-def test_the_whole_is_what_validate_measures(name: str, request: pytest.FixtureRequest) -> None:
+@pytest.mark.parametrize("name", ["graded_model", "posing_model", "blending_model"])
+def test_the_whole_error_is_that_of_validate(name: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(name)
     full = reference(model)
     split, checked = split_errors(model, full), validate(model, reference=full)
@@ -114,9 +114,7 @@ def test_the_whole_is_what_validate_measures(name: str, request: pytest.FixtureR
 
 
 @pytest.mark.parametrize("name", ["posing_model", "blending_model"])
-def test_an_exact_energy_has_no_part_of_a_cubature(
-    name: str, request: pytest.FixtureRequest
-) -> None:
+def test_an_exact_energy_has_no_cubature_error(name: str, request: pytest.FixtureRequest) -> None:
     model = request.getfixturevalue(name)
     split = split_errors(model, reference(model))
     np.testing.assert_array_equal(split.cubature, 0.0)
@@ -124,22 +122,22 @@ def test_an_exact_energy_has_no_part_of_a_cubature(
     assert split.largest != "cubature"
 
 
-def test_it_is_the_same_on_any_number_of_threads(stiff_in_part: PosingModel) -> None:
-    full = reference(stiff_in_part)
-    first, second = (split_errors(stiff_in_part, full, threads=n) for n in (1, 2))
+def test_the_split_is_the_same_on_any_number_of_threads(graded_model: PosingModel) -> None:
+    full = reference(graded_model)
+    first, second = (split_errors(graded_model, full, threads=n) for n in (1, 2))
     for name in ErrorSplit.__dataclass_fields__:
         np.testing.assert_array_equal(getattr(first, name), getattr(second, name))
 
 
-def test_json_names_the_largest_part(stiff_in_part: PosingModel) -> None:
-    split = split_errors(stiff_in_part, reference(stiff_in_part))
+def test_json_names_the_largest_part(graded_model: PosingModel) -> None:
+    split = split_errors(graded_model, reference(graded_model))
     content = split.as_json()
     assert (content["samples"], content["largest"]) == (COUNT, "cubature")
     assert content["stiffness"]["median"] == np.median(split.stiffness)
 
 
-def test_a_reference_that_is_no_solution_is_refused(stiff_in_part: PosingModel) -> None:
-    full = reference(stiff_in_part)
+def test_a_reference_without_solutions_is_refused(graded_model: PosingModel) -> None:
+    full = reference(graded_model)
     reports = [replace(report, status="max_iterations") for report in full.reports]
     with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are no full"):
-        split_errors(stiff_in_part, replace(full, reports=reports))
+        split_errors(graded_model, replace(full, reports=reports))

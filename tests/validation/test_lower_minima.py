@@ -1,4 +1,4 @@
-"""Full solutions that are minima, but not the lowest: a strut that may buckle to either side."""
+"""Full solutions that are not the lowest minima: a strut may buckle to either side."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from snapspace.validation import solved_reference, validate, with_lower_minima
 
 @pytest.fixture(scope="module")
 def strut() -> ss.PosingModel:
-    """A slender bar between two ends, one of which comes nearer and turns."""
+    """A slender bar held at both ends; one end moves towards the other and rotates."""
     mesh = bar(20, 2, 2, length=8.0, width=0.5, height=0.5)
     x = mesh.vertices[:, 0]
     handles = ss.Handles([np.flatnonzero(x < 0.5), np.flatnonzero(x > 7.5)])
@@ -23,12 +23,12 @@ def strut() -> ss.PosingModel:
     return ss.reduce(problem, subspace, snapshots=snapshots, threads=1)
 
 
-#: Little of a turn decides to which side the strut buckles; the other side is a minimum as well.
+#: A slight rotation decides to which side the strut buckles; the other side is a minimum too.
 TURN = -0.02
 
 
 def buckled(strut: ss.PosingModel, turn: float, start: ss.Snapshots | None = None) -> ss.Snapshots:
-    """The strut shortened by a tenth, its end turned so far, solved from a known shape."""
+    """The strut shortened by a tenth with its end rotated by `turn`, solved from a known shape."""
     w = np.array([[-0.8, 0.0, 0.0, 0.0, turn, 0.0]])
     if start is not None:
         start = ss.Snapshots.from_shapes(strut.problem, w, start.shapes, start.reports)
@@ -58,7 +58,7 @@ def test_lowest_minima_stay_as_they_are(strut: ss.PosingModel) -> None:
 
 
 def test_a_validation_compares_with_the_lowest(strut: ss.PosingModel) -> None:
-    """What it compared with is in its reference, and another validation by that is the same."""
+    """Its reference holds the lowest minima, and a validation by that reference agrees."""
     first = validate(strut, samples=6, threads=1)
     again = validate(strut, reference=first.reference)
     np.testing.assert_array_equal(first.error, again.error)

@@ -1,4 +1,4 @@
-"""What is advised, and that it helps."""
+"""The advice after a validation, and that it helps."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from ..snapshots.bars import posing_bar
 
 
 def split_with(part: str) -> ErrorSplit:
+    """Errors whose largest part is `part`."""
     sizes = {name: np.array([0.01]) for name in ErrorSplit.__dataclass_fields__}
     return replace(ErrorSplit(**sizes), **{part: np.array([0.5])})
 
@@ -31,10 +32,10 @@ def model() -> PosingModel:
     return few_tets()
 
 
-def test_too_few_tets_ask_for_more_and_for_nothing_else(model: PosingModel) -> None:
+def test_too_few_tets_need_only_more_tets(model: PosingModel) -> None:
     option = next_option(model, split_with("cubature"))
     assert (option.part, option.samples, option.dimension) == ("cubature", 60, 24)
-    assert option.tets == 192, "the default of eight for each mode, and all"
+    assert option.tets == 192, "the default of eight per mode, which is all"
     more = replace(
         model,
         elastic=ss.Cubature.of_tets(
@@ -45,12 +46,12 @@ def test_too_few_tets_ask_for_more_and_for_nothing_else(model: PosingModel) -> N
 
 
 @pytest.mark.parametrize("part", ["subspace", "stiffness"])
-def test_a_poor_subspace_asks_for_samples_and_dimensions(model: PosingModel, part: str) -> None:
+def test_a_poor_subspace_needs_samples_and_dimensions(model: PosingModel, part: str) -> None:
     option = next_option(model, split_with(part))
     assert (option.part, option.samples, option.dimension, option.tets) == (part, 120, 36, None)
 
 
-def test_poses_are_no_solved_samples(blended_cubature_model: InterpolationModel) -> None:
+def test_poses_do_not_count_as_solved_samples(blended_cubature_model: InterpolationModel) -> None:
     option = next_option(blended_cubature_model, split_with("stiffness"))
     assert (option.samples, option.dimension, option.method) == (60, 18, "blends")
     assert 'method="blends"' in option.python
@@ -58,19 +59,19 @@ def test_poses_are_no_solved_samples(blended_cubature_model: InterpolationModel)
 
 @pytest.mark.parametrize("tets", [24, None])
 def test_the_advised_calls_run_and_lower_the_error(tets: int | None, model: PosingModel) -> None:
-    """24 tets are cured by tets, the usual ones by a larger subspace."""
+    """For 24 tets the cure is more tets; for the default number it is a larger subspace."""
     if tets is None:
         option = next_option(model, split_with("cubature"))
-        model = built_by(option.python, model.problem)
+        model = model_from(option.python, model.problem)
     reference = solved_reference(model.problem, samples=6, threads=1)
     before = validate(model, reference=reference)
     option = next_option(model, split_errors(model, reference))
     assert option.part == ("cubature" if tets else "stiffness")
-    after = validate(built_by(option.python, model.problem), reference=reference)
+    after = validate(model_from(option.python, model.problem), reference=reference)
     assert np.median(after.error) < 0.7 * np.median(before.error)
 
 
-def built_by(calls: str, problem: ss.PosingProblem) -> PosingModel:
+def model_from(calls: str, problem: ss.PosingProblem) -> PosingModel:
     names = {**vars(ss), "problem": problem}
     exec(calls, names)
     model = names["model"]
@@ -89,13 +90,13 @@ def test_an_exact_energy_stays_exact_while_it_can(posing_model: PosingModel) -> 
 
 
 def test_samples_for_a_cubature_are_solved_tightly(cubature_model: PosingModel) -> None:
-    """Usual samples of the paper's material settle far from equilibrium: no forces to train on."""
+    """Default samples of the paper's material settle without equilibrium of forces."""
     option = next_option(cubature_model, split_with("cubature"))
     assert option.tolerance == cubature_model.problem.solving.tolerance
     assert "options=SolverOptions(tolerance=1e-05)" in option.python
 
 
-def test_with_all_tets_more_are_no_cure(model: PosingModel) -> None:
+def test_with_all_tets_the_cure_is_a_larger_subspace(model: PosingModel) -> None:
     every = np.arange(len(model.problem.mesh.tets), dtype=np.int32)
     volumes = model.problem.mesh.volumes
     whole = ss.Cubature.of_tets(model.problem, model.subspace, every, volumes)

@@ -1,4 +1,4 @@
-"""Known full solutions in place of new ones."""
+"""Known full solutions serve as references in place of new ones."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def test_samples_that_did_not_converge_are_refused(
     np.testing.assert_array_equal(kept.error, np.delete(checked.error, 2))
 
 
-def test_samples_that_the_model_was_made_of_are_refused(
+def test_training_samples_are_refused(
     posing_model: PosingModel, posing_snapshots: Snapshots, checked: Validation
 ) -> None:
     seen = checked.reference.joined(posing_snapshots.select(np.arange(60) == 7))
@@ -110,7 +110,7 @@ def test_samples_that_the_model_was_made_of_are_refused(
         validate(posing_model, reference=seen)
 
 
-def test_a_reference_has_samples_and_decides_them(
+def test_a_reference_needs_samples_and_excludes_sampling_options(
     posing_model: PosingModel, checked: Validation
 ) -> None:
     none = checked.reference.select(np.zeros(COUNT, bool))
@@ -121,16 +121,16 @@ def test_a_reference_has_samples_and_decides_them(
 
 
 def test_any_converged_snapshots_may_be_a_reference(posing_model: PosingModel) -> None:
-    """Such as those that somebody has solved for something else."""
+    """They may have been solved for another purpose."""
     problem = posing_model.problem
     own = solve_snapshots(problem, sample(problem.domain, 3, seed=99), threads=1)
     assert len(validate(posing_model, reference=own.select(own.converged)).error) > 0
 
 
-def test_inverted_tets_are_those_of_the_frames(
+def test_inverted_tets_are_counted_in_the_frames(
     posing_model: PosingModel, checked: Validation
 ) -> None:
-    """Counted by the energy, which counts in deformation gradients and not in volumes."""
+    """The energy counts them by deformation gradients and not by volumes."""
     session, energy = posing_model.session(), posing_model.problem.energy
     for w, found in zip(checked.reference.parameters, checked.inverted_tets, strict=True):
         session.reset()

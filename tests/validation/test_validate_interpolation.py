@@ -1,4 +1,4 @@
-"""Errors of reduced blends: what is left after rigid registration."""
+"""Errors of reduced blends after rigid registration."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def coiled(helix_model: InterpolationModel) -> Validation:
     return validate(helix_model, samples=COUNT, seed=4, threads=1)
 
 
-def test_figures_are_what_their_definitions_say(
+def test_figures_match_their_definitions(
     blending_model: InterpolationModel, checked: Validation
 ) -> None:
     """Recomputed from the reference: solve from the mean shape, register, measure in the M-norm."""
@@ -56,7 +56,7 @@ def test_figures_are_what_their_definitions_say(
 def test_a_rigid_motion_of_the_reduced_shape_is_no_error(
     blending_model: InterpolationModel, checked: Validation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The solutions of an interpolation are free to move as a whole."""
+    """Solutions of an interpolation are defined only up to a rigid motion."""
     vertices = BlendingSession.vertices
     assert vertices.fget is not None
     straight = vertices.fget
@@ -75,7 +75,7 @@ def test_a_rigid_motion_of_the_reduced_shape_is_no_error(
 def test_nothing_in_the_subspace_beats_the_projection(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """The last registration changes it in second order only: both shapes are registered already."""
+    """The last registration changes it only in second order; both shapes are registered already."""
     result: Validation = request.getfixturevalue(name)
     assert len(result.error) == COUNT
     assert (result.error >= result.projection_error * (1.0 - 1e-6)).all()
@@ -85,7 +85,7 @@ def test_nothing_in_the_subspace_beats_the_projection(
 def test_no_reduced_solution_has_less_energy_than_the_full_one(
     name: str, request: pytest.FixtureRequest
 ) -> None:
-    """By more than the reference is converged to: soft modes leave it 1e-8 above its minimum.
+    """The tolerance is that of the reference: soft modes leave it 1e-8 above its minimum.
 
     The coil's energy is a cubature, which may be lower by its own error. (Measured: 1e-6.)
     """
@@ -94,14 +94,14 @@ def test_no_reduced_solution_has_less_energy_than_the_full_one(
     assert result.energy_ratio.max() < 1.0 + 1e-4
 
 
-def test_blends_of_a_bar_are_met(checked: Validation) -> None:
-    """Twelve dimensions of a two-dimensional family. (Measured: 2e-4.)"""
+def test_blends_of_a_bar_have_small_errors(checked: Validation) -> None:
+    """The family is two-dimensional, the subspace has twelve dimensions. (Measured: 2e-4.)"""
     assert checked.error.max() < 1e-3
     assert checked.projection_error.max() < 2e-4
 
 
-def test_blends_of_the_helix_are_met(coiled: Validation) -> None:
-    """30 samples, 20 dimensions; the paper reports 0.002. (Measured: 7e-4 on average.)"""
+def test_blends_of_the_helix_have_small_errors(coiled: Validation) -> None:
+    """With 30 samples and 20 dimensions the paper reports 0.002. (Measured: 7e-4 on average.)"""
     assert coiled.error.mean() < 2e-3
     assert coiled.error.max() < 5e-3
     assert coiled.projection_error.max() < 5e-4
@@ -117,7 +117,7 @@ def test_fewer_dimensions_are_worse(helix_model: InterpolationModel, coiled: Val
 def test_the_figures_hardly_depend_on_the_training_starts(
     helix_model: InterpolationModel, coiled: Validation
 ) -> None:
-    """Starts change the way, not the end."""
+    """Starts change the path, not the minimum."""
     bare = replace(
         helix_model,
         training_parameters=np.zeros((0, 2)),

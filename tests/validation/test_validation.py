@@ -1,4 +1,4 @@
-"""Errors on unseen parameters, against references that the tests compute for themselves."""
+"""Errors at unseen parameters, compared with references that the tests compute."""
 
 from __future__ import annotations
 
@@ -45,9 +45,9 @@ def checked(model: ReducedModel) -> Validation:
     return validate(model, samples=COUNT, seed=4, threads=1)
 
 
-def test_parameters_like_the_training_ones_are_met(checked: Validation) -> None:
-    """Thirty snapshots span a Taylor expansion to second order in six parameters, 27 terms: what
-    is left of unseen shapes is of third order.
+def test_errors_are_small_at_parameters_like_the_training_ones(checked: Validation) -> None:
+    """Thirty snapshots span a Taylor expansion to second order in six parameters, which has 27
+    terms. The error of unseen shapes is of third order.
     """
     assert checked.projection_error.max() < 0.01
     assert checked.error.max() < 0.03
@@ -64,7 +64,7 @@ def test_no_reduced_solution_has_less_energy_than_the_full_one(checked: Validati
     assert checked.energy_ratio.max() < 1.01
 
 
-def test_figures_are_what_their_definitions_say(model: ReducedModel, checked: Validation) -> None:
+def test_figures_match_their_definitions(model: ReducedModel, checked: Validation) -> None:
     """Recomputed from the reference: solve from rest, project, measure in the M-norm."""
     subspace, session = model.subspace, model.session()
     for i, w in enumerate(unseen_parameters(model.problem.domain, COUNT, seed=4)):
@@ -88,7 +88,7 @@ def test_figures_are_what_their_definitions_say(model: ReducedModel, checked: Va
 def test_references_are_converged_beyond_the_errors(
     model: ReducedModel, checked: Validation
 ) -> None:
-    """Newton's far tighter solution is a hundred times nearer than the errors that are measured."""
+    """Their distance from Newton's tighter solution is a hundredth of the measured errors."""
     options = SolverOptions(solver="newton", tolerance=1e-14)
     tight = solve_snapshots(model.problem, checked.reference.parameters, options=options, threads=1)
     for i in range(COUNT):
@@ -162,7 +162,7 @@ def test_a_frame_takes_longer_than_its_solve(checked: Validation) -> None:
 def test_samples_that_did_not_converge_are_not_compared(
     model: ReducedModel, checked: Validation, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """A budget that only some references fit into: the figures are of these, in their order."""
+    """Only some references fit the budget; the figures are those of these, in their order."""
     counts = sorted(report.iterations for report in checked.reference.reports)
     budget = counts[COUNT // 2]
 
@@ -185,7 +185,7 @@ def test_samples_that_did_not_converge_are_not_compared(
 
 
 def test_unseen_parameters_are_in_the_box_and_unseen(model: ReducedModel) -> None:
-    """No seed of `sample` gives them, whatever the seed of the validation: other streams."""
+    """They come from other random streams than those of `sample`, for any seed."""
     domain = model.problem.domain
     drawn = {seed: unseen_parameters(model.problem.domain, 40, seed=seed) for seed in range(20)}
     for points in drawn.values():
