@@ -1,4 +1,4 @@
-"""Motions as accurate as is asked, in the median of motions which nothing was made of."""
+"""Motions as accurate as asked, in the median of motions that the model was not made from."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ def usual(problem: PosingProblem) -> AccurateModel:
     return accurate_model(problem)
 
 
-def test_unseen_motions_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
-    """Also others than those that it judged by, against tighter solutions."""
+def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel) -> None:
+    """Also motions other than those that judged the model, against tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.003
-    assert usual.step.projection <= usual.step.error, "projections are the best that there is"
+    assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert usual.step.error <= usual.step.ninth
     assert np.median(validate(usual.model, samples=20).error) < 1.5 * usual.target
 
 
-def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
+def test_samples_that_judge_a_model_do_not_train_it(usual: AccurateModel) -> None:
     unseen = usual.snapshots.parameters[usual.held_out]
     apart = np.abs(usual.model.training_parameters[:, None] - unseen).max(axis=2)
     assert apart.min() > 1e-6
@@ -42,16 +42,16 @@ def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
 
 
 def test_its_frames_know_their_errors(usual: AccurateModel) -> None:
-    """What judged the model has calibrated it: estimates of other motions are about right."""
+    """The samples that judge the model calibrate it: estimates for others are about right."""
     estimator = usual.model.error_estimator
     assert estimator is not None and len(estimator.residual_ratios) == usual.held_out.sum()
     checked = validate(usual.model, samples=20)
-    session, said = usual.model.session(), []
+    session, estimates = usual.model.session(), []
     for w in checked.reference.parameters:
         session.reset()
         session.set_parameters(w)
-        said.append(session.certificate(confidence=0.8).relative)
-    assert 0.7 < np.median(checked.error / said) < 1.4
+        estimates.append(session.certificate(confidence=0.8).relative)
+    assert 0.7 < np.median(checked.error / estimates) < 1.4
 
 
 def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
@@ -68,7 +68,7 @@ def test_it_is_the_same_on_any_number_of_threads(
     np.testing.assert_array_equal(again.model.subspace.basis, usual.model.subspace.basis)
 
 
-def test_large_meshes_have_fewer_samples_by_default(
+def test_large_meshes_get_fewer_samples_by_default(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert usual_most_samples(problem) == MOTIONS.most_samples
@@ -81,7 +81,7 @@ def test_large_meshes_have_fewer_samples_by_default(
         assert usual_most_samples(problem) == allowed
 
 
-def test_samples_of_large_bodies_are_looser_and_those_that_judge_are_not(
+def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usual, judging = Solving().usual(problem), Solving().judging(problem)

@@ -1,4 +1,4 @@
-"""growing_models: a first model at once, better ones, and in the end that of accurate_model."""
+"""growing_models: a first model at once, better ones, and finally the model of accurate_model."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ def growths(problem: PosingProblem) -> list[Growth]:
     return list(growing_models(problem, target_error=0.004))
 
 
-def test_each_model_is_better_than_those_before(growths: list[Growth]) -> None:
+def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[Growth]) -> None:
     unseen = growths[-1].snapshots.select(growths[-1].held_out)
     errors = [float(np.median(unseen_errors(growth.model, unseen))) for growth in growths]
     assert len(growths) > 2 and errors == sorted(errors, reverse=True)
-    told = [growth.step.error for growth in growths[1:] if growth.step]
-    np.testing.assert_allclose(told, errors[1:], rtol=1e-9, err_msg="told is what they are off")
+    reported = [growth.step.error for growth in growths[1:] if growth.step]
+    np.testing.assert_allclose(reported, errors[1:], rtol=1e-9)
     seconds = [growth.seconds for growth in growths]
     assert 0 < seconds[0] and seconds == sorted(seconds)
     assert [growth.final for growth in growths] == [False] * (len(growths) - 1) + [True]
 
 
-def test_the_last_one_is_that_of_accurate_model(
+def test_the_last_model_is_that_of_accurate_model(
     problem: PosingProblem, growths: list[Growth]
 ) -> None:
-    """Whoever looks on does not change what comes out."""
+    """Looking at the models in between does not change the last one."""
     last, plain = growths[-1], accurate_model(problem, target_error=0.004)
     assert last.step == plain.step and last.step.error <= 0.004
     np.testing.assert_array_equal(last.model.subspace.basis, plain.model.subspace.basis)
@@ -56,7 +56,7 @@ def test_the_last_one_is_that_of_accurate_model(
     assert last.model.provenance["accurate"] == plain.model.provenance["accurate"]
 
 
-def test_the_first_impression_is_of_loose_samples(
+def test_the_first_impression_is_made_from_loosely_solved_samples(
     problem: PosingProblem, growths: list[Growth]
 ) -> None:
     first = growths[0]
@@ -66,13 +66,11 @@ def test_the_first_impression_is_of_loose_samples(
     )
     values = [[report.value for report in s.reports] for s in (first.snapshots, tight)]
     excess = np.divide(*values) - 1.0
-    # what the tolerance is compared with is twice what the solver expects, which is no bound
+    # the tolerance is compared with twice the excess that the solver expects: not a bound
     assert 0 < np.median(excess) < 0.5 * problem.solving.loose_tolerance
 
 
-def test_solves_begin_where_known_samples_are(
-    problem: PosingProblem, growths: list[Growth]
-) -> None:
+def test_solves_start_from_known_samples(problem: PosingProblem, growths: list[Growth]) -> None:
     before = next(growth for growth in growths if growth.step)
     models = growing_models(problem, target_error=0.004, known=before.snapshots)
     again = next(growth for growth in models if growth.step)
@@ -89,7 +87,7 @@ def test_blends_begin_with_the_first_model_that_is_judged() -> None:
 
 
 @pytest.mark.parametrize("material", [StVK(), StableNeoHookean()], ids=lambda m: m.kind)
-def test_few_samples_are_an_impression_and_a_stage(material: StVK | StableNeoHookean) -> None:
+def test_few_samples_give_an_impression_and_one_stage(material: StVK | StableNeoHookean) -> None:
     growths = list(
         growing_models(posing_bar(material=material), most_samples=20, target_error=1e-9)
     )
@@ -100,13 +98,13 @@ def test_few_samples_are_an_impression_and_a_stage(material: StVK | StableNeoHoo
 
 
 def test_a_budget_ends_it_with_the_best_so_far(problem: PosingProblem) -> None:
-    told: list[str] = []
-    built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=told.append)
+    lines: list[str] = []
+    built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=lines.append)
     assert not built.reached and len(built.snapshots) == 96, "the first stage is always solved"
     assert built.step.error < 0.1, "and makes a model"
-    assert any("would take longer than the budget of 0.001 s" in line for line in told)
-    roomy = accurate_model(problem, target_error=0.05, budget=1000.0)
-    assert roomy.steps == accurate_model(problem, target_error=0.05).steps
+    assert any("would take longer than the budget of 0.001 s" in line for line in lines)
+    ample = accurate_model(problem, target_error=0.05, budget=1000.0)
+    assert ample.steps == accurate_model(problem, target_error=0.05).steps
 
 
 @pytest.mark.parametrize("budget", [0.0, -1.0, np.nan, np.inf])

@@ -1,4 +1,4 @@
-"""A model of some handles as the beginning of one for others of the same mesh."""
+"""A model with some handles as the start of one with other handles on the same mesh."""
 
 from __future__ import annotations
 
@@ -48,14 +48,14 @@ def median_error(growth: Growth, problem: PosingProblem) -> float:
     return float(np.median(unseen_errors(growth.model, solved_reference(problem, samples=8))))
 
 
-def test_the_first_model_is_far_beyond_an_impression(first: Growth) -> None:
+def test_the_first_model_is_far_better_than_an_impression(first: Growth) -> None:
     assert first.step is None and first.model.problem is TAIL
     impression = next(growing_models(TAIL))
     errors = [median_error(growth, TAIL) for growth in (first, impression)]
     assert errors[0] < 0.2 * errors[1], errors
 
 
-def test_a_saved_model_is_as_good_a_start_on_any_number_of_threads(
+def test_a_saved_model_is_the_same_start_on_any_number_of_threads(
     start: PosingModel, first: Growth, tmp_path: Path
 ) -> None:
     start.save(tmp_path / "old.snapspace")
@@ -80,14 +80,14 @@ def test_guesses_are_nearer_than_the_linear_response(start: PosingModel) -> None
 
 
 def moved() -> PosingProblem:
-    """The head's handle is a part of it."""
+    """The head's handle is only its upper half."""
     head = OLD.mesh.vertices[PARTS["head"]]
     upper = PARTS["head"][head[:, 2] > np.median(head[:, 2])]
     return OLD.with_handles(OLD.handles.replacing(OLD.handles.names[1], upper))
 
 
 def removed() -> PosingProblem:
-    """Only the tail moves; no handle that moved is left."""
+    """Only the tail moves; no handle that moved before is left."""
     handles = Handles([PARTS["feet"], PARTS["tail"]])
     return PosingProblem(
         OLD.mesh, handles, domain=HandleBox(translation=0.3, angle=0.5), material=OLD.material
@@ -100,16 +100,16 @@ def fixing_another() -> PosingProblem:
 
 
 @pytest.mark.parametrize("make", [moved, removed, fixing_another])
-def test_handles_may_move_go_or_be_fixed(start: PosingModel, make: Any) -> None:
+def test_handles_may_be_moved_removed_or_fixed(start: PosingModel, make: Any) -> None:
     problem = make()
-    begun, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
-    assert median_error(begun, problem) < 0.5 * median_error(impression, problem)
+    started, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
+    assert median_error(started, problem) < 0.5 * median_error(impression, problem)
 
 
 def test_a_target_that_the_first_model_meets_ends_the_search(start: PosingModel) -> None:
     built = accurate_model(TAIL, start=start, target_error=0.03)
     assert built.reached and len(built.steps) == 1
-    assert built.held_out.all(), "nothing was solved but what judges"
+    assert built.held_out.all(), "only the samples that judge were solved"
     tight = accurate_model(TAIL, start=start, target_error=0.004, most_samples=110)
     assert tight.step.error < built.step.error and len(tight.snapshots) > len(built.snapshots)
 

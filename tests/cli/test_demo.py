@@ -1,4 +1,4 @@
-"""`snapspace demo`: all files are there, fit together, and can be built on."""
+"""`snapspace demo`: all files exist, fit together, and can be used further."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def test_without_options_it_is_as_accurate_as_a_build(
     assert figures["validation"]["dimension"] == model.dimension
 
 
-def test_the_poses_are_inside_of_the_sampled_domain() -> None:
+def test_the_poses_are_inside_the_sampled_domain() -> None:
     bounds = demo_creature.PROBLEM["domain"]
     for name, motions in demo_creature.POSES.items():
         for motion in motions.values():

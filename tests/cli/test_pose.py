@@ -1,4 +1,4 @@
-"""`snapspace pose`: the shapes are the session's, in every format."""
+"""`snapspace pose`: the shapes are those of a session, in every format."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_a_pose_is_that_of_the_session(run: Run, model: Path, tmp_path: Path) ->
     assert figures["inverted_tets"] == load(model).problem.energy.inverted_tets(session.vertices)
 
 
-def test_the_surface_of_the_user_is_posed_and_pictured(
+def test_the_users_surface_is_posed_and_drawn(
     run: Run, own_surface_model: PosingModel, tmp_path: Path
 ) -> None:
     path = own_surface_model.save(tmp_path / "own.snapspace")
@@ -97,7 +97,7 @@ def test_the_order_of_translation_and_rotation_does_not_matter(
 
 
 def test_handles_that_move_together_move_rigidly(run: Run, model: Path, tmp_path: Path) -> None:
-    """One rigid map of all handles is no deformation: v -> R v + t for every vertex."""
+    """The same rigid motion of all handles does not deform: v -> R v + t for every vertex."""
     problem = load(model).problem
     turn, shift = rotation_matrix(np.deg2rad([20, -35, 100])), np.array([3.0, -1.0, 2.0])
     words: list[object] = []
@@ -133,7 +133,7 @@ def test_leading_modes(run: Run, model: Path, tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_tets(tmp_path / "out.vtu").vertices, session.vertices)
 
 
-def test_a_motion_beyond_the_samples_is_pointed_out(run: Run, model: Path) -> None:
+def test_a_motion_beyond_the_samples_gives_a_notice(run: Run, model: Path) -> None:
     inside = run("pose", model, "--handle", "right", "--euler", "0,0,30")
     beyond = run("pose", model, "--handle", "right", "--euler", "0,0,31")
     assert (inside.code, beyond.code) == (0, 0)

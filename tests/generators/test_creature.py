@@ -20,7 +20,7 @@ from snapspace.generators import (
 
 from .conforming import assert_solid
 
-# Made once for all tests that only look at it; determinism has a test of its own.
+# Made once for all tests that only read it; determinism has its own test.
 made = cache(creature)
 
 
