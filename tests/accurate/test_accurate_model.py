@@ -24,7 +24,7 @@ def usual(problem: InterpolationProblem) -> AccurateModel:
 
 
 def test_unseen_blends_are_as_accurate_as_asked(usual: AccurateModel) -> None:
-    """Also uniform blends, other than those that judged the model, against tighter solutions."""
+    """Uniform blends, too, other than those that judged the model, with tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.005
     assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert validate(usual.model, samples=12).error.mean() < 1.5 * usual.target

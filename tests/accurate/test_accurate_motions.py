@@ -26,7 +26,7 @@ def usual(problem: PosingProblem) -> AccurateModel:
 
 
 def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel) -> None:
-    """Also motions other than those that judged the model, against tighter solutions."""
+    """Motions other than those that judged the model, too, with tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.003
     assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert usual.step.error <= usual.step.ninth

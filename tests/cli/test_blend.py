@@ -134,7 +134,7 @@ def test_a_picture(
 
 
 @pytest.mark.parametrize("words", [("--weights", "-0.1,1.1,0"), ("--weights=-0.1 1.1 0",)])
-def test_weights_outside_of_the_poses_need_extrapolate(
+def test_extrapolate_accepts_weights_below_zero(
     run: Run, blend_model: Path, tmp_path: Path, words: tuple[str, ...]
 ) -> None:
     path = tmp_path / "out.vtu"

@@ -1,4 +1,4 @@
-"""Samples chosen one batch after another, from the command line."""
+"""Greedy samples, chosen batch by batch, from the command line."""
 
 from __future__ import annotations
 

@@ -58,9 +58,7 @@ def test_the_errors_by_dimension_end_with_that_of_all_modes(run: Run, model: Pat
 
 
 def test_a_valid_mesh(run: Run, tmp_path: Path) -> None:
-    """4 x 1 x 1 in cubes of side 1/2, each cut into six equal tets with angles of 45, 60 and 90
-    degrees.
-    """
+    """4 x 1 x 1 in cubes of side 1/2, six equal tets each, with angles of 45, 60 and 90 degrees."""
     write_tets(tmp_path / "bar.vtu", bar_mesh())
     figures = run("info", tmp_path / "bar.vtu", "--json").json
     assert figures["kind"] == "tet mesh"

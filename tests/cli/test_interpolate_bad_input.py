@@ -217,7 +217,7 @@ def test_refusals_are_one_line_and_touch_nothing(run: Run, tmp_path: Path, name:
 
 
 def test_inverted_tets_are_counted(run: Run, tmp_path: Path) -> None:
-    """Which pose, how many, and what to try."""
+    """The error names the pose, their number, and what to try."""
     words = inverted(tmp_path)
     corners = pulled_through()[bar_mesh().tets]
     bad = np.flatnonzero(np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0)

@@ -129,7 +129,7 @@ def test_a_reference_of_another_problem_is_refused(
 
 
 def test_a_build_ends_with_errors_that_validate_finds_too(run: Run, few_tets: Path) -> None:
-    """Both solve the same samples; the record is in the model, and `info` shows it."""
+    """It solves the first samples of `validate`; the record is in the model, shown by `info`."""
     record = load(few_tets).provenance["unseen"]
     figures = run("validate", few_tets, "--samples", record["samples"], "--json").json
     for ours, theirs in (("median", "median"), ("mean", "mean"), ("ninth", "ninth")):

@@ -79,7 +79,7 @@ def test_all_tets_with_their_volumes_are_the_exact_energy(
 @every_kind
 @pytest.mark.parametrize("weights", WEIGHTS[:2])
 def test_taylor(kind: str, weights: FloatArray) -> None:
-    """Remainders of second order: of the value with the gradient, of it with the Hessian."""
+    """Remainders of second order: value minus gradient model, gradient minus Hessian model."""
     one = problem(kind)
     elastic = some_tets(one, subspace(one), 33)
     rng = np.random.default_rng(3)

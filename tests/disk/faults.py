@@ -35,7 +35,7 @@ def full_disk(size: int) -> Iterator[None]:
 
 @contextmanager
 def at_call(number: int, fault: Callable[[], NoReturn]) -> Iterator[None]:
-    """Call `number`, counted over `os.fsync` and `os.replace` from 0, runs `fault` first."""
+    """Replaces call `number` of `os.fsync` and `os.replace`, counted from 0, by `fault`."""
     made = 0
 
     def counted(real: Callable[..., Any]) -> Callable[..., Any]:

@@ -76,7 +76,7 @@ def test_forces_are_finite_and_bounded_where_the_rotation_jumps(gap: float, sing
 
 @pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 0.0])
 def test_of_needles(width: float) -> None:
-    """Two singular values are nearly zero, of any sign: psi is right and forces are finite."""
+    """Two singular values are nearly zero, of any sign: each adds mu to psi and pulls with 2 mu."""
     random = np.random.default_rng(5)
     s = np.stack(
         [random.uniform(0.5, 1.5, COUNT), *(width * random.uniform(0.5, 1.0, (2, COUNT)))], axis=1

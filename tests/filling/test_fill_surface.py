@@ -51,7 +51,7 @@ def test_the_surface_is_near_the_boundary_and_follows_the_tets(
 
 
 def test_unit_frame_orientation_and_unused_vertices_do_not_matter(barrel: Surface) -> None:
-    """fTetWild has absolute thresholds and keeps unused vertices."""
+    """fTetWild's thresholds have no unit, and the orientation decides what it keeps."""
     vertices, faces = barrel
     far = np.vstack([1e-4 * vertices + 7.0, [[1e3, 1e3, 1e3]]])
     mesh = fill_surface(far, faces[:, ::-1], **COARSE)

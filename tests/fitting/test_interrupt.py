@@ -69,7 +69,7 @@ def test_an_error_of_the_callback_ends_the_fit() -> None:
 
 
 def test_ctrl_c_in_the_callback_loses_no_finished_pose() -> None:
-    """The pose whose call was interrupted is offered again, and then all finished ones."""
+    """The pose whose call was interrupted is offered again, then finished poses not yet offered."""
     offered: list[int] = []
     kept: dict[int, np.ndarray] = {}
 

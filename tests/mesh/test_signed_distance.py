@@ -1,4 +1,4 @@
-"""SignedDistance: compared with a box's formula and with the tets inside."""
+"""SignedDistance: compared with the formula for a box and with searches among tets."""
 
 from __future__ import annotations
 
