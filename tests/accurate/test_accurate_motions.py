@@ -7,30 +7,33 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from snapspace import PosingProblem, StableNeoHookean, validate
+from snapspace import PosingProblem, Validation, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
 from snapspace.accurate.plan import FEWER_SAMPLES, MOTIONS
 from snapspace.accurate.solving import Solving
 
-from ..snapshots.creatures import posing_creature
+
+@pytest.fixture
+def problem(motions: PosingProblem) -> PosingProblem:
+    return motions
+
+
+@pytest.fixture
+def usual(usual_motions: AccurateModel) -> AccurateModel:
+    return usual_motions
 
 
 @pytest.fixture(scope="module")
-def problem() -> PosingProblem:
-    return posing_creature(5000, StableNeoHookean())
+def checked(usual_motions: AccurateModel) -> Validation:
+    return validate(usual_motions.model, samples=20)
 
 
-@pytest.fixture(scope="module")
-def usual(problem: PosingProblem) -> AccurateModel:
-    return accurate_model(problem)
-
-
-def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel) -> None:
+def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel, checked: Validation) -> None:
     """Motions other than those that judged the model, too, with tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.003
     assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert usual.step.error <= usual.step.ninth
-    assert np.median(validate(usual.model, samples=20).error) < 1.5 * usual.target
+    assert np.median(checked.error) < 1.5 * usual.target
 
 
 def test_samples_that_judge_a_model_do_not_train_it(usual: AccurateModel) -> None:
@@ -41,11 +44,10 @@ def test_samples_that_judge_a_model_do_not_train_it(usual: AccurateModel) -> Non
     assert len(usual.model.training_parameters) == trained
 
 
-def test_its_frames_know_their_errors(usual: AccurateModel) -> None:
+def test_its_frames_know_their_errors(usual: AccurateModel, checked: Validation) -> None:
     """The samples that judge the model calibrate it: estimates for others are about right."""
     estimator = usual.model.error_estimator
     assert estimator is not None and len(estimator.residual_ratios) == usual.held_out.sum()
-    checked = validate(usual.model, samples=20)
     session, estimates = usual.model.session(), []
     for w in checked.reference.parameters:
         session.reset()
@@ -54,10 +56,10 @@ def test_its_frames_know_their_errors(usual: AccurateModel) -> None:
     assert 0.7 < np.median(checked.error / estimates) < 1.4
 
 
-def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
-    rough = accurate_model(problem, target_error=4 * usual.target)
-    assert rough.reached and rough.step.error > usual.step.error
-    assert rough.model.dimension < usual.model.dimension
+def test_a_smaller_target_takes_more(usual: AccurateModel, rough_motions: AccurateModel) -> None:
+    assert rough_motions.target == 4 * usual.target
+    assert rough_motions.reached and rough_motions.step.error > usual.step.error
+    assert rough_motions.model.dimension < usual.model.dimension
 
 
 def test_it_is_the_same_on_any_number_of_threads(

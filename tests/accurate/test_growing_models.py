@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    AccurateModel,
     Growth,
     InterpolationProblem,
     Poses,
@@ -21,17 +22,16 @@ from snapspace.generators import lizard_poses
 from snapspace.validation import unseen_errors
 
 from ..snapshots.bars import posing_bar
-from ..snapshots.creatures import posing_creature
+
+
+@pytest.fixture
+def problem(motions: PosingProblem) -> PosingProblem:
+    return motions
 
 
 @pytest.fixture(scope="module")
-def problem() -> PosingProblem:
-    return posing_creature(5000, StableNeoHookean())
-
-
-@pytest.fixture(scope="module")
-def growths(problem: PosingProblem) -> list[Growth]:
-    return list(growing_models(problem, target_error=0.004))
+def growths(motions: PosingProblem) -> list[Growth]:
+    return list(growing_models(motions))
 
 
 def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[Growth]) -> None:
@@ -46,11 +46,11 @@ def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[
 
 
 def test_the_last_model_is_that_of_accurate_model(
-    problem: PosingProblem, growths: list[Growth]
+    usual_motions: AccurateModel, growths: list[Growth]
 ) -> None:
     """Looking at the models in between does not change the last one."""
-    last, plain = growths[-1], accurate_model(problem, target_error=0.004)
-    assert last.step == plain.step and last.step.error <= 0.004
+    last, plain = growths[-1], usual_motions
+    assert last.step == plain.step and last.step.error <= plain.target
     np.testing.assert_array_equal(last.model.subspace.basis, plain.model.subspace.basis)
     np.testing.assert_array_equal(last.held_out, plain.held_out)
     assert last.model.provenance["accurate"] == plain.model.provenance["accurate"]
@@ -72,7 +72,7 @@ def test_the_first_impression_is_made_from_loosely_solved_samples(
 
 def test_solves_start_from_known_samples(problem: PosingProblem, growths: list[Growth]) -> None:
     before = next(growth for growth in growths if growth.step)
-    models = growing_models(problem, target_error=0.004, known=before.snapshots)
+    models = growing_models(problem, known=before.snapshots)
     again = next(growth for growth in models if growth.step)
     iterations = [
         sum(report.iterations for report in growth.snapshots.reports) for growth in (before, again)
@@ -97,14 +97,16 @@ def test_few_samples_give_an_impression_and_one_stage(material: StVK | StableNeo
     assert last.model.provenance["accurate"]["reached"] is False
 
 
-def test_a_budget_ends_it_with_the_best_so_far(problem: PosingProblem) -> None:
+def test_a_budget_ends_it_with_the_best_so_far(
+    problem: PosingProblem, rough_motions: AccurateModel
+) -> None:
     lines: list[str] = []
     built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=lines.append)
     assert not built.reached and len(built.snapshots) == 96, "the first stage is always solved"
     assert built.step.error < 0.1, "and makes a model"
     assert any("would take longer than the budget of 0.001 s" in line for line in lines)
-    ample = accurate_model(problem, target_error=0.05, budget=1000.0)
-    assert ample.steps == accurate_model(problem, target_error=0.05).steps
+    ample = accurate_model(problem, target_error=rough_motions.target, budget=1000.0)
+    assert ample.steps == rough_motions.steps
 
 
 @pytest.mark.parametrize("budget", [0.0, -1.0, np.nan, np.inf])
