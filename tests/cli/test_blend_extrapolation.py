@@ -21,8 +21,8 @@ def range_of(file: Path) -> CertainRange:
 
 def weights_at(certain: CertainRange, share: float) -> str:
     """Weights at a share of the path from equal weights past pose 1 to the end of the range."""
-    center, direction = np.full(3, 1 / 3), np.eye(3)[1] - 1 / 3
-    w = center + share * certain.reach(center + direction) * direction
+    centre, direction = np.full(3, 1 / 3), np.eye(3)[1] - 1 / 3
+    w = centre + share * certain.reach(centre + direction) * direction
     return ",".join(map(repr, w.tolist()))
 
 

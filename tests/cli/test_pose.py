@@ -101,8 +101,8 @@ def test_handles_that_move_together_move_rigidly(run: Run, model: Path, tmp_path
     problem = load(model).problem
     turn, shift = rotation_matrix(np.deg2rad([20, -35, 100])), np.array([3.0, -1.0, 2.0])
     words: list[object] = []
-    for name, center in zip(problem.handles.names, problem.centroids, strict=True):
-        offset = turn @ center + shift - center
+    for name, centre in zip(problem.handles.names, problem.centroids, strict=True):
+        offset = turn @ centre + shift - centre
         words += ["--handle", name, "--euler", "20,-35,100"]
         words += ["--translate", ",".join(repr(float(x)) for x in offset)]
     result = run("pose", model, *words, "-o", tmp_path / "out.vtu", "--json")
