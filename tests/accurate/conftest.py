@@ -23,5 +23,5 @@ def usual_motions(motions: PosingProblem) -> AccurateModel[PosingModel]:
 
 @pytest.fixture(scope="session")
 def rough_motions(motions: PosingProblem) -> AccurateModel[PosingModel]:
-    """Its model for four times the default target."""
-    return accurate_model(motions, target_error=0.012)
+    """Its model for about three times the default target."""
+    return accurate_model(motions, target_error=0.01)

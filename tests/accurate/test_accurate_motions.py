@@ -57,7 +57,7 @@ def test_its_frames_know_their_errors(usual: AccurateModel, checked: Validation)
 
 
 def test_a_smaller_target_takes_more(usual: AccurateModel, rough_motions: AccurateModel) -> None:
-    assert rough_motions.target == 4 * usual.target
+    assert rough_motions.target > 3 * usual.target
     assert rough_motions.reached and rough_motions.step.error > usual.step.error
     assert rough_motions.model.dimension < usual.model.dimension
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from snapspace import load
+from snapspace.accurate import BLENDS
 
 from .conftest import Run, write_tet_poses
 
@@ -23,7 +25,10 @@ def test_it_reports_what_it_tried_and_keeps_the_record(run: Run, tmp_path: Path)
     assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
 
 
-def test_a_target_that_is_not_met_is_reported(run: Run, tmp_path: Path) -> None:
+def test_a_target_that_is_not_met_is_reported(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("snapspace.accurate.plan.BLENDS", replace(BLENDS, most_samples=60))
     path = tmp_path / "m.snapspace"
     result = run("interpolate", *write_tet_poses(tmp_path), "--target-error", 1e-12, "-o", path)
     assert "unseen blends are" in result.err and "of --target-error" in result.err
