@@ -1,1 +1,1 @@
-"""Tests; a package, so that the packages can share `shapes` and `taylor`."""
+"""The tests are a package, so that all folders can share `shapes` and `taylor`."""

@@ -23,7 +23,7 @@ OPTIONS = (
 
 
 def missing(reason: str) -> None:
-    """Skips, or fails where a browser must be there."""
+    """Skips the test, or fails it where a browser is required."""
     if os.environ.get(NEEDED):
         pytest.fail(f"{reason} ({NEEDED} is set)")
     pytest.skip(reason)

@@ -1,4 +1,4 @@
-"""Fixtures that several packages share: they cost a second and are made once."""
+"""Fixtures that several packages share. Each takes about a second and is made once."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from .shapes import bar_poses, bar_problem, interpolation_problem, surface_aroun
 
 __all__ = ["chromium"]  # a fixture
 
-# Every run tries the same examples, so that what fails is due to a change;
-# `--hypothesis-profile=searching` tries others. A busy machine is no error, hence no deadlines.
+# Every run tries the same examples, so that a failure is due to a change;
+# `--hypothesis-profile=searching` tries others. A busy machine is not an error, hence no deadlines.
 settings.register_profile("steady", derandomize=True, deadline=None)
 settings.register_profile("searching", deadline=None)
 settings.load_profile("steady")
@@ -45,7 +45,7 @@ def posing_snapshots() -> Snapshots:
 
 @pytest.fixture(scope="session")
 def posing_model(posing_snapshots: Snapshots) -> ReducedModel:
-    """The bar in the best 20 dimensions."""
+    """The bar with the first 20 principal components of its snapshots."""
     subspace = snapshot_pca(posing_snapshots, dimension=20)
     problem = posing_snapshots.problem
     return reduce(problem, subspace, snapshots=posing_snapshots, threads=1)
@@ -53,13 +53,13 @@ def posing_model(posing_snapshots: Snapshots) -> ReducedModel:
 
 @pytest.fixture(scope="session")
 def own_surface_model(posing_model: PosingModel) -> PosingModel:
-    """The bar inside of a surface of other vertices, some of which are outside of its tets."""
+    """The bar inside a surface that has its own vertices, some outside the bar's tets."""
     return replace(posing_model, surface=surface_around(posing_model.problem.mesh))
 
 
 @pytest.fixture(scope="session")
 def cubature_model(posing_snapshots: Snapshots) -> PosingModel:
-    """The bar in the best 19 dimensions, its energy summed over few tets."""
+    """The bar in 19 dimensions, its energy summed over few tets."""
     subspace = snapshot_pca(posing_snapshots, dimension=19)
     problem = posing_snapshots.problem
     return reduce(problem, subspace, energy="cubature", snapshots=posing_snapshots)
@@ -68,6 +68,7 @@ def cubature_model(posing_snapshots: Snapshots) -> PosingModel:
 def interpolation_model(
     problem: InterpolationProblem, samples: int, dimension: int
 ) -> InterpolationModel:
+    """A model of `dimension` from `samples` random blends, all converged."""
     snapshots = solve_snapshots(problem, sample(problem.domain, samples, seed=1), threads=1)
     assert snapshots.converged.all()
     subspace = snapshot_pca(snapshots, dimension=dimension)
@@ -76,13 +77,13 @@ def interpolation_model(
 
 @pytest.fixture(scope="session")
 def blending_model() -> InterpolationModel:
-    """Three poses of a bar in the best 12 dimensions for 30 random blends."""
+    """Three poses of a bar in 12 dimensions, from 30 random blends."""
     return interpolation_model(interpolation_problem(), 30, 12)
 
 
 @pytest.fixture(scope="session")
 def blended_cubature_model() -> InterpolationModel:
-    """Three poses of a bar, of a material that collapses and differs from tet to tet."""
+    """Three poses of a bar in a material that lets tets collapse and differs from tet to tet."""
     poses = bar_poses()
     mu = np.linspace(0.5, 2.0, len(poses.tets))
     problem = InterpolationProblem(poses, material=StableNeoHookean(lam=1.5, mu=mu))
@@ -91,7 +92,7 @@ def blended_cubature_model() -> InterpolationModel:
 
 @pytest.fixture(scope="session")
 def helix_model() -> InterpolationModel:
-    """A cylinder and a helix in the best 20 dimensions for 30 random blends."""
+    """A cylinder and a helix in 20 dimensions, from 30 random blends."""
     return interpolation_model(InterpolationProblem([cylinder(2, 26), helix(2, 26)]), 30, 20)
 
 

@@ -28,14 +28,14 @@ def one_tet(vertices: FloatArray = CORNER_TET) -> TetMesh:
 
 
 def irregular_bar(nx: int = 3, ny: int = 2, nz: int = 2, *, seed: int = 5) -> TetMesh:
-    """A bar without symmetries, whose vertices have coordinates with all their digits."""
+    """A bar without symmetries, whose coordinates use all digits of a double."""
     regular = bar(nx, ny, nz, length=0.5 * nx, width=0.5 * ny, height=0.5 * nz)
     noise = np.random.default_rng(seed).uniform(-0.06, 0.06, regular.vertices.shape)
     return TetMesh(regular.vertices + noise, regular.tets)
 
 
 def flat_cylinder() -> TetMesh:
-    """A cylinder of flat tets, some forty times longer than high, off the origin."""
+    """A cylinder of flat tets, about forty times as long as high, away from the origin."""
     mesh = cylinder(2, 4, length=0.05, radius=1.0)
     return TetMesh(mesh.vertices + np.array([3.0, -2.0, 1.0]), mesh.tets)
 
@@ -51,12 +51,12 @@ def random_rotation(seed: int = 2) -> FloatArray:
 
 
 def moved(x: FloatArray, rotation: FloatArray, shift: FloatArray | float = 0.0) -> FloatArray:
-    """R v + t of every vertex of a shape vector."""
+    """R v + t for every vertex v of a shape vector."""
     return (x.reshape(-1, 3) @ rotation.T + shift).reshape(-1)
 
 
 def bar_problem(mesh: TetMesh | None = None, *, stiffness: float = 100.0) -> PosingProblem:
-    """A bar with the handles foot and head at its ends and belly in its middle."""
+    """A bar with the handles foot and head at its ends and belly in the middle."""
     mesh = mesh or irregular_bar(8, 2, 2)
     x = (mesh.vertices[:, 0] - mesh.vertices[:, 0].min()) / np.ptp(mesh.vertices[:, 0])
     belly = (np.abs(x - 0.5) < 0.1) & (mesh.vertices[:, 2] < mesh.vertices[:, 2].mean())
@@ -79,9 +79,9 @@ def random_subspace(
 
 
 def bent(mesh: TetMesh, angle: float, *, twist: float = 0.0) -> FloatArray:
-    """Vertices (n, 3) of a bar bent to an arc in the plane of x and y and twisted about its line.
+    """Vertices (n, 3) of a bar bent to an arc in the x-y plane and twisted about its middle line.
 
-    Both angles, in radians, are those of the far end. The middle line keeps its length.
+    Both angles, in radians, are reached at the far end. The middle line keeps its length.
     """
     lower, upper = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     x, y, z = (mesh.vertices - [lower[0], *(0.5 * (lower + upper)[1:])]).T
@@ -94,7 +94,7 @@ def bent(mesh: TetMesh, angle: float, *, twist: float = 0.0) -> FloatArray:
 
 
 def bar_poses(mesh: TetMesh | None = None) -> Poses:
-    """A bar at rest, bent, and bent the other way and twisted, each in a frame of its own."""
+    """A bar at rest, bent, and bent the other way and twisted, each in its own frame."""
     mesh = mesh or irregular_bar(8, 2, 2)
     shapes = [mesh.vertices, bent(mesh, 1.2), bent(mesh, -0.7, twist=1.0)]
     for k in (1, 2):
@@ -104,7 +104,7 @@ def bar_poses(mesh: TetMesh | None = None) -> Poses:
 
 
 def interpolation_problem(**options: float) -> InterpolationProblem:
-    """Between the poses of a bar, in a material whose two parameters differ."""
+    """The problem of blending a bar's poses, in a material whose two moduli differ."""
     return InterpolationProblem(bar_poses(), material=StVK(lam=1.5, mu=0.7), **options)
 
 
@@ -119,13 +119,13 @@ def symmetric_bar() -> TetMesh:
 
 
 def mirror_image(mesh: TetMesh) -> NDArray[np.intp]:
-    """For each vertex of `symmetric_bar` the one that the mirror y -> -y puts in its place."""
+    """For each vertex of `symmetric_bar`, the vertex that the mirror y -> -y puts in its place."""
     index = {tuple(vertex): i for i, vertex in enumerate(mesh.vertices.tolist())}
     return np.array([index[x, -y, z] for x, y, z in mesh.vertices.tolist()])
 
 
 def surface_around(mesh: TetMesh) -> EmbeddedSurface:
-    """A box with a finer surface than a bar's, a hundredth larger, embedded in it."""
+    """A box around a bar, a hundredth larger and with a finer surface, embedded in the bar."""
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     box = bar(20, 5, 5, length=1.0, width=1.0, height=1.0)
     vertices, faces = compact_surface(box.vertices, box.surface)

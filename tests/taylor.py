@@ -1,4 +1,4 @@
-"""Taylor tests: the order at which a remainder falls with the step."""
+"""Taylor tests: the order at which a remainder decreases with the step."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-#: Small enough for the leading term to rule, large enough to stay off rounding.
+#: Small enough for the leading term to dominate, large enough to stay clear of rounding.
 STEPS = tuple(1e-2 * 0.5**k for k in range(5))
 
 

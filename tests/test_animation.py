@@ -1,4 +1,4 @@
-"""write_animation: numbered files, GIF and MP4 show the shapes."""
+"""write_animation: numbered files, GIFs and MP4s show the shapes."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_folders_hold_all_tets(
     np.testing.assert_array_equal(read_tets(last).vertices, shapes[-1])
 
 
-def test_a_gif_shows_each_shape_for_its_time(
+def test_a_gif_shows_each_shape_for_the_time_of_a_frame(
     posing_model: PosingModel, shapes: list[NDArray[np.float64]], tmp_path: Path
 ) -> None:
     options: dict[str, Any] = {"size": SIZE, "ground": False}
@@ -59,7 +59,7 @@ def test_a_gif_shows_each_shape_for_its_time(
             seen.append(np.asarray(film.convert("RGB"), float))
     assert seen[0].shape == (64, 96, 3)
     moved = [np.abs(one - seen[0]).mean() for one in seen]
-    assert 0 == moved[0] < moved[1] < moved[3], "the shape moves on"
+    assert 0 == moved[0] < moved[1] < moved[3], "the shape keeps moving"
     surface = posing_model.surface
     still = render(surface.vertices(shapes[0]), surface.faces, samples=1, **options)
     assert np.abs(still.mean() - seen[0].mean()) < 20, "in the same light as a picture"
@@ -74,7 +74,7 @@ def test_an_mp4_is_read_by_another_program(
     assert frames == 4 and seconds == pytest.approx(4 / 30, abs=0.02)
     reader = imageio_ffmpeg.read_frames(str(path))
     assert next(reader)["size"] == SIZE
-    assert [child for child in tmp_path.iterdir()] == [path], "nothing else is left"
+    assert list(tmp_path.iterdir()) == [path], "nothing else is left"
 
 
 @pytest.mark.parametrize(
@@ -100,7 +100,7 @@ def test_bad_animations_are_refused(
         write_animation(tmp_path / name, posing_model, shapes, **options)
 
 
-def test_shapes_of_another_mesh_and_none_are_refused(
+def test_shapes_of_another_mesh_and_no_shapes_are_refused(
     posing_model: PosingModel, tmp_path: Path
 ) -> None:
     with pytest.raises(ValueError, match=r"a shape is \(5, 3\), but the model's vertices are"):
@@ -109,7 +109,7 @@ def test_shapes_of_another_mesh_and_none_are_refused(
         write_animation(tmp_path / "no.gif", posing_model, [])
 
 
-def test_without_its_extra_mp4_names_it(
+def test_mp4_without_its_extra_names_the_extra(
     posing_model: PosingModel,
     shapes: list[NDArray[np.float64]],
     tmp_path: Path,

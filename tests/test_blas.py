@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_info
 
 from snapspace.blas import single_threaded_blas
 
-SECONDS = 10.0  # after which a thread that waits has failed
+SECONDS = 10.0  # a thread that waits longer has failed
 
 
 def limits() -> list[int]:
@@ -33,7 +33,7 @@ def limits_inside() -> list[int]:
 
 
 class Call:
-    """A call on a thread of its own, which tells of its limits when asked and ends when told."""
+    """A call on its own thread. It ends when it may leave, and records its limits just before."""
 
     def __init__(self) -> None:
         self.limits: list[int] = []
@@ -55,12 +55,12 @@ class Call:
     def _run(self) -> None:
         self._inside.set()
         self._end.wait(SECONDS)
-        self.limits = limits()  # last: of the other calls some may have left
+        self.limits = limits()  # read last: other calls may have left by now
 
 
 @pytest.fixture
 def calls() -> Iterator[list[Call]]:
-    """Two calls, which leave at the latest when the test ends."""
+    """Two calls, which leave when the test ends at the latest."""
     both = [Call(), Call()]
     yield both
     for call in both:
@@ -72,7 +72,7 @@ def calls() -> Iterator[list[Call]]:
 def test_the_limit_holds_until_the_last_of_two_calls_leaves(
     calls: list[Call], first_to_leave: int, before: list[str]
 ) -> None:
-    """Were each to restore what it found, the second would leave the limit at one for ever."""
+    """If each call restored what it found, the second would leave the limit at one for ever."""
     for _ in before:
         assert set(limits_inside()) == {1}
     for call in calls:
@@ -86,7 +86,7 @@ def test_the_limit_holds_until_the_last_of_two_calls_leaves(
 
 @pytest.mark.parametrize("first", ["this thread", "the other"])
 def test_the_last_to_leave_need_not_be_the_first_to_enter(calls: list[Call], first: str) -> None:
-    """Some versions of threadpoolctl let one thread only change the limits."""
+    """Some versions of threadpoolctl let only one thread change the limits."""
     call = calls[0]
 
     @single_threaded_blas
@@ -122,7 +122,7 @@ def test_an_error_lifts_the_limit() -> None:
         fail()
 
 
-def test_the_function_keeps_its_face() -> None:
+def test_the_function_keeps_its_name_and_docstring() -> None:
     @single_threaded_blas
     def product(a: float, *, b: float = 3.0) -> float:
         """a times b."""

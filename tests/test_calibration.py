@@ -33,7 +33,7 @@ def test_it_does_not_depend_on_the_threads(model: PosingModel, posing_model: Pos
     np.testing.assert_array_equal(one.movement_ratios, two.error_estimator.movement_ratios)
 
 
-def test_its_samples_are_nobody_elses(posing_model: PosingModel) -> None:
+def test_no_other_function_draws_its_samples(posing_model: PosingModel) -> None:
     domain = posing_model.problem.domain
     drawn = np.vstack([_parameters(domain, 20, seed=1, stream=stream) for stream in (2, 3)])
     others = np.vstack(
@@ -54,13 +54,13 @@ def test_other_seeds_calibrate_alike(model: PosingModel, posing_model: PosingMod
     assert medians[0] == pytest.approx(medians[1], rel=0.5)
 
 
-def test_it_takes_samples(posing_model: PosingModel) -> None:
+def test_it_needs_two_samples(posing_model: PosingModel) -> None:
     with pytest.raises(ValueError, match="samples is 1, but must be at least 2"):
         calibrate(posing_model, samples=1)
 
 
-def test_known_solutions_calibrate_as_their_own_ones_do(posing_model: PosingModel) -> None:
-    """The same full solutions, new or given, give the same ratios; quick ones measure no polish."""
+def test_given_solutions_calibrate_like_new_ones(posing_model: PosingModel) -> None:
+    """The same full solutions, new or given, give the same ratios; quick ones omit the polish."""
     reference = validate(posing_model, samples=9, threads=1).reference
     thorough = calibrate(posing_model, reference=reference, threads=1).error_estimator
     quick_model = calibrate(posing_model, reference=reference, thorough=False, threads=1)
@@ -75,7 +75,7 @@ def test_known_solutions_calibrate_as_their_own_ones_do(posing_model: PosingMode
         session.certificate(confidence=0.8, thorough=True)
 
 
-def test_a_quick_one_is_in_the_file(posing_model: PosingModel, tmp_path: Path) -> None:
+def test_a_quick_calibration_is_in_the_file(posing_model: PosingModel, tmp_path: Path) -> None:
     reference = validate(posing_model, samples=4, threads=1).reference
     model = calibrate(posing_model, reference=reference, thorough=False)
     read = load(model.save(tmp_path / "model.snapspace")).error_estimator

@@ -1,4 +1,4 @@
-"""Ctrl-C is raised where work checks for it, once, and as itself."""
+"""Ctrl-C is raised where work checks for it, once, and as KeyboardInterrupt."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def press() -> None:
     signal.raise_signal(signal.SIGINT)
 
 
-def test_the_next_check_raises_and_only_that() -> None:
+def test_the_next_check_raises_and_no_later_one() -> None:
     with ctrl_c_at_checks():
         check_stop()
         press()
@@ -53,7 +53,7 @@ def test_inner_blocks_leave_it_to_the_outer_one() -> None:
     assert reached
 
 
-def test_pressing_again_at_once_means_the_same() -> None:
+def test_pressing_again_at_once_counts_as_one() -> None:
     with ctrl_c_at_checks():
         press()
         press()
@@ -116,7 +116,7 @@ def test_other_threads_leave_the_main_one_alone() -> None:
         thread.join()
 
 
-def test_the_limit_of_blas_is_lifted_before() -> None:
+def test_the_limit_of_blas_is_lifted_before_it_is_raised() -> None:
     @single_threaded_blas
     def pressing() -> None:
         press()
@@ -128,8 +128,8 @@ def test_the_limit_of_blas_is_lifted_before() -> None:
     assert reached
 
 
-def test_an_error_that_a_library_makes_of_it_is_it() -> None:
-    """On purpose, or by an error of its own while the interrupt passes through it."""
+def test_an_error_that_a_library_makes_of_ctrl_c_is_ctrl_c_again() -> None:
+    """The library makes it on purpose, or fails while the interrupt passes through it."""
     with pytest.raises(KeyboardInterrupt) as caught, ctrl_c_as_itself():
         try:
             press()
@@ -171,7 +171,7 @@ def test_termination_is_raised_at_checks_as_well(termination: Termination) -> No
 
 
 def test_termination_arrives_where_ctrl_c_is_ignored(termination: Termination) -> None:
-    """As for a program that a script has put into the background."""
+    """As in a program that a script runs in the background."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     reached = False
     try:
@@ -185,7 +185,7 @@ def test_termination_arrives_where_ctrl_c_is_ignored(termination: Termination) -
     assert reached and termination.came
 
 
-def test_ctrl_c_is_no_termination(termination: Termination) -> None:
+def test_ctrl_c_is_not_a_termination(termination: Termination) -> None:
     with pytest.raises(KeyboardInterrupt), ctrl_c_at_checks():
         press()
     assert not termination.came

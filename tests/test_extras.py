@@ -1,4 +1,4 @@
-"""What only a part needs is not loaded by the rest, and where it is missing the extra is named."""
+"""Optional packages are loaded only where they are needed; a missing one's extra is named."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def test_intel_macs_are_not_sent_to_wheels_that_do_not_exist(
         ),
     ],
 )
-def test_a_command_without_its_extra_ends_in_one_line_before_it_works(
+def test_a_command_without_its_extra_ends_in_one_line_before_any_work(
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
     tmp_path: Path,
@@ -122,7 +122,7 @@ def test_a_command_without_its_extra_ends_in_one_line_before_it_works(
     words: list[str],
     line: str,
 ) -> None:
-    """The model that the commands name does not exist: that would be the next error."""
+    """The commands name a model that does not exist: that would be the next error."""
     monkeypatch.chdir(tmp_path)
     without(monkeypatch, extra)
     assert main(words) == 2

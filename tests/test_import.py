@@ -1,4 +1,4 @@
-"""`import snapspace` and the program's help take little time, and nothing is lost by that."""
+"""`import snapspace` and the program's help are quick, and no name is lost by that."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ STUB = Path(snapspace.__file__ or "").with_suffix(".pyi")
 
 
 def processor_seconds(*words: str) -> float:
-    """Of a Python process: the least of three, since other processes only add to it."""
-    resource = pytest.importorskip("resource", reason="Windows does not tell")
+    """Processor seconds of a Python process: the least of three, since other processes only add."""
+    resource = pytest.importorskip("resource", reason="Windows does not report them")
     seconds = []
     for _ in range(3):
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -36,7 +36,7 @@ def test_help_takes_three_tenths_of_a_second_at_most() -> None:
     assert processor_seconds("-m", "snapspace", "--help") <= 0.3
 
 
-def test_type_checkers_see_the_names_that_there_are() -> None:
+def test_type_checkers_see_the_exported_names() -> None:
     tree = ast.parse(STUB.read_text(encoding="utf-8"))
     typed = {
         node.module: tuple(alias.name for alias in node.names)
@@ -47,7 +47,7 @@ def test_type_checkers_see_the_names_that_there_are() -> None:
     assert sorted(name for names in typed.values() for name in names) == snapspace.__all__
 
 
-def test_every_name_is_that_of_its_package() -> None:
+def test_every_name_comes_from_its_package() -> None:
     for home, names in snapspace.EXPORTS.items():
         module = getattr(snapspace, home)
         assert module.__name__ == f"snapspace.{home}"
@@ -62,7 +62,7 @@ def test_a_name_that_does_not_exist_is_an_attribute_error() -> None:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_help_has_the_line_that_the_command_has(name: str) -> None:
+def test_the_help_lists_commands_with_their_own_short_help(name: str) -> None:
     context = program.make_context("snapspace", [name])
     command = program.get_command(context, name)
     assert command is not None and command.name == name

@@ -1,4 +1,4 @@
-"""Errors that know where they are from."""
+"""InputError: errors that know where they come from."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_other_errors_pass() -> None:
 
 
 def test_messages_about_long_names_stay_short() -> None:
-    """The beginning says where, and the end says what helps."""
+    """The beginning says where the fault is, and the end says what helps."""
     error = InputError("a.json", f"unknown entry '{'x' * 5000}'; known are mesh, handles")
     assert len(str(error)) < 1000
     assert str(error).startswith("a.json: unknown entry 'xxx")

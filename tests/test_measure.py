@@ -1,4 +1,4 @@
-"""What the benchmarks compare the loops with: rates that are possible, of work that is done."""
+"""The rates that benchmarks compare the loops with: they are possible, and the work is done."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ def test_single_precision_has_twice_the_peak() -> None:
 
 
 def test_reading_takes_time() -> None:
-    """A loop that the compiler leaves out reads at any rate."""
+    """A loop that the compiler removed would read at any rate."""
     assert 1e8 < core.read_bandwidth(1 << 24, repeats=3) < 1e13
 
 
 def test_an_evaluation_reads_all_coefficients() -> None:
-    """Of a quartic beyond the caches: not much faster than reading them."""
+    """A quartic beyond the caches is not evaluated much faster than it is read."""
     d = 60
     rng = np.random.default_rng(0)
     coefficients, q = rng.normal(size=coefficient_count(d)), rng.normal(size=d)

@@ -1,4 +1,4 @@
-"""Work on another thread ends as at Ctrl-C when it is told to stop."""
+"""Work on another thread ends as at Ctrl-C when it is asked to stop."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PATIENCE = 20.0
 
 
 def stopped_after(seconds: float, work: Callable[[], object]) -> tuple[BaseException | None, float]:
-    """What work raises on a thread that is told to stop, and how long after that."""
+    """What work raises on a thread that is asked to stop, and how many seconds after that."""
     stop, raised = threading.Event(), []
     ended = [0.0]
 
@@ -36,14 +36,14 @@ def stopped_after(seconds: float, work: Callable[[], object]) -> tuple[BaseExcep
     thread = threading.Thread(target=run)
     thread.start()
     time.sleep(seconds)
-    told = time.perf_counter()
+    asked = time.perf_counter()
     stop.set()
     thread.join(PATIENCE)
     assert not thread.is_alive()
-    return (raised[0] if raised else None), ended[0] - told
+    return (raised[0] if raised else None), ended[0] - asked
 
 
-def test_compiled_work_that_cannot_be_stopped_is_left_alone() -> None:
+def test_compiled_work_that_cannot_be_stopped_is_abandoned() -> None:
     release = threading.Event()
     error, seconds = stopped_after(0.05, lambda: run_abandonable(lambda: release.wait(PATIENCE)))
     release.set()
@@ -92,11 +92,11 @@ def test_a_run_of_samples_gives_what_is_finished() -> None:
         assert value == pytest.approx(error.finished.reports[index].value, rel=1e-6)
 
 
-def test_growth_tells_its_parts_in_order() -> None:
+def test_growth_reports_its_parts_in_order() -> None:
     problem = posing_bar(6, 2, 2)
-    told: list[str] = []
-    stages = list(growing_models(problem, target_error=0.5, most_samples=24, begins=told.append))
-    assert told == ["snapshots", "subspace", "energy"] * 2
+    begun: list[str] = []
+    stages = list(growing_models(problem, target_error=0.5, most_samples=24, begins=begun.append))
+    assert begun == ["snapshots", "subspace", "energy"] * 2
     assert [growth.final for growth in stages] == [False, True]
 
 

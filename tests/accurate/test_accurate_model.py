@@ -1,4 +1,4 @@
-"""Blends as accurate as is asked: the error is that of blends which nothing was made of."""
+"""Blends as accurate as asked: the error is that of blends that the model was not made from."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ def usual(problem: InterpolationProblem) -> AccurateModel:
     return accurate_model(problem)
 
 
-def test_unseen_blends_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
-    """Also uniform ones, which are not those that it judged by, against tighter solutions."""
+def test_unseen_blends_are_as_accurate_as_asked(usual: AccurateModel) -> None:
+    """Uniform blends, too, other than those that judged the model, with tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.005
-    assert usual.step.projection <= usual.step.error, "projections are the best that there is"
+    assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert validate(usual.model, samples=12).error.mean() < 1.5 * usual.target
 
 
-def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
+def test_samples_that_judge_a_model_do_not_train_it(usual: AccurateModel) -> None:
     trained = int((~usual.held_out).sum())
     unseen = usual.snapshots.parameters[usual.held_out]
     apart = np.abs(usual.model.training_parameters[:, None] - unseen).max(axis=2)
     assert apart.min() > 1e-6
     poses = len(usual.model.problem.poses)
-    assert len(usual.model.training_parameters) == trained + poses, "all others, and the poses"
+    assert len(usual.model.training_parameters) == trained + poses, "the poses train it too"
 
 
 def test_a_smaller_target_takes_more(problem: InterpolationProblem, usual: AccurateModel) -> None:
@@ -46,15 +46,15 @@ def test_a_smaller_target_takes_more(problem: InterpolationProblem, usual: Accur
     assert validate(better.model, samples=12).error.mean() < usual.step.error / 2
 
 
-def test_without_a_model_that_does_the_best_is_given(problem: InterpolationProblem) -> None:
-    told: list[str] = []
-    built = accurate_model(problem, target_error=1e-9, most_samples=24, tell=told.append)
+def test_if_no_model_meets_the_target_the_best_is_returned(problem: InterpolationProblem) -> None:
+    lines: list[str] = []
+    built = accurate_model(problem, target_error=1e-9, most_samples=24, tell=lines.append)
     assert not built.reached
     assert built.step.error == min(step.error for step in built.steps)
     assert built.model.dimension == built.step.dimension
-    assert [str(step) for step in built.steps] == told
+    assert [str(step) for step in built.steps] == lines
     assert len(built.snapshots) == 24
-    assert built.held_out.sum() == 6, "a share of few samples as of many"
+    assert built.held_out.sum() == 6, "the same share of few samples as of many"
 
 
 def test_it_is_the_same_on_any_number_of_threads(
@@ -66,7 +66,7 @@ def test_it_is_the_same_on_any_number_of_threads(
     np.testing.assert_array_equal(again.model.blends.weights, usual.model.blends.weights)
 
 
-def test_an_interrupted_run_goes_on_to_the_same_model(
+def test_an_interrupted_run_resumes_to_the_same_model(
     problem: InterpolationProblem, usual: AccurateModel, tmp_path: Path
 ) -> None:
     checkpoint = Checkpoint(tmp_path / "samples")
@@ -85,7 +85,7 @@ def test_an_interrupted_run_goes_on_to_the_same_model(
         problem, checkpoint=checkpoint, progress=lambda state: solved.append(state.solved)
     )
     assert again.steps == usual.steps
-    assert max(solved) < len(usual.snapshots), "some were found"
+    assert max(solved) < len(usual.snapshots), "some were in the checkpoint"
 
 
 @pytest.mark.parametrize("target", [0.0, -1.0, np.nan, np.inf])
@@ -94,6 +94,6 @@ def test_a_target_must_be_positive(problem: InterpolationProblem, target: float)
         accurate_model(problem, target_error=target)
 
 
-def test_some_samples_must_judge(problem: InterpolationProblem) -> None:
+def test_some_samples_must_be_left_to_judge(problem: InterpolationProblem) -> None:
     with pytest.raises(ValueError, match="most_samples is 19, but at least 20"):
         accurate_model(problem, most_samples=19)

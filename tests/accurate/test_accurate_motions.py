@@ -1,4 +1,4 @@
-"""Motions as accurate as is asked, in the median of motions which nothing was made of."""
+"""Motions as accurate as asked, in the median of motions that the model was not made from."""
 
 from __future__ import annotations
 
@@ -7,33 +7,36 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from snapspace import PosingProblem, StableNeoHookean, validate
+from snapspace import PosingProblem, Validation, validate
 from snapspace.accurate import AccurateModel, accurate_model, usual_most_samples
 from snapspace.accurate.plan import FEWER_SAMPLES, MOTIONS
 from snapspace.accurate.solving import Solving
 
-from ..snapshots.creatures import posing_creature
+
+@pytest.fixture
+def problem(motions: PosingProblem) -> PosingProblem:
+    return motions
+
+
+@pytest.fixture
+def usual(usual_motions: AccurateModel) -> AccurateModel:
+    return usual_motions
 
 
 @pytest.fixture(scope="module")
-def problem() -> PosingProblem:
-    return posing_creature(5000, StableNeoHookean())
+def checked(usual_motions: AccurateModel) -> Validation:
+    return validate(usual_motions.model, samples=20)
 
 
-@pytest.fixture(scope="module")
-def usual(problem: PosingProblem) -> AccurateModel:
-    return accurate_model(problem)
-
-
-def test_unseen_motions_are_as_accurate_as_was_asked(usual: AccurateModel) -> None:
-    """Also others than those that it judged by, against tighter solutions."""
+def test_unseen_motions_are_as_accurate_as_asked(usual: AccurateModel, checked: Validation) -> None:
+    """Motions other than those that judged the model, too, with tighter solutions."""
     assert usual.reached and usual.step.error <= usual.target == 0.003
-    assert usual.step.projection <= usual.step.error, "projections are the best that there is"
+    assert usual.step.projection <= usual.step.error, "projections are the best possible"
     assert usual.step.error <= usual.step.ninth
-    assert np.median(validate(usual.model, samples=20).error) < 1.5 * usual.target
+    assert np.median(checked.error) < 1.5 * usual.target
 
 
-def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
+def test_samples_that_judge_a_model_do_not_train_it(usual: AccurateModel) -> None:
     unseen = usual.snapshots.parameters[usual.held_out]
     apart = np.abs(usual.model.training_parameters[:, None] - unseen).max(axis=2)
     assert apart.min() > 1e-6
@@ -41,23 +44,22 @@ def test_what_judges_a_model_is_in_none(usual: AccurateModel) -> None:
     assert len(usual.model.training_parameters) == trained
 
 
-def test_its_frames_know_their_errors(usual: AccurateModel) -> None:
-    """What judged the model has calibrated it: estimates of other motions are about right."""
+def test_its_frames_know_their_errors(usual: AccurateModel, checked: Validation) -> None:
+    """The samples that judge the model calibrate it: estimates for others are about right."""
     estimator = usual.model.error_estimator
     assert estimator is not None and len(estimator.residual_ratios) == usual.held_out.sum()
-    checked = validate(usual.model, samples=20)
-    session, said = usual.model.session(), []
+    session, estimates = usual.model.session(), []
     for w in checked.reference.parameters:
         session.reset()
         session.set_parameters(w)
-        said.append(session.certificate(confidence=0.8).relative)
-    assert 0.7 < np.median(checked.error / said) < 1.4
+        estimates.append(session.certificate(confidence=0.8).relative)
+    assert 0.7 < np.median(checked.error / estimates) < 1.4
 
 
-def test_a_smaller_target_takes_more(problem: PosingProblem, usual: AccurateModel) -> None:
-    rough = accurate_model(problem, target_error=4 * usual.target)
-    assert rough.reached and rough.step.error > usual.step.error
-    assert rough.model.dimension < usual.model.dimension
+def test_a_smaller_target_takes_more(usual: AccurateModel, rough_motions: AccurateModel) -> None:
+    assert rough_motions.target > 3 * usual.target
+    assert rough_motions.reached and rough_motions.step.error > usual.step.error
+    assert rough_motions.model.dimension < usual.model.dimension
 
 
 def test_it_is_the_same_on_any_number_of_threads(
@@ -68,7 +70,7 @@ def test_it_is_the_same_on_any_number_of_threads(
     np.testing.assert_array_equal(again.model.subspace.basis, usual.model.subspace.basis)
 
 
-def test_large_meshes_have_fewer_samples_by_default(
+def test_large_meshes_get_fewer_samples_by_default(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert usual_most_samples(problem) == MOTIONS.most_samples
@@ -81,7 +83,7 @@ def test_large_meshes_have_fewer_samples_by_default(
         assert usual_most_samples(problem) == allowed
 
 
-def test_samples_of_large_bodies_are_looser_and_those_that_judge_are_not(
+def test_samples_of_large_bodies_are_solved_loosely_unless_they_judge(
     problem: PosingProblem, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     usual, judging = Solving().usual(problem), Solving().judging(problem)

@@ -1,4 +1,4 @@
-"""growing_models: a first model at once, better ones, and in the end that of accurate_model."""
+"""growing_models: a first model at once, better ones, and finally the model of accurate_model."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    AccurateModel,
     Growth,
     InterpolationProblem,
     Poses,
@@ -21,42 +22,41 @@ from snapspace.generators import lizard_poses
 from snapspace.validation import unseen_errors
 
 from ..snapshots.bars import posing_bar
-from ..snapshots.creatures import posing_creature
+
+
+@pytest.fixture
+def problem(motions: PosingProblem) -> PosingProblem:
+    return motions
 
 
 @pytest.fixture(scope="module")
-def problem() -> PosingProblem:
-    return posing_creature(5000, StableNeoHookean())
+def growths(motions: PosingProblem) -> list[Growth]:
+    return list(growing_models(motions))
 
 
-@pytest.fixture(scope="module")
-def growths(problem: PosingProblem) -> list[Growth]:
-    return list(growing_models(problem, target_error=0.004))
-
-
-def test_each_model_is_better_than_those_before(growths: list[Growth]) -> None:
+def test_each_model_is_better_than_the_last_and_reports_its_error(growths: list[Growth]) -> None:
     unseen = growths[-1].snapshots.select(growths[-1].held_out)
     errors = [float(np.median(unseen_errors(growth.model, unseen))) for growth in growths]
     assert len(growths) > 2 and errors == sorted(errors, reverse=True)
-    told = [growth.step.error for growth in growths[1:] if growth.step]
-    np.testing.assert_allclose(told, errors[1:], rtol=1e-9, err_msg="told is what they are off")
+    reported = [growth.step.error for growth in growths[1:] if growth.step]
+    np.testing.assert_allclose(reported, errors[1:], rtol=1e-9)
     seconds = [growth.seconds for growth in growths]
     assert 0 < seconds[0] and seconds == sorted(seconds)
     assert [growth.final for growth in growths] == [False] * (len(growths) - 1) + [True]
 
 
-def test_the_last_one_is_that_of_accurate_model(
-    problem: PosingProblem, growths: list[Growth]
+def test_the_last_model_is_that_of_accurate_model(
+    usual_motions: AccurateModel, growths: list[Growth]
 ) -> None:
-    """Whoever looks on does not change what comes out."""
-    last, plain = growths[-1], accurate_model(problem, target_error=0.004)
-    assert last.step == plain.step and last.step.error <= 0.004
+    """Looking at the models in between does not change the last one."""
+    last, plain = growths[-1], usual_motions
+    assert last.step == plain.step and last.step.error <= plain.target
     np.testing.assert_array_equal(last.model.subspace.basis, plain.model.subspace.basis)
     np.testing.assert_array_equal(last.held_out, plain.held_out)
     assert last.model.provenance["accurate"] == plain.model.provenance["accurate"]
 
 
-def test_the_first_impression_is_of_loose_samples(
+def test_the_first_impression_is_made_from_loosely_solved_samples(
     problem: PosingProblem, growths: list[Growth]
 ) -> None:
     first = growths[0]
@@ -66,15 +66,13 @@ def test_the_first_impression_is_of_loose_samples(
     )
     values = [[report.value for report in s.reports] for s in (first.snapshots, tight)]
     excess = np.divide(*values) - 1.0
-    # what the tolerance is compared with is twice what the solver expects, which is no bound
+    # the tolerance is compared with twice the excess that the solver expects: not a bound
     assert 0 < np.median(excess) < 0.5 * problem.solving.loose_tolerance
 
 
-def test_solves_begin_where_known_samples_are(
-    problem: PosingProblem, growths: list[Growth]
-) -> None:
+def test_solves_start_from_known_samples(problem: PosingProblem, growths: list[Growth]) -> None:
     before = next(growth for growth in growths if growth.step)
-    models = growing_models(problem, target_error=0.004, known=before.snapshots)
+    models = growing_models(problem, known=before.snapshots)
     again = next(growth for growth in models if growth.step)
     iterations = [
         sum(report.iterations for report in growth.snapshots.reports) for growth in (before, again)
@@ -89,7 +87,7 @@ def test_blends_begin_with_the_first_model_that_is_judged() -> None:
 
 
 @pytest.mark.parametrize("material", [StVK(), StableNeoHookean()], ids=lambda m: m.kind)
-def test_few_samples_are_an_impression_and_a_stage(material: StVK | StableNeoHookean) -> None:
+def test_few_samples_give_an_impression_and_one_stage(material: StVK | StableNeoHookean) -> None:
     growths = list(
         growing_models(posing_bar(material=material), most_samples=20, target_error=1e-9)
     )
@@ -99,14 +97,16 @@ def test_few_samples_are_an_impression_and_a_stage(material: StVK | StableNeoHoo
     assert last.model.provenance["accurate"]["reached"] is False
 
 
-def test_a_budget_ends_it_with_the_best_so_far(problem: PosingProblem) -> None:
-    told: list[str] = []
-    built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=told.append)
+def test_a_budget_ends_it_with_the_best_so_far(
+    problem: PosingProblem, rough_motions: AccurateModel
+) -> None:
+    lines: list[str] = []
+    built = accurate_model(problem, target_error=1e-6, budget=1e-3, tell=lines.append)
     assert not built.reached and len(built.snapshots) == 96, "the first stage is always solved"
     assert built.step.error < 0.1, "and makes a model"
-    assert any("would exceed the budget of 0.001 s" in line for line in told)
-    roomy = accurate_model(problem, target_error=0.05, budget=1000.0)
-    assert roomy.steps == accurate_model(problem, target_error=0.05).steps
+    assert any("would exceed the budget of 0.001 s" in line for line in lines)
+    ample = accurate_model(problem, target_error=rough_motions.target, budget=1000.0)
+    assert ample.steps == rough_motions.steps
 
 
 @pytest.mark.parametrize("budget", [0.0, -1.0, np.nan, np.inf])

@@ -1,4 +1,4 @@
-"""A model of some handles as the beginning of one for others of the same mesh."""
+"""A model with some handles as the start of one with other handles on the same mesh."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    AccurateModel,
     Growth,
     HandleBox,
     Handles,
     PosingModel,
     PosingProblem,
+    Snapshots,
     StableNeoHookean,
     accurate_model,
     growing_models,
@@ -27,94 +29,114 @@ from snapspace.validation import solved_reference, unseen_errors
 from ..shapes import interpolation_problem
 from ..snapshots.creatures import posing_creature
 
-OLD = posing_creature(5000, StableNeoHookean())
-PARTS = creature_handles(OLD.mesh)
-TAIL = OLD.with_handles(OLD.handles.adding("tail", PARTS["tail"]))
+
+def adding_a_tail(old: PosingProblem) -> PosingProblem:
+    return old.with_handles(old.handles.adding("tail", creature_handles(old.mesh)["tail"]))
 
 
 @pytest.fixture(scope="module")
-def start() -> PosingModel:
-    model = accurate_model(OLD, target_error=0.01).model
-    assert isinstance(model, PosingModel)
-    return model
+def tail(motions: PosingProblem) -> PosingProblem:
+    return adding_a_tail(motions)
 
 
 @pytest.fixture(scope="module")
-def first(start: PosingModel) -> Growth:
-    return next(growing_models(TAIL, start=start))
+def reference(tail: PosingProblem) -> Snapshots:
+    """Full solutions for motions of the head and the tail."""
+    return solved_reference(tail, samples=8)
 
 
-def median_error(growth: Growth, problem: PosingProblem) -> float:
-    return float(np.median(unseen_errors(growth.model, solved_reference(problem, samples=8))))
+@pytest.fixture
+def start(rough_motions: AccurateModel[PosingModel]) -> PosingModel:
+    """The model of the handles feet and head."""
+    return rough_motions.model
 
 
-def test_the_first_model_is_far_beyond_an_impression(first: Growth) -> None:
-    assert first.step is None and first.model.problem is TAIL
-    impression = next(growing_models(TAIL))
-    errors = [median_error(growth, TAIL) for growth in (first, impression)]
+@pytest.fixture(scope="module")
+def first(tail: PosingProblem, rough_motions: AccurateModel[PosingModel]) -> Growth:
+    return next(growing_models(tail, start=rough_motions.model))
+
+
+def median_error(growth: Growth, reference: Snapshots) -> float:
+    return float(np.median(unseen_errors(growth.model, reference)))
+
+
+def test_the_first_model_is_far_better_than_an_impression(
+    tail: PosingProblem, first: Growth, reference: Snapshots
+) -> None:
+    assert first.step is None and first.model.problem is tail
+    impression = next(growing_models(tail))
+    errors = [median_error(growth, reference) for growth in (first, impression)]
     assert errors[0] < 0.2 * errors[1], errors
 
 
-def test_a_saved_model_is_as_good_a_start_on_any_number_of_threads(
+def test_a_saved_model_is_the_same_start_on_any_number_of_threads(
     start: PosingModel, first: Growth, tmp_path: Path
 ) -> None:
     start.save(tmp_path / "old.snapspace")
     saved = load(tmp_path / "old.snapspace")
     assert isinstance(saved, PosingModel)
-    fresh = posing_creature(5000, StableNeoHookean())
-    problem = fresh.with_handles(fresh.handles.adding("tail", PARTS["tail"]))
+    problem = adding_a_tail(posing_creature(5000, StableNeoHookean()))
     again = next(growing_models(problem, start=saved, threads=1))
     np.testing.assert_array_equal(again.model.subspace.basis, first.model.subspace.basis)
 
 
-def test_guesses_are_nearer_than_the_linear_response(start: PosingModel) -> None:
-    reference = solved_reference(TAIL, samples=8)
+def test_guesses_are_nearer_than_the_linear_response(
+    tail: PosingProblem, start: PosingModel, reference: Snapshots
+) -> None:
     exact = reference.displacements.array()
-    old = OldModel(start, TAIL, most=64)
+    old = OldModel(start, tail, most=64)
     composed = old.guesses(reference.parameters, threads=None)
     misses = [
         np.linalg.norm(guesses - exact, axis=1)
-        for guesses in (composed, TAIL.guesses(reference.parameters))
+        for guesses in (composed, tail.guesses(reference.parameters))
     ]
     assert np.median(misses[0] / misses[1]) < 0.7
 
 
-def moved() -> PosingProblem:
-    """The head's handle is a part of it."""
-    head = OLD.mesh.vertices[PARTS["head"]]
-    upper = PARTS["head"][head[:, 2] > np.median(head[:, 2])]
-    return OLD.with_handles(OLD.handles.replacing(OLD.handles.names[1], upper))
-
-
-def removed() -> PosingProblem:
-    """Only the tail moves; no handle that moved is left."""
-    handles = Handles([PARTS["feet"], PARTS["tail"]])
-    return PosingProblem(
-        OLD.mesh, handles, domain=HandleBox(translation=0.3, angle=0.5), material=OLD.material
+def moved(old: PosingProblem) -> PosingProblem:
+    """The head's handle is only its upper half."""
+    part = creature_handles(old.mesh)["head"]
+    heights = old.mesh.vertices[part, 2]
+    return old.with_handles(
+        old.handles.replacing(old.handles.names[1], part[heights > np.median(heights)])
     )
 
 
-def fixing_another() -> PosingProblem:
+def removed(old: PosingProblem) -> PosingProblem:
+    """Only the tail moves; no handle that moved before is left."""
+    parts = creature_handles(old.mesh)
+    handles = Handles([parts["feet"], parts["tail"]])
+    return PosingProblem(
+        old.mesh, handles, domain=HandleBox(translation=0.3, angle=0.5), material=old.material
+    )
+
+
+def fixing_another(old: PosingProblem) -> PosingProblem:
     """The feet move, and the head is fixed."""
-    return OLD.with_handles(OLD.handles.fixing(OLD.handles.names[1]))
+    return old.with_handles(old.handles.fixing(old.handles.names[1]))
 
 
 @pytest.mark.parametrize("make", [moved, removed, fixing_another])
-def test_handles_may_move_go_or_be_fixed(start: PosingModel, make: Any) -> None:
-    problem = make()
-    begun, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
-    assert median_error(begun, problem) < 0.5 * median_error(impression, problem)
+def test_handles_may_be_moved_removed_or_fixed(
+    motions: PosingProblem, start: PosingModel, make: Any
+) -> None:
+    problem = make(motions)
+    reference = solved_reference(problem, samples=8)
+    started, impression = next(growing_models(problem, start=start)), next(growing_models(problem))
+    assert median_error(started, reference) < 0.5 * median_error(impression, reference)
 
 
-def test_a_target_that_the_first_model_meets_ends_the_search(start: PosingModel) -> None:
-    built = accurate_model(TAIL, start=start, target_error=0.03)
+def test_a_target_that_the_first_model_meets_ends_the_search(
+    tail: PosingProblem, start: PosingModel
+) -> None:
+    built = accurate_model(tail, start=start, target_error=0.03)
     assert built.reached and len(built.steps) == 1
-    assert built.held_out.all(), "nothing was solved but what judges"
-    tight = accurate_model(TAIL, start=start, target_error=0.004, most_samples=110)
+    assert built.held_out.all(), "only the samples that judge were solved"
+    tight = accurate_model(tail, start=start, target_error=0.004, most_samples=110)
     assert tight.step.error < built.step.error and len(tight.snapshots) > len(built.snapshots)
 
 
-def test_bad_starts_are_refused(start: PosingModel) -> None:
+def test_bad_starts_are_refused(tail: PosingProblem, start: PosingModel) -> None:
     other = posing_creature(6000, StableNeoHookean())
     with pytest.raises(ValueError, match="another mesh"):
         accurate_model(other, start=start)
@@ -126,4 +148,4 @@ def test_bad_starts_are_refused(start: PosingModel) -> None:
         training_coordinates=start.training_coordinates[:0],
     )
     with pytest.raises(ValueError, match="made without snapshots"):
-        accurate_model(TAIL, start=bare)
+        accurate_model(tail, start=bare)

@@ -11,9 +11,9 @@ LONGEST = 300
 
 
 def sources() -> list[Path]:
-    packages = [ROOT / folder for folder in ("snapspace", "core", "tests", "tools")]
-    packages += [ROOT / "web" / folder for folder in ("engine", "ui")]
-    files = [path for package in packages for path in package.rglob("*.*")]
+    folders = [ROOT / name for name in ("snapspace", "core", "tests", "tools")]
+    folders += [ROOT / "web" / name for name in ("engine", "ui")]
+    files = [path for folder in folders for path in folder.rglob("*.*")]
     found = {path for path in files if path.suffix in {".py", ".h", ".cpp", ".ts", ".css"}}
     return sorted(found)
 
@@ -25,5 +25,5 @@ def test_no_file_is_long(path: Path) -> None:
 
 
 def test_there_are_files_to_check() -> None:
-    """An installed package without its sources beside the tests would pass everything."""
+    """Where the sources do not lie beside the tests, the test above would check nothing."""
     assert len(sources()) > 100

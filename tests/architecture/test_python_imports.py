@@ -1,4 +1,4 @@
-"""Dependencies point one way, as the design says; read from the imports themselves."""
+"""Dependencies point one way, as in the design; they are read from the import statements."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 
 PACKAGE = Path(__file__).parents[2] / "snapspace"
 
-#: What the modules of a package may import when they are loaded, besides their own one.
+#: Packages that each package's modules may import when they are loaded, besides their own.
 ALLOWED: dict[str, set[str]] = {
     "_core": {"_cpu_level"},
     "input_error": set(),
@@ -158,8 +158,8 @@ ALLOWED: dict[str, set[str]] = {
     },
 }
 
-#: `model.session()`, `save()` and `show()` reach up, inside of the method, for the user's comfort;
-#: `snapshot_pca` names the type of what it takes.
+#: `model.session()`, `save()` and `show()` import upwards, inside the method, for convenience;
+#: `snapshot_pca` names the type of its argument.
 REACHING_UP = {
     ("reduction", "session"),
     ("reduction", "model_file"),
@@ -180,12 +180,12 @@ def modules() -> list[Path]:
 
 
 def imported(node: ast.stmt, path: Path) -> Iterator[str]:
-    """Packages of this package that an import statement names; '' for the package itself."""
-    package = ("snapspace", *path.relative_to(PACKAGE).parent.parts)
+    """Packages of snapspace that an import statement names; '' for snapspace itself."""
+    parent = ("snapspace", *path.relative_to(PACKAGE).parent.parts)
     if isinstance(node, ast.Import):
         targets = [alias.name.split(".") for alias in node.names]
     elif isinstance(node, ast.ImportFrom):
-        base = list(package[: len(package) - node.level + 1]) if node.level else []
+        base = list(parent[: len(parent) - node.level + 1]) if node.level else []
         base += node.module.split(".") if node.module else []
         targets = [[*base, alias.name] for alias in node.names]
     else:
@@ -198,7 +198,7 @@ def imported(node: ast.stmt, path: Path) -> Iterator[str]:
 
 
 def statements(path: Path) -> Iterator[tuple[ast.stmt, bool]]:
-    """All imports of a module, and whether they run (or are checked) later than at its loading."""
+    """All imports of a module; True for those that do not run when the module is loaded."""
 
     def walk(node: ast.AST, later: bool) -> Iterator[tuple[ast.stmt, bool]]:
         for child in ast.iter_child_nodes(node):
@@ -231,14 +231,14 @@ def test_imports_point_one_way(path: Path) -> None:
         assert violations(path) == []
 
 
-def test_every_room_has_its_place() -> None:
-    """A new package is put into the table above, or the check would pass over it."""
+def test_every_package_is_in_the_table() -> None:
+    """A new package must be added to the table above."""
     packages = {package(path) for path in modules()}
     assert packages - TOP == set(ALLOWED)
 
 
 def test_the_table_has_no_cycle() -> None:
-    """Else 'one way' would mean nothing."""
+    """With a cycle, "one way" would mean nothing."""
     left = {name: set(below) for name, below in ALLOWED.items()}
     while left:
         free = [name for name, below in left.items() if not below & set(left)]
@@ -270,7 +270,7 @@ def test_nothing_imports_the_top() -> None:
         ),
     ],
 )
-def test_the_check_sees_a_wrong_import(
+def test_the_check_finds_a_wrong_import(
     monkeypatch: pytest.MonkeyPatch, module: str, line: str, problem: str
 ) -> None:
     path = PACKAGE / module

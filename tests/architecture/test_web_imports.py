@@ -1,4 +1,4 @@
-"""The page's engine knows nothing of documents, drawing or the network."""
+"""The page's engine does not depend on documents, drawing or the network."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Ratios near known frames, and bounds that hold as often as they say."""
+"""Ratios near known frames, and bounds that hold as often as they claim."""
 
 from __future__ import annotations
 
@@ -31,15 +31,15 @@ def covered(confidence: float, known: int, smooth: float) -> tuple[float, float]
 
 @pytest.mark.parametrize("confidence", [0.5, 0.8, 0.9])
 @pytest.mark.parametrize("smooth", [0.0, 0.9])
-def test_a_new_ratio_is_below_the_bound_as_often_as_it_says(
+def test_a_new_ratio_is_below_the_bound_as_often_as_claimed(
     confidence: float, smooth: float
 ) -> None:
-    """In the mean over calibrations, whether or not ratios depend on the place."""
+    """On average over calibrations, whether or not ratios depend on the place."""
     share, _ = covered(confidence, 39, smooth)
     assert share == pytest.approx(confidence, abs=0.06)
 
 
-def test_neighbours_tell_of_a_ratio_that_depends_on_the_place() -> None:
+def test_neighbours_predict_a_ratio_that_depends_on_the_place() -> None:
     places = np.linspace(0, 1, 40)[:, None]
     ratios = LocalRatios(places, np.exp(5 * places[:, 0]))
     for place in (0.21, 0.5, 0.83):
@@ -48,7 +48,7 @@ def test_neighbours_tell_of_a_ratio_that_depends_on_the_place() -> None:
         assert middle <= bound < 1.3 * middle
 
 
-def test_far_from_all_frames_it_is_their_mean() -> None:
+def test_far_from_all_frames_the_ratio_is_their_mean() -> None:
     places = np.linspace(0, 1, 40)[:, None]
     logs = 5 * places[:, 0]
     middle, _ = LocalRatios(places, np.exp(logs)).at(np.array([1e6]), 0.9)
@@ -69,7 +69,7 @@ def test_frames_in_one_place_are_a_plain_sample() -> None:
     assert ratios.at(np.ones(2), 0.5) == pytest.approx((3.0, 3.0))
 
 
-def test_confidence_takes_samples() -> None:
+def test_confidence_needs_samples() -> None:
     nine, eight = (LocalRatios(np.zeros((k, 1)), np.ones(k)) for k in (9, 8))
     assert nine.at(np.zeros(1), 0.9) == pytest.approx((1.0, 1.0))
     with pytest.raises(ValueError, match=r"0\.9 takes 9 calibration samples, but the model has 8"):
@@ -82,6 +82,6 @@ def test_confidence_takes_samples() -> None:
 
 
 @pytest.mark.parametrize("ratios", [[], [1.0], [1.0, np.nan], [0.0, 1.0], [1.0, 1.0, 1.0]])
-def test_ratios_of_no_calibration_are_refused(ratios: list[float]) -> None:
+def test_ratios_that_no_calibration_gives_are_refused(ratios: list[float]) -> None:
     with pytest.raises(ValueError, match="positive ratios; calibrate the model again"):
         ErrorEstimator(1.0, SAMPLE, np.zeros((2, 3)), np.array(ratios), np.ones(2))

@@ -1,4 +1,4 @@
-"""What a probe reads is the gradient of the full objective, for every registered material."""
+"""A probe reads the gradient of the full objective, for every registered material."""
 
 from __future__ import annotations
 

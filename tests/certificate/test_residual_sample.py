@@ -1,4 +1,4 @@
-"""A few vertices tell the norm of the whole residual."""
+"""A few vertices estimate the norm of the whole residual."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from snapspace import InterpolationModel, PosingModel, Session
 from snapspace.certificate import ResidualSample, residual_sample, scalar_diagonal
-from snapspace.problem import PosingProblem
 
 FloatArray = NDArray[np.float64]
 
@@ -17,7 +16,7 @@ FloatArray = NDArray[np.float64]
 def session(
     request: pytest.FixtureRequest, posing_model: PosingModel, blending_model: InterpolationModel
 ) -> Session:
-    """Off the minimum: the frame of other handles or weights than the present ones."""
+    """A session off its minimum: at the frame of handles or weights other than the present ones."""
     if request.param == "posing":
         posing = posing_model.session()
         half_widths = posing_model.problem.domain.half_widths
@@ -35,7 +34,7 @@ def session(
 
 
 def squares(session: Session) -> FloatArray:
-    """|g_v|^2 of all vertices, by the full problem."""
+    """|g_v|^2 of all vertices, from the full problem."""
     problem = session.model.problem
     u = session.model.subspace.shape(session.q) - problem.base
     gradient = problem.system.value_and_gradient(u, session._inputs())[1]
@@ -49,7 +48,7 @@ def test_all_vertices_give_the_norm_itself(session: Session) -> None:
     assert session.residual(everything) == pytest.approx(norm, rel=1e-9)
 
 
-def test_samples_are_right_in_the_mean(session: Session) -> None:
+def test_samples_are_right_on_average(session: Session) -> None:
     diagonal = scalar_diagonal(session.model.problem)  # type: ignore[arg-type]
     expected = np.random.default_rng(0).uniform(0.5, 2.0, len(diagonal)) * squares(session)
     truth = (squares(session) / diagonal).sum()
@@ -62,19 +61,20 @@ def test_samples_are_right_in_the_mean(session: Session) -> None:
 
 
 def test_only_the_vertices_of_the_sample_matter(session: Session) -> None:
-    """Sums over the tets around them are whole, and those of their neighbours are left out."""
+    """The sums over their own tets are complete, and their neighbours' sums are left out."""
     values = squares(session)
     for v in (0, len(values) // 2, len(values) - 1):
         alone = ResidualSample(np.array([v], np.int32), np.ones(1))
         assert session.residual(alone) ** 2 == pytest.approx(values[v], rel=1e-8)
 
 
-def test_the_diagonal_is_that_of_the_factor(session: Session) -> None:
-    """e_v^T A e_v of the matrix whose inverse the system applies."""
-    problem = session.model.problem
-    diagonal = scalar_diagonal(problem)  # type: ignore[arg-type]
-    if not isinstance(problem, PosingProblem):  # its factor takes the poses into account
-        return
+def test_the_diagonal_is_that_of_the_factor(posing_model: PosingModel) -> None:
+    """e_v^T A e_v of the matrix whose inverse the system applies.
+
+    The factor of an interpolation takes the poses into account.
+    """
+    problem = posing_model.problem
+    diagonal = scalar_diagonal(problem)
     n = len(diagonal)
     inverse = np.empty((n, n))
     for v, row in enumerate(inverse):

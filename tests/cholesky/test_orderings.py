@@ -43,7 +43,7 @@ def test_random_graphs_are_ordered(A: Any) -> None:
 
 @pytest.mark.parametrize("n", [300, 500])
 def test_graphs_without_separators_are_ordered(n: int) -> None:
-    """Larger than what is left to minimum degree: complete graphs, stars, no edges at all."""
+    """Larger than the parts left to minimum degree: complete graphs, stars, no edges at all."""
     hub = np.eye(n)
     hub[0, :] = hub[:, 0] = 1.0
     for A in (np.ones((n, n)), hub, np.eye(n)):
@@ -52,7 +52,8 @@ def test_graphs_without_separators_are_ordered(n: int) -> None:
 
 def test_dissection_fills_less_in_solid_bodies() -> None:
     """A cube of m^3 vertices has at least a constant times m^4 entries, in any order [George 1973];
-    minimum degree needs half as many again as dissection."""
+    minimum degree needs half as many again as dissection.
+    """
     A = mesh_matrix(bar(23, 23, 23))
     starts, rows, _ = by_columns(A)
     by_degree = fill(A, core.minimum_degree(starts, rows))
@@ -61,7 +62,7 @@ def test_dissection_fills_less_in_solid_bodies() -> None:
     assert core.ScalarFactor(*by_columns(A)).nonzeros == by_dissection
 
 
-def test_minimum_degree_fills_less_in_thin_ones() -> None:
+def test_minimum_degree_fills_less_in_thin_bodies() -> None:
     A = mesh_matrix(bar(120, 2, 2))
     starts, rows, _ = by_columns(A)
     by_degree = fill(A, core.minimum_degree(starts, rows))
@@ -69,7 +70,7 @@ def test_minimum_degree_fills_less_in_thin_ones() -> None:
     assert core.ScalarFactor(*by_columns(A)).nonzeros == by_degree
 
 
-def test_the_order_decides_on_the_fill() -> None:
+def test_the_order_decides_the_fill() -> None:
     A = MATRICES["star"]
     n = A.shape[0]
     last = np.arange(n, dtype=np.int32)[::-1].copy()  # the centre is vertex 0
@@ -78,7 +79,7 @@ def test_the_order_decides_on_the_fill() -> None:
 
 
 @pytest.mark.parametrize("order", [[0, 1], [0, 0, 1], [1, 2, 3], [0, 1, 2, 3]])
-def test_an_order_must_be_one(order: list[int]) -> None:
+def test_an_order_must_be_a_permutation(order: list[int]) -> None:
     columns = by_columns(np.eye(3))
     with pytest.raises(ValueError, match="every vertex once"):
         core.ScalarFactor.in_order(*columns, np.array(order, np.int32))

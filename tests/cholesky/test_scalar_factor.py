@@ -1,4 +1,4 @@
-"""The Cholesky factor of the scalar matrices: against SciPy, in any order, in all lanes."""
+"""The Cholesky factor of scalar matrices: compared with SciPy, in any order, in all lanes."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def test_solutions_are_those_of_scipy(name: str) -> None:
 @settings(max_examples=100)
 @given(random_matrices(), st.randoms(use_true_random=False))
 def test_random_matrices_are_solved_in_any_order(A: Any, random: Any) -> None:
-    """A bad order fills the factor, it does not change what it solves."""
+    """A bad order fills the factor but does not change the solution."""
     b = right_hand_sides(A)
     order = list(range(A.shape[0]))
     random.shuffle(order)
@@ -78,7 +78,7 @@ def test_lanes_agree_with_one_number(name: str, method: str, tolerance: float) -
 
 @pytest.mark.parametrize("method", LANES)
 def test_a_lane_does_not_see_its_neighbours(method: str) -> None:
-    """Not one that holds no number either."""
+    """Not even a neighbour that holds NaN."""
     factor = core.ScalarFactor(*by_columns(MATRICES["creature"]))
     b = right_hand_sides(MATRICES["creature"], LANES[method])
     x = getattr(factor, method)(b)
@@ -106,8 +106,10 @@ def test_factors_are_reproducible() -> None:
 
 @pytest.mark.parametrize("stiffness", [1e-3, 1.0, 1e6])
 def test_stiff_handles_are_solved(stiffness: float) -> None:
-    """All handles ask for the same translation: at rest only they pull, and what a step with the
-    scalar matrix of the problem makes of that is the translation of all vertices."""
+    """All handles ask for the same translation, and at rest only they pull.
+
+    A step with the problem's scalar matrix is then this translation of all vertices.
+    """
     mesh = creature(5000)
     z = mesh.vertices[:, 2]
     handles = Handles([z < np.quantile(z, 0.1), z > np.quantile(z, 0.9)])

@@ -1,4 +1,4 @@
-"""The program as a function, and a small model that it made."""
+"""The program as a function, and small models that it built."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def no_such_option(name: str) -> str:
 
 
 def interrupted_as(error: Exception) -> Callable[..., NoReturn]:
-    """A function in which Ctrl-C comes, and a library makes an error of its own of it."""
+    """A function in which Ctrl-C arrives, and a library turns it into `error`."""
 
     def interrupted(*_: object, **__: object) -> NoReturn:
         try:
@@ -36,7 +36,7 @@ def interrupted_as(error: Exception) -> Callable[..., NoReturn]:
 
 @dataclass(frozen=True)
 class Result:
-    """What a run of the program gave."""
+    """Exit code, standard output and standard error of a run of the program."""
 
     code: int
     out: str
@@ -76,7 +76,7 @@ def run(capsys: pytest.CaptureFixture[str]) -> Run:
 
 @pytest.fixture(scope="session")
 def built_model(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A model of the bar, dimension 10 from 24 samples. Not to be written to."""
+    """A model of the bar, dimension 10 from 24 samples. Tests must not write to it."""
     folder = tmp_path_factory.mktemp("model")
     problem, path = write_problem(folder), folder / "bar.snapspace"
     words = ["build", "--problem", problem, "--samples", 24, "--dimension", 10, "-o", path]
@@ -86,7 +86,7 @@ def built_model(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def model(built_model: Path, tmp_path: Path) -> Path:
-    """A copy of the model in a folder of its own."""
+    """A copy of the model in its own folder."""
     path = tmp_path / built_model.name
     path.write_bytes(built_model.read_bytes())
     return path
@@ -94,7 +94,7 @@ def model(built_model: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def built_blend(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A model of three tet poses of the bar, dimension 8 from 12 samples. Not to be written to."""
+    """Three tet poses of the bar, dimension 8 from 12 samples. Tests must not write to it."""
     folder = tmp_path_factory.mktemp("blend")
     path = folder / "poses.snapspace"
     words = [*write_tet_poses(folder), "--samples", 12, "--dimension", 8, "-o", path]
@@ -104,7 +104,7 @@ def built_blend(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def blend_model(built_blend: Path, tmp_path: Path) -> Path:
-    """A copy of the model of poses in a folder of its own."""
+    """A copy of the model of poses in its own folder."""
     path = tmp_path / built_blend.name
     path.write_bytes(built_blend.read_bytes())
     return path
@@ -112,7 +112,7 @@ def blend_model(built_blend: Path, tmp_path: Path) -> Path:
 
 @pytest.fixture
 def surface_words(tmp_path: Path) -> list[object]:
-    """A run of `interpolate` on three surfaces of the bar, with tets that begin with theirs."""
+    """`interpolate` for three surfaces of the bar, with tets whose vertices begin with theirs."""
     write_tets(tmp_path / "tets.mesh", surface_first())
     poses = write_surface_poses(tmp_path)
     size = ["--samples", 6, "--dimension", 5]

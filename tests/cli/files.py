@@ -56,7 +56,7 @@ def bar_shapes() -> dict[str, FloatArray]:
 
 
 def bar_surfaces() -> dict[str, Surface]:
-    """Vertices and faces of the bar's poses, in an order that is not that of the tet vertices."""
+    """Vertices and faces of the bar's poses, in an order other than that of the tet vertices."""
     surfaces = {}
     for name, shape in bar_shapes().items():
         vertices, faces = compact_surface(shape, bar_mesh().surface)
@@ -97,7 +97,7 @@ def enclosing_mesh() -> TetMesh:
 
 
 def write_raw(path: Path, vertices: FloatArray, tets: NDArray[np.int32]) -> None:
-    """A MEDIT file without any check."""
+    """Writes a MEDIT file without any check."""
     rows = [f"{x!r} {y!r} {z!r} 0" for x, y, z in vertices.tolist()]
     cells = [" ".join(str(i + 1) for i in tet) + " 0" for tet in tets.tolist()]
     head = ["MeshVersionFormatted 2", "Dimension 3"]
@@ -106,7 +106,7 @@ def write_raw(path: Path, vertices: FloatArray, tets: NDArray[np.int32]) -> None
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    """All files below a folder, to see that none was touched."""
+    """All files below a folder, to check that none was touched."""
     return {
         str(path.relative_to(folder)): path.read_bytes()
         for path in sorted(folder.rglob("*"))

@@ -1,4 +1,4 @@
-"""A mistake in the input is one line that names it; exit code 2, and no file is touched."""
+"""A mistake in the input gives one line that names it and exit code 2, and touches no file."""
 
 from __future__ import annotations
 

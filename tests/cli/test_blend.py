@@ -1,4 +1,4 @@
-"""`snapspace blend --weights`: the shapes are the session's, in every format."""
+"""`snapspace blend --weights`: the shapes are those of a session, in every format."""
 
 from __future__ import annotations
 
@@ -93,14 +93,14 @@ def test_one_hot_weights_give_the_pose(
     problem = load(blend_model).problem
     wanted = problem.pose_shapes[pose]
     found = problem.aligned(read_tets(path).vertices.reshape(-1), wanted)
-    # what eight modes leave of the snapshots
+    # what eight modes miss of the snapshots
     np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-3 * problem.mesh.diagonal)
     straight = read_tets(tmp_path / "out-linear.vtu").vertices.reshape(-1)
     np.testing.assert_array_equal(straight, wanted)
 
 
-def test_the_linear_blend_is_written_beside(run: Run, blend_model: Path, tmp_path: Path) -> None:
-    """Its turned parts shrink, those of the elastic blend hardly do."""
+def test_the_linear_blend_is_written_beside_it(run: Run, blend_model: Path, tmp_path: Path) -> None:
+    """Its rotated parts shrink; those of the elastic blend hardly do."""
     words = ("--weights", "0,0.5,0.5", "-o", tmp_path / "out.msh", "--linear", "--json")
     figures = run("blend", blend_model, *words).json
     names = ["out.msh", "out-linear.msh"]
@@ -134,7 +134,7 @@ def test_a_picture(
 
 
 @pytest.mark.parametrize("words", [("--weights", "-0.1,1.1,0"), ("--weights=-0.1 1.1 0",)])
-def test_extrapolation_is_taken_when_asked_for(
+def test_extrapolate_accepts_weights_below_zero(
     run: Run, blend_model: Path, tmp_path: Path, words: tuple[str, ...]
 ) -> None:
     path = tmp_path / "out.vtu"
@@ -243,7 +243,7 @@ def test_each_kind_of_model_has_its_command(
 
 
 @pytest.mark.parametrize("damage", [b"", b"solid cube\n" * 50])
-def test_what_is_no_model_is_refused(run: Run, blend_model: Path, damage: bytes) -> None:
+def test_a_file_that_is_not_a_model_is_refused(run: Run, blend_model: Path, damage: bytes) -> None:
     blend_model.write_bytes(damage)
     error = run("blend", blend_model, "--weights", TEXT).error
     assert error.startswith(f"{blend_model}: ")

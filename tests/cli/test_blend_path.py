@@ -39,7 +39,7 @@ def test_frames_are_evenly_spaced_from_the_first_pose_to_the_last(poses: int, fr
 
 
 @given(poses=st.integers(2, 9), steps=st.integers(1, 30))
-def test_poses_are_hit_exactly_where_the_frames_allow_it(poses: int, steps: int) -> None:
+def test_poses_are_met_exactly_where_the_frames_allow_it(poses: int, steps: int) -> None:
     weights = path_weights(poses, (poses - 1) * steps + 1)
     np.testing.assert_array_equal(weights[::steps], np.eye(poses))
 
@@ -62,7 +62,7 @@ def test_frames_at_poses_are_the_poses(run: Run, blend_model: Path, tmp_path: Pa
         wanted = problem.pose_shapes[pose].reshape(-1, 3)
         shape = problem.aligned(frame.vertices.reshape(-1), problem.pose_shapes[pose])
         away = np.linalg.norm(shape.reshape(-1, 3) - wanted, axis=1).max()
-        assert away < 1e-3 * problem.mesh.diagonal  # what eight modes leave of the snapshots
+        assert away < 1e-3 * problem.mesh.diagonal  # what eight modes miss of the snapshots
     assert all(frame["status"] == "converged" for frame in figures["frames"])
 
 
@@ -78,7 +78,7 @@ def test_frames_are_those_of_single_blends(run: Run, blend_model: Path, tmp_path
 
 @pytest.mark.parametrize("suffix", [*SURFACE_OUTPUTS, *TET_OUTPUTS])
 def test_names_and_formats(run: Run, blend_model: Path, tmp_path: Path, suffix: str) -> None:
-    folder = tmp_path / "new" / "frames"  # neither is there yet
+    folder = tmp_path / "new" / "frames"  # neither exists yet
     words = ("--path", 3, "--format", suffix.removeprefix("."), "-o", folder, "--json")
     figures = run("blend", blend_model, *words).json
     names = [f"frame-000{number}{suffix}" for number in range(3)]
@@ -91,7 +91,7 @@ def test_names_and_formats(run: Run, blend_model: Path, tmp_path: Path, suffix: 
         np.testing.assert_array_equal(read_tets(folder / names[1]).tets, mesh.tets)
 
 
-def test_the_linear_blend_is_written_beside(run: Run, blend_model: Path, tmp_path: Path) -> None:
+def test_the_linear_blend_is_written_beside_it(run: Run, blend_model: Path, tmp_path: Path) -> None:
     words = ("--path", 4, "--even", "weights", "--linear")
     words += ("--format", "msh", "-o", tmp_path / "frames")
     figures = run("blend", blend_model, *words, "--json").json
@@ -103,10 +103,10 @@ def test_the_linear_blend_is_written_beside(run: Run, blend_model: Path, tmp_pat
 
 
 @pytest.mark.parametrize("linear", [[], ["--linear"]])
-def test_frames_of_a_longer_path_are_pointed_out(
+def test_frames_left_from_a_longer_path_are_reported(
     run: Run, blend_model: Path, tmp_path: Path, linear: list[str]
 ) -> None:
-    """They would follow those of the new path in a film."""
+    """In a film they would follow the frames of the new path."""
     words = ("blend", blend_model, *linear, "-o", tmp_path / "frames", "--path")
     (tmp_path / "frames").mkdir()
     (tmp_path / "frames" / "frame-by-frame.txt").write_text("no frame")

@@ -123,7 +123,7 @@ def test_both_solvers_give_a_model(run: Run, tmp_path: Path, solver: str) -> Non
     assert figures["snapshots"]["converged"] == 6
 
 
-def test_unconverged_samples_are_left_out_but_kept_for_another_try(
+def test_unconverged_samples_are_left_out_but_kept_for_another_run(
     run: Run, tmp_path: Path
 ) -> None:
     problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"

@@ -1,4 +1,4 @@
-"""`snapspace build` without samples and dimension: both follow from the error."""
+"""`snapspace build` without samples and dimension chooses both by the error."""
 
 from __future__ import annotations
 
@@ -22,19 +22,19 @@ def neo_hookean(folder: Path) -> Path:
     return file
 
 
-def test_it_says_what_it_tried_and_what_came_of_it(run: Run, tmp_path: Path) -> None:
+def test_it_reports_what_it_tried_and_reached(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
     result = run("build", "--problem", neo_hookean(tmp_path), "--target-error", 0.05, "-o", path)
     assert "error of unseen motions" in result.err
     record = load(path).provenance["accurate"]
     assert record["reached"] and record["step"]["error"] <= record["target_error"] == 0.05
     assert record["step"]["error"] <= record["step"]["ninth"]
-    for told in (result, run("info", path)):
-        assert "5 % asked; nine of ten by less than" in " ".join(told.err.split())
+    for shown in (result, run("info", path)):
+        assert "5 % asked; nine of ten by less than" in " ".join(shown.err.split())
     assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
 
 
-def test_an_old_model_is_the_beginning_of_one_with_other_handles(run: Run, tmp_path: Path) -> None:
+def test_an_old_model_is_the_start_of_one_with_other_handles(run: Run, tmp_path: Path) -> None:
     file, old, new = neo_hookean(tmp_path), tmp_path / "old.snapspace", tmp_path / "new.snapspace"
     run("build", "--problem", file, "--target-error", 0.05, "-o", old)
     problem = json.loads(file.read_text())
@@ -43,7 +43,7 @@ def test_an_old_model_is_the_beginning_of_one_with_other_handles(run: Run, tmp_p
     words = ("--problem", file, "--from", old, "-o", new)
     run("build", *words, "--target-error", 0.2)
     record = load(new).provenance["accurate"]
-    assert record["reached"] and record["step"]["samples"] == 16, "only what judges was solved"
+    assert record["reached"] and record["step"]["samples"] == 16, "those that judge, and no others"
     result = run("build", *words, "--samples", 24, "--dimension", 6)
     assert result.code == 2 and "--from chooses what --samples decides" in result.err
 
@@ -63,8 +63,8 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
     words = ("--target-error", 1e-6, "--budget", 0.01)
     result = run("build", "--problem", neo_hookean(tmp_path), *words, "-o", path)
-    told = " ".join(result.err.split())
-    assert "would exceed the budget of 0.01 s" in told and "raise --budget" in told
+    text = " ".join(result.err.split())
+    assert "would exceed the budget of 0.01 s" in text and "raise --budget" in text
     record = load(path).provenance["accurate"]
     assert not record["reached"] and record["step"]["samples"] == 96
 
@@ -82,7 +82,7 @@ def test_a_budget_ends_it_early_and_says_so(run: Run, tmp_path: Path) -> None:
         (("--budget", 9, "--dimension", 6), "--budget chooses what --dimension decides"),
     ],
 )
-def test_what_has_no_effect_is_refused(
+def test_options_without_effect_are_refused(
     run: Run, tmp_path: Path, words: tuple[object, ...], message: str
 ) -> None:
     path = tmp_path / "m.snapspace"
@@ -91,7 +91,7 @@ def test_what_has_no_effect_is_refused(
     assert not path.exists()
 
 
-def test_the_papers_material_has_no_accuracy_to_ask_for(run: Run, tmp_path: Path) -> None:
+def test_the_papers_material_takes_no_target_error(run: Run, tmp_path: Path) -> None:
     file = write_problem(tmp_path)
     problem = json.loads(file.read_text())
     problem["material"] = {"model": "stvk", "lam": 1.0, "mu": 1.0}

@@ -46,8 +46,8 @@ def test_tets_are_for_the_cubature_only(run: Run, tmp_path: Path) -> None:
     assert not path.exists()
 
 
-def test_samples_of_a_cubature_are_near_equilibrium_unless_told(run: Run, tmp_path: Path) -> None:
-    """A cubature is trained on the forces at the samples; settled ones have others."""
+def test_samples_of_a_cubature_are_near_equilibrium_by_default(run: Run, tmp_path: Path) -> None:
+    """A cubature is trained on the forces at the samples; settled samples have other forces."""
     problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
 
     def solver(*options: object) -> dict[str, float]:
@@ -61,7 +61,7 @@ def test_samples_of_a_cubature_are_near_equilibrium_unless_told(run: Run, tmp_pa
     assert solver(*SMALL[4:], "--settling", 0.02) == {**solver(), "settling": 0.02}
 
 
-def test_without_a_material_it_is_stable_neo_hookean_and_the_energy_a_cubature(
+def test_by_default_the_material_is_stable_neo_hookean_and_the_energy_a_cubature(
     run: Run, tmp_path: Path
 ) -> None:
     problem, path = default_material(tmp_path), tmp_path / "m.snapspace"
@@ -77,7 +77,7 @@ def test_without_a_material_it_is_stable_neo_hookean_and_the_energy_a_cubature(
     assert "stable neo-Hookean, lam 1, mu 1" in " ".join((shown.out + shown.err).split())
 
 
-def test_an_energy_that_is_not_possible_is_said_before_the_work(run: Run, tmp_path: Path) -> None:
+def test_an_impossible_energy_is_refused_before_the_work(run: Run, tmp_path: Path) -> None:
     problem, path = default_material(tmp_path), tmp_path / "m.snapspace"
     for options, message in (
         (("--energy", "exact"), "stable neo-Hookean is not a polynomial of degree four"),
@@ -92,7 +92,7 @@ def test_an_energy_that_is_not_possible_is_said_before_the_work(run: Run, tmp_pa
 def test_few_samples_and_an_energy_fraction_are_enough_for_an_exact_energy(
     run: Run, tmp_path: Path
 ) -> None:
-    """A subspace has no more dimensions than there are samples."""
+    """A subspace has at most as many dimensions as there are samples."""
     path = tmp_path / "m.snapspace"
     words = ("--samples", 6, "--energy-fraction", 0.9, "-o", path)
     assert run("build", "--problem", write_problem(tmp_path), *words).code == 0

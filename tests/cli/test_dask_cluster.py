@@ -1,4 +1,4 @@
-"""--dask: the model of this machine from a cluster's samples, and clusters that will not do."""
+"""--dask: a cluster's samples give the model of this machine; unsuitable clusters are refused."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def build_words(folder: Path, *, output: str = "there.snapspace") -> list[object
     return ["build", "--problem", problem, *size, "-o", folder / output]
 
 
-def test_a_build_on_a_cluster_is_that_of_this_machine(
+def test_a_build_on_a_cluster_gives_the_model_of_this_machine(
     run: Run, cluster: Any, tmp_path: Path
 ) -> None:
     here = run(*build_words(tmp_path, output="here.snapspace"))
@@ -42,7 +42,7 @@ def test_a_build_on_a_cluster_is_that_of_this_machine(
     assert not list(tmp_path.glob("*.partial-*"))
 
 
-def test_so_is_an_interpolation(run: Run, cluster: Any, tmp_path: Path) -> None:
+def test_so_does_an_interpolation(run: Run, cluster: Any, tmp_path: Path) -> None:
     words = ["interpolate", *write_tet_poses(tmp_path), "--samples", 6, "--dimension", 5]
     here, there = tmp_path / "here.snapspace", tmp_path / "there.snapspace"
     assert run(*words, "-o", here).code == 0
@@ -65,10 +65,10 @@ def test_another_version_on_a_worker_is_refused(
     assert f"has snapspace {installed}, but this is snapspace 99.0; install the same" in error
 
 
-def test_another_build_on_a_worker_is_said(
+def test_another_build_on_a_worker_is_reported(
     run: Run, cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The builds for different processors round differently: the model is another one then."""
+    """Builds for different processors round differently, so that the model differs."""
     monkeypatch.setattr(dask_cluster, "level", "v9")
     result = run(*build_words(tmp_path), "--dask", cluster.scheduler_address)
     assert result.code == 0
@@ -76,13 +76,13 @@ def test_another_build_on_a_worker_is_said(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGKILL")
-def test_a_worker_that_is_lost_while_it_is_asked_is_none(
+def test_a_worker_that_is_lost_while_it_is_asked_is_ignored(
     run: Run, cluster: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     mark = tmp_path / "asked"
 
     def lost_or_level() -> str:
-        """The first one that is asked dies of it."""
+        """Kills the first worker that is asked."""
         try:
             mark.touch(exist_ok=False)
         except FileExistsError:
@@ -104,7 +104,7 @@ def test_a_cluster_without_workers_is_refused(run: Run, tmp_path: Path) -> None:
     assert "the cluster has no workers; start some with 'dask worker tcp://" in error
 
 
-def test_an_address_where_nobody_answers_is_refused(
+def test_an_address_where_no_scheduler_answers_is_refused(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     pytest.importorskip("distributed", reason="needs the extra snapspace[dask]")
@@ -114,7 +114,7 @@ def test_an_address_where_nobody_answers_is_refused(
 
 
 @pytest.mark.parametrize("address", ["127.0.0.1", "tcp://localhost", "nonsense", ""])
-def test_what_is_no_address_is_refused(run: Run, tmp_path: Path, address: str) -> None:
+def test_text_that_is_not_an_address_is_refused(run: Run, tmp_path: Path, address: str) -> None:
     error = run(*build_words(tmp_path), "--dask", address).error
     assert error == f"--dask {address}: this is not an address such as tcp://127.0.0.1:8786"
 

@@ -1,4 +1,4 @@
-"""`snapspace blend --path` moves the shape evenly, and tells where it jumps."""
+"""`snapspace blend --path` moves the shape evenly, and reports where it jumps."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def test_no_other_whole_steps_are_shorter(lengths: list[float], more: int) -> No
     if longest > 0:
         shorter = longest * (1 - 1e-9)
         needed = [max(int(np.ceil(length / shorter)), 1) for length in lengths]
-        assert sum(needed) > counts.sum(), "shorter steps would be more than there are"
+        assert sum(needed) > counts.sum(), "shorter steps would need more frames"
 
 
 def test_the_largest_motion_is_even_where_the_weights_are_not(run: Run, blend_model: Path) -> None:
@@ -47,7 +47,7 @@ def test_the_largest_motion_is_even_where_the_weights_are_not(run: Run, blend_mo
     assert max(by_weight["path"]["motions"]) > 1.2 * motions.max()
 
 
-def test_motions_are_those_of_the_files_vertices(run: Run, blend_model: Path) -> None:
+def test_motions_are_those_of_the_written_vertices(run: Run, blend_model: Path) -> None:
     figures = run("blend", blend_model, "--path", 4, "--json").json
     session = load(blend_model).session()
     shapes = []
@@ -59,7 +59,7 @@ def test_motions_are_those_of_the_files_vertices(run: Run, blend_model: Path) ->
 
 
 @pytest.mark.parametrize("frames", [2, 3, 4, 12])
-def test_poses_are_frames_if_there_are_as_many(run: Run, blend_model: Path, frames: int) -> None:
+def test_poses_are_frames_if_there_are_enough(run: Run, blend_model: Path, frames: int) -> None:
     figures = run("blend", blend_model, "--path", frames, "--json").json
     weights = [frame["weights"] for frame in figures["frames"]]
     assert len(weights) == frames
@@ -69,7 +69,7 @@ def test_poses_are_frames_if_there_are_as_many(run: Run, blend_model: Path, fram
 
 @pytest.fixture
 def snapping_model(tmp_path: Path) -> Path:
-    """A bar bent almost to a ring, to both sides: between them the energy has several minima."""
+    """A bar bent almost to a ring, to either side: in between, the energy has several minima."""
     mesh = bar(10, 1, 1, width=0.6, height=0.6)
     poses = Poses(np.stack([bent(mesh, 5.5), bent(mesh, -5.5)]), mesh.tets, names=["left", "right"])
     problem = InterpolationProblem(poses, material=StVK())
@@ -81,7 +81,7 @@ def snapping_model(tmp_path: Path) -> Path:
     return path
 
 
-def test_jumps_are_told_with_their_frames_and_all_else_is_even(
+def test_jumps_are_reported_with_their_frames_and_all_else_is_even(
     run: Run, snapping_model: Path
 ) -> None:
     result = run("blend", snapping_model, "--path", 40, "--json")
@@ -90,11 +90,11 @@ def test_jumps_are_told_with_their_frames_and_all_else_is_even(
     even = np.median(motions)
     frames = {jump["frame"] for jump in jumps}
     far = {number for number, motion in enumerate(motions, start=1) if motion > 2 * even}
-    assert far == frames, "the frames that are far from those before are the ones that are told"
+    assert far == frames, "the reported frames are those far from the frame before"
     session = load(snapping_model).session()
     for jump in jumps:
         assert jump["motion"] > 4 * even
-        # steps of a ten-thousandth come near it, and one of them leaps all the same
+        # steps of 1e-4 approach the jump, and one of them still leaps
         end, moved = jump["weights"][1], []
         for share in np.append(np.linspace(0, end - 5e-3, 400), end - np.arange(49, -1, -1) * 1e-4):
             before = session.vertices

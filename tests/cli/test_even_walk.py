@@ -1,4 +1,4 @@
-"""A walk by even motions, on curves whose motions are known."""
+"""A walk in even motions along curves whose motions are known."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MOST_SOLVES = 18
 
 @dataclass
 class Walked:
-    """Shares, motions and numbers of solves of the steps, and the jumps."""
+    """Share, motion and number of solves of every step, and the jumps."""
 
     shares: list[float] = field(default_factory=list)
     motions: list[float] = field(default_factory=list)
@@ -24,20 +24,20 @@ class Walked:
 
 
 def walked(curve: Callable[[float, float], float], *, length: float) -> Walked:
-    """Walks to the end of x(share, x before)."""
+    """Walks to the end of the curve x(share, previous x)."""
     result = Walked()
 
     def solve(share: float, near: np.ndarray) -> np.ndarray:
         result.solves[-1] += 1
         return np.array([curve(share, near[0])])
 
-    way = ShapePath(solve, lambda a, b: float(abs(b - a)[0]))
-    walk = EvenWalk(way, np.array([curve(0.0, 0.0)]), length=length, even=EVEN, jump=4 * EVEN)
+    path = ShapePath(solve, lambda a, b: float(abs(b - a)[0]))
+    walk = EvenWalk(path, np.array([curve(0.0, 0.0)]), length=length, even=EVEN, jump=4 * EVEN)
     while walk.at.share < 1:
         before = walk.at
         result.solves.append(0)
         jump = walk.step()
-        assert walk.at.share > before.share, "it never stands still"
+        assert walk.at.share > before.share, "every step advances"
         result.jumps += [jump] if jump else []
         result.shares.append(walk.at.share)
         result.motions.append(float(abs(walk.at.q - before.q)[0]))
@@ -56,7 +56,7 @@ def test_where_the_shape_moves_fast_shares_grow_slowly() -> None:
 
 
 def bistable(share: float, near: float) -> float:
-    """The minimum of x^4/4 - x^2/2 - f x that a descent comes to; beyond f = 0.385 there is one."""
+    """The minimum of x^4/4 - x^2/2 - f x that descent finds; for f > 0.385 there is only one."""
     force = 1.2 * (share - 0.5)
     x = near if share else -1.2
     for _ in range(4000):
@@ -64,7 +64,7 @@ def bistable(share: float, near: float) -> float:
     return x
 
 
-def test_a_jump_is_told_where_it_is_and_all_else_is_even() -> None:
+def test_a_jump_is_located_and_all_else_is_even() -> None:
     found = walked(bistable, length=2.0)
     (jump,) = found.jumps
     fold = 0.5 + 2 / (3 * np.sqrt(3)) / 1.2
@@ -77,10 +77,10 @@ def test_a_jump_is_told_where_it_is_and_all_else_is_even() -> None:
     assert len(others) < 120, "it does not creep towards the jump"
 
 
-def test_a_steep_part_is_no_jump() -> None:
+def test_a_steep_part_is_not_a_jump() -> None:
     found = walked(lambda share, _: float(np.tanh(200 * (share - 0.505))), length=2.0)
     assert not found.jumps and max(found.motions) <= LARGE * EVEN
 
 
-def test_a_shape_that_rests_is_passed_in_a_few_steps() -> None:
+def test_a_shape_at_rest_is_passed_in_a_few_steps() -> None:
     assert len(walked(lambda share, _: 1.0, length=0.0).shares) <= 5

@@ -25,7 +25,7 @@ def test_the_page_holds_the_model(run: Run, model: Path, tmp_path: Path) -> None
     assert "<title>A bar</title>" in text
 
 
-def test_mistakes_are_one_line(run: Run, model: Path, tmp_path: Path) -> None:
+def test_mistakes_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
     assert "a page ends in .html" in run("export", model, "--html", tmp_path / "a.pdf").error
     assert "no such model file" in run("export", "none.snapspace", "--html", "a.html").error
     assert "--html" in run("export", model).error

@@ -1,4 +1,4 @@
-"""'built' is said, and a model written, only after one frame of it was solved and is finite."""
+"""A model is written and called built only after one of its frames was solved and is finite."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .test_build_accuracy import neo_hookean
 
 
 def broken(model: PosingModel) -> PosingModel:
-    """With forces of the handles that are no numbers."""
+    """The model with handle forces that are NaN."""
     L = np.full_like(model.handles.L, np.nan)
     return replace(model, handles=HandleQuadric(model.handles.K, L, model.handles.S))
 
@@ -40,7 +40,7 @@ def test_a_frame_that_is_not_finite_is_refused(posing_model: PosingModel) -> Non
         check_first_frame(broken(posing_model))
 
 
-def test_the_samples_are_kept_and_nothing_is_called_built(
+def test_samples_of_a_broken_model_are_kept_and_it_is_not_called_built(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     problem, path = write_problem(tmp_path), tmp_path / "m.snapspace"
@@ -62,7 +62,7 @@ def test_the_samples_are_kept_and_nothing_is_called_built(
     assert path.exists()
 
 
-def test_models_by_the_target_error_are_looked_at_too(
+def test_models_made_to_a_target_error_are_checked_too(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file, path = neo_hookean(tmp_path), tmp_path / "m.snapspace"

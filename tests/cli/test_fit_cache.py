@@ -1,4 +1,4 @@
-"""FitCache: what was made is found again by what it was made from, and by nothing else."""
+"""FitCache: results are found again by the inputs that they were made from, and by no others."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def keep(cache: FitCache) -> None:
     cache.save_fit(MESH, SURFACE, TARGET, SETTINGS, SHAPE, FIT)
 
 
-def test_what_was_kept_comes_back_bit_by_bit(cache: FitCache) -> None:
+def test_kept_results_come_back_bit_by_bit(cache: FitCache) -> None:
     keep(cache)
     mesh = cache.load_tets(TARGET, SURFACE.faces, {})
     assert mesh is not None
@@ -75,7 +75,7 @@ def test_another_surface_or_size_is_filled_anew(cache: FitCache) -> None:
     assert cache.load_tets(TARGET, SURFACE.faces, {"edge_length": 0.02}) is None
 
 
-def test_anything_that_a_fit_depends_on_makes_it_another(cache: FitCache) -> None:
+def test_a_change_of_any_input_asks_for_a_new_fit(cache: FitCache) -> None:
     keep(cache)
     target = TARGET.copy()
     target[3, 1] = np.nextafter(target[3, 1], 9)
@@ -106,14 +106,14 @@ def emptied(path: Path) -> None:
 
 
 def one_bit_flipped(path: Path) -> None:
-    """In the last array: its layout stays as it was, and its numbers change by little."""
+    """A bit of the last array: the layout stays the same, and a number changes a little."""
     content = bytearray(path.read_bytes())
     content[-4] ^= 1
     path.write_bytes(content)
 
 
 def without_a_checksum(path: Path) -> None:
-    """As files were before they had one."""
+    """A file of the time before files had checksums."""
     with safe_open(path, framework="np") as file:
         arrays = {name: file.get_tensor(name) for name in file.keys()}
         words = {k: v for k, v in file.metadata().items() if k != "crc32"}
@@ -129,7 +129,7 @@ def of_another_program(path: Path) -> None:
 
 
 def with_another_report(path: Path) -> None:
-    """As of a version whose reports have other entries."""
+    """A file of a version whose reports have other entries."""
     save_file({"shape": SHAPE, "vertices": 0 * SHAPE, "tets": MESH.tets}, path, {"fit": "{}"})
 
 
@@ -146,7 +146,7 @@ DAMAGES = (
 
 
 @pytest.mark.parametrize("damage", DAMAGES, ids=lambda damage: damage.__name__)
-def test_what_is_damaged_is_told_and_made_again(cache: FitCache, damage: Any) -> None:
+def test_damaged_files_are_reported_and_made_again(cache: FitCache, damage: Any) -> None:
     keep(cache)
     for path in list(cache.folder.iterdir()):
         damage(path)
@@ -159,7 +159,7 @@ def test_what_is_damaged_is_told_and_made_again(cache: FitCache, damage: Any) ->
     assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is not None
 
 
-def test_a_missing_file_is_nothing_to_tell(cache: FitCache) -> None:
+def test_a_missing_file_gives_no_notice(cache: FitCache) -> None:
     keep(cache)
     for path in list(cache.folder.iterdir()):
         path.unlink()
@@ -167,7 +167,7 @@ def test_a_missing_file_is_nothing_to_tell(cache: FitCache) -> None:
     assert cache.load_fit(MESH, SURFACE, TARGET, SETTINGS) is None
 
 
-def test_the_file_of_another_pose_is_not_taken_for_its_own(cache: FitCache) -> None:
+def test_a_file_that_belongs_to_another_pose_is_not_used(cache: FitCache) -> None:
     keep(cache)
     other = TARGET + 0.01
     cache.save_fit(MESH, SURFACE, other, SETTINGS, 2.0 * SHAPE, FIT)
@@ -178,7 +178,7 @@ def test_the_file_of_another_pose_is_not_taken_for_its_own(cache: FitCache) -> N
     assert found.count(None) == 1
 
 
-def test_it_is_beside_the_output_and_goes_without_a_trace(cache: FitCache, tmp_path: Path) -> None:
+def test_it_is_beside_the_output_and_leaves_nothing_behind(cache: FitCache, tmp_path: Path) -> None:
     (tmp_path / "m.snapspace").write_text("the model")
     keep(cache)
     assert len(contents(tmp_path)) == 3

@@ -1,4 +1,4 @@
-"""Samples that are chosen on the way, from the command line."""
+"""Greedy samples, chosen batch by batch, from the command line."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_poses_are_blended_from_greedy_samples(run: Run, tmp_path: Path) -> None
     assert run(*words, "--sampling", "greedy", "-o", path, "--json").json["samples"] == 36
 
 
-def test_an_interrupted_greedy_build_goes_on_to_the_same_model(
+def test_an_interrupted_greedy_build_resumes_to_the_same_model(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*_: object, **__: object) -> None:

@@ -1,4 +1,4 @@
-"""Whole numbers that no computer can serve are refused by their option, before any work."""
+"""Whole numbers too large for any computer are refused by their option, before any work."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ def test_it_is_refused_in_one_line(run: Run, tmp_path: Path, command: str, optio
 
 
 def test_there_are_such_options() -> None:
-    """Else the test above would be empty."""
+    """Otherwise the test above would check nothing."""
     found = {option for _, option in whole_numbers()}
     assert {"--samples", "--dimension", "--seed", "--threads", "--max-iterations"} <= found
 
 
-def test_the_largest_seed_is_one(run: Run, built_model: Path) -> None:
+def test_the_largest_seed_is_accepted(run: Run, built_model: Path) -> None:
     result = run("validate", built_model, "--samples", 2, "--seed", 2**63 - 1)
     assert result.code == 0, result.err

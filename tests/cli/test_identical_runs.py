@@ -1,4 +1,4 @@
-"""Two runs of a command write the same model; only the seconds that they took differ."""
+"""Two runs of a command write the same model; only their times differ."""
 
 from __future__ import annotations
 

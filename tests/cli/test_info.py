@@ -17,7 +17,7 @@ from .conftest import Run
 from .files import bar_mesh, write_problem, write_raw
 
 
-def test_the_lists_of_extensions_are_those_of_the_mesh_room() -> None:
+def test_the_lists_of_extensions_are_those_of_the_mesh_package() -> None:
     assert list(TET_INPUTS) == list(read._READERS)
     surfaces = importlib.import_module("snapspace.mesh.read_surface")
     assert sorted(SURFACE_INPUTS) == sorted(surfaces._READERS)
@@ -50,7 +50,7 @@ def test_a_model_without_a_record_is_shown_as_well(run: Run, model: Path) -> Non
     assert run("info", model, "--json").json["provenance"]["snapshots"] == 3
 
 
-def test_the_errors_of_fewer_modes_fall_to_that_of_all(run: Run, model: Path) -> None:
+def test_the_errors_by_dimension_end_with_that_of_all_modes(run: Run, model: Path) -> None:
     err = run("info", model).err
     subspace = load(model).subspace
     share = 100 * np.sqrt(1 - subspace.energy_fraction)
@@ -58,7 +58,7 @@ def test_the_errors_of_fewer_modes_fall_to_that_of_all(run: Run, model: Path) ->
 
 
 def test_a_valid_mesh(run: Run, tmp_path: Path) -> None:
-    """4 x 1 x 1 in cubes of 1/2, each cut into six equal tets with angles of 45, 60 and 90."""
+    """4 x 1 x 1 in cubes of side 1/2, six equal tets each, with angles of 45, 60 and 90 degrees."""
     write_tets(tmp_path / "bar.vtu", bar_mesh())
     figures = run("info", tmp_path / "bar.vtu", "--json").json
     assert figures["kind"] == "tet mesh"

@@ -1,4 +1,4 @@
-"""`snapspace interpolate`: poses of every kind become a model of the user's shapes."""
+"""`snapspace interpolate`: a model of the user's shapes from poses of every kind."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def loaded(path: Path) -> InterpolationModel:
 
 
 def distances(shape: FloatArray, target: FloatArray, faces: Any) -> tuple[float, float]:
-    """Distance of surfaces after registration: rms weighted by area, and the largest."""
+    """Distances of surfaces after registration: rms weighted by area, and the largest."""
     areas = point_areas(target, faces)
     squares = ((registered_targets(shape[None], target, areas)[0] - target) ** 2).sum(axis=1)
     return float(np.sqrt(areas @ squares / areas.sum())), float(np.sqrt(squares.max()))
@@ -97,7 +97,7 @@ def test_the_model_records_how_it_was_made(run: Run, tmp_path: Path) -> None:
     np.testing.assert_array_equal(model.training_parameters, np.vstack([wanted, np.eye(3)]))
 
 
-def test_tets_are_taken_as_they_are_from_any_format(run: Run, tmp_path: Path) -> None:
+def test_tets_are_used_unchanged_from_any_format(run: Run, tmp_path: Path) -> None:
     write_tet_poses(tmp_path, ".mesh")
     write_tet_poses(tmp_path, ".vtu")
     poses = [tmp_path / name for name in ("rest.mesh", "bent.vtu", "twisted.mesh")]
@@ -115,7 +115,7 @@ def test_surfaces_come_back_as_the_user_has_them(run: Run, tmp_path: Path, tets:
     """Vertex order and faces are the user's; poses are met within the deviation reported."""
     write_tets(tmp_path / "tets.vtu", tets)
     path, out = tmp_path / "m.snapspace", tmp_path / "out.ply"
-    # all snapshots are in the subspace, so poses are as far off as their fits
+    # the subspace contains all snapshots, so poses are as far off as their fits
     words = ("--tets", tmp_path / "tets.vtu", "--samples", 4, "--dimension", 7, "-o", path)
     result = run("interpolate", *write_surface_poses(tmp_path), *words, "--json")
     figures = result.json
@@ -145,7 +145,7 @@ def test_surfaces_come_back_as_the_user_has_them(run: Run, tmp_path: Path, tets:
 def test_frames_and_units_of_the_poses_do_not_matter(
     run: Run, tmp_path: Path, surface_words: list[object]
 ) -> None:
-    """The second pose is turned and moved, the third also has another unit of length."""
+    """The second pose is rotated and moved; the third also has another unit of length."""
     plain, other = tmp_path / "plain.snapspace", tmp_path / "other.snapspace"
     run(*surface_words, "-o", plain)
     for k, scale in ((1, 1.0), (2, 100.0)):
@@ -201,8 +201,8 @@ def test_a_larger_deviation_is_a_softer_fit(
         assert after["stages"] < before["stages"]
 
 
-def test_a_fit_that_misses_its_surface_is_pointed_out(run: Run, tmp_path: Path) -> None:
-    """A mirror image is met by no motion of the tets without inverting them."""
+def test_a_fit_that_misses_its_surface_gives_a_notice(run: Run, tmp_path: Path) -> None:
+    """No motion of the tets reaches a mirror image without inverting them."""
     write_tets(tmp_path / "tets.mesh", surface_first())
     rest, _, twisted = write_surface_poses(tmp_path)
     vertices, faces = bar_surfaces()["twisted"]
@@ -230,10 +230,10 @@ def test_threads_do_not_change_the_model(
         assert first[name].tobytes() == second[name].tobytes(), name
 
 
-def test_saved_poses_can_be_taken_again(
+def test_saved_poses_can_be_used_again(
     run: Run, tmp_path: Path, surface_words: list[object]
 ) -> None:
-    """The folder may even be that of the fits which are kept while the command runs."""
+    """The folder may even be that of the fits that are kept while the command runs."""
     path, again = tmp_path / "m.snapspace", tmp_path / "again.snapspace"
     folder = tmp_path / "m.snapspace.poses"
     run(*surface_words, "-o", path, "--save-poses", folder)
@@ -273,7 +273,7 @@ def test_inverted_tets_are_accepted_when_asked_for(run: Run, tmp_path: Path) -> 
 
 
 def test_without_tets_the_first_surface_is_filled(run: Run, tmp_path: Path) -> None:
-    """The one run of fTetWild here, on the simplest of all surfaces."""
+    """The only run of fTetWild in these tests, on the simplest surface."""
     vertices, faces = CORNER_TET, one_tet().surface
     leaning = vertices + 0.3 * vertices[:, [2]] * [1.0, 0.0, 0.0]
     write_surface(tmp_path / "corner.off", vertices, faces)

@@ -1,17 +1,19 @@
-"""`snapspace interpolate` without samples and dimension: both follow from the error."""
+"""`snapspace interpolate` without samples and dimension chooses both by the error."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from snapspace import load
+from snapspace.accurate import BLENDS
 
 from .conftest import Run, write_tet_poses
 
 
-def test_it_says_what_it_tried_and_keeps_the_record(run: Run, tmp_path: Path) -> None:
+def test_it_reports_what_it_tried_and_keeps_the_record(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "m.snapspace"
     result = run("interpolate", *write_tet_poses(tmp_path), "-o", path)
     assert "error of unseen blends" in result.err
@@ -23,7 +25,10 @@ def test_it_says_what_it_tried_and_keeps_the_record(run: Run, tmp_path: Path) ->
     assert [file.name for file in tmp_path.glob("*samples*")] == [], "checkpoints are gone"
 
 
-def test_a_target_that_is_not_met_is_said(run: Run, tmp_path: Path) -> None:
+def test_a_target_that_is_not_met_is_reported(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("snapspace.accurate.plan.BLENDS", replace(BLENDS, most_samples=60))
     path = tmp_path / "m.snapspace"
     result = run("interpolate", *write_tet_poses(tmp_path), "--target-error", 1e-12, "-o", path)
     assert "unseen blends are" in result.err and "of --target-error" in result.err
@@ -41,7 +46,7 @@ def test_explicit_options_win(run: Run, tmp_path: Path, words: tuple[object, ...
 
 
 @pytest.mark.parametrize("share", ["0", "-1", "nan"])
-def test_an_accuracy_must_be_positive(run: Run, tmp_path: Path, share: str) -> None:
+def test_a_target_error_must_be_positive(run: Run, tmp_path: Path, share: str) -> None:
     words = ("--target-error", share, "-o", tmp_path / "m.snapspace")
     result = run("interpolate", *write_tet_poses(tmp_path), *words)
     assert result.code == 2

@@ -1,4 +1,4 @@
-"""Poses or options that `interpolate` cannot take: one line that names them, no file touched."""
+"""Poses and options that `interpolate` refuses: one line names them, and no file is touched."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def surfaces(folder: Path, *words: object) -> list[object]:
 
 
 def other_tets(folder: Path) -> list[object]:
-    """One tet of the second pose begins at another vertex."""
+    """One tet of the second pose starts at another vertex."""
     cells = bar_mesh().tets.copy()
     cells[7] = cells[7][[1, 2, 0, 3]]
     words = tets(folder)
@@ -121,7 +121,7 @@ def mixture(folder: Path) -> list[object]:
 
 
 def open_surface(folder: Path) -> list[object]:
-    """Without --tets, so that it would have to be filled."""
+    """An open surface without --tets, so that it would have to be filled."""
     vertices, faces = bar_surfaces()["rest"]
     for name in POSES[:2]:
         write_surface(folder / f"{name}.ply", vertices, faces[1:])
@@ -217,7 +217,7 @@ def test_refusals_are_one_line_and_touch_nothing(run: Run, tmp_path: Path, name:
 
 
 def test_inverted_tets_are_counted(run: Run, tmp_path: Path) -> None:
-    """Which pose, how many, and what to try."""
+    """The error names the pose, their number, and what to try."""
     words = inverted(tmp_path)
     corners = pulled_through()[bar_mesh().tets]
     bad = np.flatnonzero(np.linalg.det(corners[:, 1:] - corners[:, :1]) < 0)

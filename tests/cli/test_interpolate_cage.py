@@ -1,4 +1,4 @@
-"""`interpolate --tets` with a box that is several times as large as the surface in it."""
+"""`interpolate --tets` with a box several times as large as the surface inside it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .files import FloatArray, bar_surfaces, write_surface_poses
 
 
 def loose_box() -> TetMesh:
-    """Thirteen times the volume of the bar, which lies in its middle."""
+    """A box of thirteen times the bar's volume, with the bar in its middle."""
     box = bar(18, 9, 9, length=6.0, width=3.0, height=3.0)
     return TetMesh(box.vertices - 1.0, box.tets)
 
@@ -30,7 +30,7 @@ def test_a_loose_cage_gives_the_surfaces_back(run: Run, tmp_path: Path) -> None:
     write_tets(tmp_path / "box.mesh", loose_box())
     path, out = tmp_path / "m.snapspace", tmp_path / "out.ply"
     files = write_surface_poses(tmp_path)[:2]
-    # all snapshots are in the subspace, so poses are as far off as their fits
+    # the subspace contains all snapshots, so poses are as far off as their fits
     words = ("--tets", tmp_path / "box.mesh", "--samples", 4, "--dimension", 6, "-o", path)
     figures = run("interpolate", *files, *words, "--json").json
     (fit,) = figures["fits"]

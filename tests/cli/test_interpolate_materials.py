@@ -1,4 +1,4 @@
-"""`interpolate --material`: what the model is made of, and what its energy is."""
+"""`interpolate --material`: the model's material, and the form of its energy."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Options of `interpolate` that cannot hold are refused before files are read or written."""
+"""Impossible options of `interpolate` are refused before files are read or written."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ OUT_OF_RANGE: dict[str, tuple[list[object], str]] = {
 
 @pytest.mark.parametrize("name", OUT_OF_RANGE)
 def test_options_are_checked_before_the_poses_are_read(run: Run, tmp_path: Path, name: str) -> None:
-    """There are no such poses, and nothing is said of that."""
+    """The pose files do not exist, and that is not even mentioned."""
     words, message = OUT_OF_RANGE[name]
     poses = (tmp_path / "a.obj", tmp_path / "b.obj", "--tets", tmp_path / "tets.mesh")
     output = ("--save-poses", tmp_path / "saved", "-o", tmp_path / "m.snapspace")
@@ -71,8 +71,8 @@ def test_tets_in_another_unit_of_length_are_refused(
     assert contents(tmp_path) == before
 
 
-def test_tet_poses_are_not_mended(run: Run, tmp_path: Path) -> None:
-    """Each would be mended in its own way. Nothing is wrong with these."""
+def test_tet_poses_are_not_repaired(run: Run, tmp_path: Path) -> None:
+    """Each would be repaired in its own way. These are fine."""
     poses = write_tet_poses(tmp_path)
     before = contents(tmp_path)
     error = run("interpolate", *poses, *SMALL, "--repair", "-o", tmp_path / "m.snapspace").error
@@ -83,7 +83,7 @@ def test_tet_poses_are_not_mended(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("turned", [False, True])
 def test_equal_tet_poses_are_refused(run: Run, tmp_path: Path, turned: bool) -> None:
-    """There is no path between a shape and itself, nor a rigid copy of it: rounding is no mode."""
+    """Between a shape and itself, or a rigid copy, there is nothing to blend but rounding."""
     mesh, poses = bar_mesh(), [tmp_path / "a.msh", tmp_path / "b.msh"]
     motion = (random_rotation(), np.array([3.0, -9.0, 2.0])) if turned else (np.eye(3), 0.0)
     write_tets(poses[0], mesh)
@@ -97,7 +97,7 @@ def test_equal_tet_poses_are_refused(run: Run, tmp_path: Path, turned: bool) -> 
 
 
 def test_equal_surfaces_are_refused(run: Run, tmp_path: Path) -> None:
-    """Turned and moved, so that the fit has rounding to fit."""
+    """The copy is rotated and moved, so that the fit sees rounding errors."""
     write_tets(tmp_path / "tets.mesh", surface_first())
     rest, copy, _ = write_surface_poses(tmp_path)
     vertices, faces = bar_surfaces()["rest"]

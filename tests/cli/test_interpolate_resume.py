@@ -1,4 +1,4 @@
-"""Ctrl-C during `interpolate` keeps tets, poses and samples; the same command goes on from them."""
+"""Ctrl-C during `interpolate` keeps tets, poses and samples; the same command resumes from them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def assert_same_model(first: Path, second: Path) -> None:
 
 
 def kept_files(folder: Path) -> list[str]:
-    """What an interrupted run has left, by kind."""
+    """The kinds of the files that an interrupted run has left."""
     names = (path.name.partition("-")[0] for path in folder.glob("m.snapspace.poses/*"))
     return sorted(names)
 
@@ -51,7 +51,7 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
     code: int,
     word: str,
 ) -> None:
-    """Of SIGTERM as well: it comes while compiled code fits on another thread."""
+    """And SIGTERM, which arrives while compiled code fits on another thread."""
     path = tmp_path / "m.snapspace"
 
     def stop() -> None:
@@ -69,25 +69,25 @@ def test_ctrl_c_keeps_the_poses_that_are_fitted(
         result = run(*surface_words, "--threads", 1, "-o", path, "--json")
     assert (result.code, result.out) == (code, "")
     line = result.err.splitlines()[-1]
-    told = re.fullmatch(
+    kept = re.fullmatch(
         rf"snapspace: {word}: ([12]) of 2 fitted poses are kept; the same command resumes "
         "from there",
         line,
     )
-    assert told, result.err
-    assert kept_files(tmp_path) == ["pose"] * int(told[1])
+    assert kept, result.err
+    assert kept_files(tmp_path) == ["pose"] * int(kept[1])
     assert not path.exists()
 
     resumed = run(*surface_words, "-o", path)
     assert resumed.code == 0, resumed.err
-    assert f"resuming: {told[1]} of 2 poses were fitted before" in resumed.err
+    assert f"resuming: {kept[1]} of 2 poses were fitted before" in resumed.err
     assert not (tmp_path / "m.snapspace.poses").exists()
     run(*surface_words, "-o", tmp_path / "at_once.snapspace")
     assert_same_model(path, tmp_path / "at_once.snapspace")
 
 
 def flip_a_bit(path: Path) -> None:
-    """Of a coordinate: without a checksum the model would be another, and nobody would know."""
+    """Flips a bit of a coordinate: without a checksum the model would differ unnoticed."""
     content = bytearray(path.read_bytes())
     content[-4] ^= 1
     path.write_bytes(content)
@@ -112,8 +112,8 @@ def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
 
     resumed = run(*surface_words, "-o", path, "--json")
     assert "resuming: 1 of 2 poses were fitted before" in resumed.err
-    told = "not used (its content has changed); its pose is fitted again" in resumed.err
-    assert told == (damage is flip_a_bit)
+    reported = "not used (its content has changed); its pose is fitted again" in resumed.err
+    assert reported == (damage is flip_a_bit)
     # the pose is bitwise the same, so the samples still belong to it
     assert "resuming: 6 of 6 samples were finished before" in resumed.err
     assert [fit["name"] for fit in resumed.json["fits"]] == ["bent", "twisted"]
@@ -125,7 +125,7 @@ def test_a_pose_that_is_missing_or_damaged_is_fitted_again(
 def test_tets_that_fill_the_surface_are_kept(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Each filling is another one, so samples could not go on from a new one."""
+    """Every filling differs, so samples could not be resumed with a new one."""
     words = ("interpolate", *write_surface_poses(tmp_path), *SMALL, "-o", tmp_path / "m.snapspace")
     with monkeypatch.context() as patch:
         patch.setattr(pose_files, "fill_surface", lambda *_, **__: enclosing_mesh())
@@ -145,7 +145,7 @@ def test_tets_that_fill_the_surface_are_kept(
     assert kept_files(tmp_path) == []
 
 
-def test_other_options_do_not_take_what_is_kept(
+def test_other_options_do_not_use_what_is_kept(
     run: Run, tmp_path: Path, surface_words: list[object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "m.snapspace"
@@ -155,7 +155,7 @@ def test_other_options_do_not_take_what_is_kept(
     softer = run(*surface_words, "--deviation", 0.01, "-o", path)
     assert softer.code == 0
     assert "resuming" not in softer.err
-    # what does not change the fits does not matter to them
+    # options that do not change the fits keep them
     with monkeypatch.context() as patch:
         patch.setattr(samples, "solve_snapshots", stop)
         assert run(*surface_words, "-o", path).code == 130

@@ -1,4 +1,4 @@
-"""How `snapspace interpolate` chooses its samples: by the number of poses, unless told."""
+"""How `snapspace interpolate` samples: by the number of poses, unless an option decides."""
 
 from __future__ import annotations
 

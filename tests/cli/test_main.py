@@ -1,4 +1,4 @@
-"""The program itself: help, version, `python -m`, faults of ours, readers that leave."""
+"""The program itself: help, version, `python -m`, internal faults, closed pipes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .conftest import Run, interrupted_as
 
 COMMANDS = ("demo", "build", "validate", "pose", "info")
 
-LEAVES_WORK_ALONE = """
+ABANDONS_WORK = """
 import sys
 import time
 from snapspace.cli import program
@@ -72,7 +72,7 @@ def test_as_a_module(tmp_path: Path) -> None:
 
 @pytest.fixture
 def broken(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A fault of ours in every command that loads a model."""
+    """An internal fault in every command that loads a model."""
 
     def fault(*_: object) -> None:
         raise ZeroDivisionError("a fault\nof two lines")
@@ -81,7 +81,7 @@ def broken(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("broken")
-def test_a_fault_of_ours_is_one_line_and_its_traceback_is_in_a_file(
+def test_an_internal_fault_is_one_line_and_its_traceback_is_in_a_file(
     run: Run, model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
@@ -129,26 +129,26 @@ def test_an_interrupt_anywhere_is_exit_code_130(
     assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
 
 
-def test_ctrl_c_is_no_mistake_of_the_user(
+def test_ctrl_c_is_not_a_mistake_of_the_user(
     run: Run, model: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Also where a library makes an error of its own of it."""
+    """Also where a library turns it into its own error."""
     broken = interrupted_as(ValueError("cannot compare these types"))
     monkeypatch.setattr("snapspace.cli.loading.load", broken)
     result = run("validate", model)
     assert (result.code, result.out, result.err) == (130, "", "snapspace: interrupted\n")
 
 
-def test_work_that_is_left_alone_does_not_end_the_program_by_a_signal() -> None:
-    """It comes back while Python shuts down, which something here makes last."""
+def test_abandoned_work_does_not_end_the_program_by_a_signal() -> None:
+    """The work returns while Python shuts down, which `Lasting` delays."""
     result = subprocess.run(
-        [sys.executable, "-c", LEAVES_WORK_ALONE], capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", ABANDONS_WORK], capture_output=True, text=True, timeout=60
     )
     assert (result.returncode, result.stderr) == (130, "snapspace: interrupted\n")
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no such pipes")
-def test_a_reader_that_leaves_is_no_error(model: Path) -> None:
+def test_a_reader_that_closes_the_pipe_is_not_an_error(model: Path) -> None:
     process = subprocess.Popen(
         [sys.executable, "-m", "snapspace", "info", str(model), "--json"],
         stdout=subprocess.PIPE,

@@ -1,4 +1,4 @@
-"""Motions on the command line: which --euler belongs to which --handle, and vectors."""
+"""Motions on the command line: vectors, and which --euler belongs to which --handle."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from snapspace.problem import rotation_matrix
 from ..shapes import bar_problem
 
 
-def test_a_relative_turn_without_unique_angles_is_found_all_the_same() -> None:
+def test_a_relative_rotation_without_unique_angles_is_found() -> None:
     problem = bar_problem()
     parameters, carrier = as_parameters(problem, {problem.handles.names[0]: Motion((0, 90, 0))})
     turn = rotation_matrix([0, np.pi / 2, 0])
@@ -47,6 +47,6 @@ def test_a_vector_is_read_with_all_its_digits(x: float, y: float, z: float, betw
 
 
 @pytest.mark.parametrize("text", ["", "1", "1,2", "1,2,3,4", "1,2,", "a,b,c", "nan,0,0", "inf 0 0"])
-def test_what_is_no_vector_is_refused(text: str) -> None:
+def test_text_that_is_not_a_vector_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=f"'{text}'"):
         parse_vector(text)

@@ -1,4 +1,4 @@
-"""The command of an advice: that of the model, with what the advice changes."""
+"""The command of an advice: the model's own command with the options that the advice changes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LARGER = NextOption("stiffness", 200, 60, None)
 
 
 def made_with(model: PosingModel, options: dict[str, Any], **record: Any) -> PosingModel:
-    """The model with another record of its making."""
+    """The model with another record of how it was made."""
     return replace(model, provenance={**model.provenance, "options": options, **record})
 
 
@@ -32,7 +32,7 @@ def folder(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def soft_model(cubature_model: PosingModel) -> PosingModel:
-    """Of a problem file, in a material that --target-error is for."""
+    """A model of a problem file, in a material that --target-error supports."""
     record = {"problem": "bar.json", "mesh": "bar.msh", "snapshots": {"solved": 96}}
     return replace(cubature_model, problem=_neo_hookean(cubature_model), provenance=record)
 
@@ -57,14 +57,14 @@ def test_more_tets_keep_everything_else(soft_model: PosingModel, folder: Path) -
     assert changed == wanted.split()
 
 
-def test_more_tets_for_a_model_of_accuracy_repeat_what_it_chose(
+def test_more_tets_after_a_target_error_repeat_what_it_chose(
     soft_model: PosingModel, folder: Path
 ) -> None:
     changed = words(made_with(soft_model, {"--target-error": 0.01}), TETS, folder)
     assert changed == "--samples 96 --dimension 40 --tets 320".split()
 
 
-def test_accuracy_replaces_what_decides_samples_and_dimension(
+def test_a_target_error_replaces_samples_and_dimension(
     soft_model: PosingModel, folder: Path
 ) -> None:
     given = {"--samples": 30, "--energy-fraction": 0.99, "--seed": 3, "--tets": 9}
@@ -110,7 +110,7 @@ def test_poses_are_part_of_the_command(built_blend: Path, tmp_path: Path) -> Non
     assert next_build(TETS, model, 0.05, tmp_path / "m.snapspace") is None
 
 
-def test_a_model_that_does_not_tell_its_options_has_no_command(
+def test_a_model_without_recorded_options_has_no_command(
     soft_model: PosingModel, folder: Path
 ) -> None:
     assert next_build(TETS, soft_model, 0.05, folder / "m.snapspace") is None

@@ -1,4 +1,4 @@
-"""`snapspace pose`: the shapes are the session's, in every format."""
+"""`snapspace pose`: the shapes are those of a session, in every format."""
 
 from __future__ import annotations
 
@@ -14,6 +14,21 @@ from snapspace.pictures import render
 from snapspace.problem import rotation_matrix
 
 from .conftest import Run
+
+
+@pytest.fixture
+def small_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    def small(*arguments: Any, **options: Any) -> Any:
+        return render(*arguments, size=(120, 90), **options)
+
+    monkeypatch.setattr("snapspace.cli.pose.render", small)
+
+
+def shades(path: Path) -> int:
+    """The number of byte values in a small picture; one colour has at most three."""
+    with Image.open(path) as image:
+        assert image.size == (120, 90)
+        return len(set(image.convert("RGB").tobytes()))
 
 
 def test_a_pose_is_that_of_the_session(run: Run, model: Path, tmp_path: Path) -> None:
@@ -32,7 +47,8 @@ def test_a_pose_is_that_of_the_session(run: Run, model: Path, tmp_path: Path) ->
     assert figures["inverted_tets"] == load(model).problem.energy.inverted_tets(session.vertices)
 
 
-def test_the_surface_of_the_user_is_posed_and_pictured(
+@pytest.mark.usefixtures("small_pictures")
+def test_the_users_surface_is_posed_and_drawn(
     run: Run, own_surface_model: PosingModel, tmp_path: Path
 ) -> None:
     path = own_surface_model.save(tmp_path / "own.snapspace")
@@ -44,7 +60,7 @@ def test_the_surface_of_the_user_is_posed_and_pictured(
     assert np.array_equal(faces, surface.faces)
     expected = surface.vertices(session.vertices)
     assert np.abs(vertices - expected).max() < 1e-9 * own_surface_model.problem.mesh.diagonal
-    assert (tmp_path / "out.png").stat().st_size > 1000
+    assert shades(tmp_path / "out.png") > 100
 
 
 @pytest.mark.parametrize(
@@ -97,12 +113,12 @@ def test_the_order_of_translation_and_rotation_does_not_matter(
 
 
 def test_handles_that_move_together_move_rigidly(run: Run, model: Path, tmp_path: Path) -> None:
-    """One rigid map of all handles is no deformation: v -> R v + t for every vertex."""
+    """The same rigid motion of all handles does not deform: v -> R v + t for every vertex."""
     problem = load(model).problem
     turn, shift = rotation_matrix(np.deg2rad([20, -35, 100])), np.array([3.0, -1.0, 2.0])
     words: list[object] = []
-    for name, center in zip(problem.handles.names, problem.centroids, strict=True):
-        offset = turn @ center + shift - center
+    for name, centre in zip(problem.handles.names, problem.centroids, strict=True):
+        offset = turn @ centre + shift - centre
         words += ["--handle", name, "--euler", "20,-35,100"]
         words += ["--translate", ",".join(repr(float(x)) for x in offset)]
     result = run("pose", model, *words, "-o", tmp_path / "out.vtu", "--json")
@@ -133,7 +149,7 @@ def test_leading_modes(run: Run, model: Path, tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_tets(tmp_path / "out.vtu").vertices, session.vertices)
 
 
-def test_a_motion_beyond_the_samples_is_pointed_out(run: Run, model: Path) -> None:
+def test_a_motion_beyond_the_samples_gives_a_notice(run: Run, model: Path) -> None:
     inside = run("pose", model, "--handle", "right", "--euler", "0,0,30")
     beyond = run("pose", model, "--handle", "right", "--euler", "0,0,31")
     assert (inside.code, beyond.code) == (0, 0)
@@ -141,13 +157,8 @@ def test_a_motion_beyond_the_samples_is_pointed_out(run: Run, model: Path) -> No
     assert "notice: 'right' moves farther than the samples did" in beyond.err
 
 
-def test_a_picture(run: Run, model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def small(*arguments: Any, **options: Any) -> Any:
-        return render(*arguments, size=(120, 90), **options)
-
-    monkeypatch.setattr("snapspace.cli.pose.render", small)
+@pytest.mark.usefixtures("small_pictures")
+def test_a_picture(run: Run, model: Path, tmp_path: Path) -> None:
     motion = ("--handle", "right", "--euler", "0,0,30")
     assert run("pose", model, *motion, "--png", tmp_path / "out.png").code == 0
-    with Image.open(tmp_path / "out.png") as image:
-        assert image.size == (120, 90)
-        assert len(set(image.convert("RGB").tobytes())) > 100  # shades, not one colour
+    assert shades(tmp_path / "out.png") > 100

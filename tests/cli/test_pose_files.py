@@ -1,4 +1,4 @@
-"""Names of poses, and what `read_poses` does with tets that enclose or fill a surface."""
+"""Names of poses, and `read_poses` with tets that enclose or fill a surface."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def test_tets_that_are_ordered_the_other_way_are_turned_in_all_poses(
 
 @pytest.mark.parametrize("tets", [surface_first(), enclosing_mesh()], ids=["exact", "enclosing"])
 def test_fitted_tets_carry_the_surfaces(tmp_path: Path, cache: FitCache, tets: TetMesh) -> None:
-    """The first pose are the tets as they were given; the others deviate as reported."""
+    """The first pose is the given tets; the others deviate as reported."""
     write_tets(tmp_path / "tets.msh", tets)
     files = write_surface_poses(tmp_path)
     pose_set = read_poses(files, options(tets=tmp_path / "tets.msh"), cache)
@@ -110,8 +110,8 @@ def test_fitted_tets_carry_the_surfaces(tmp_path: Path, cache: FitCache, tets: T
     assert list(pose_set.seconds) == ["tets", "fitting"]
 
 
-def test_the_inside_is_that_of_known_tets(tmp_path: Path, cache: FitCache) -> None:
-    """Surfaces of known tet poses: what is fitted to them is near those tets inside as well."""
+def test_the_inside_follows_known_tets(tmp_path: Path, cache: FitCache) -> None:
+    """Tets fitted to the surfaces of known tet poses are near those poses inside, too."""
     mesh = surface_first()
     outer = bar_mesh().surface_vertices[::-1]
     order = np.concatenate([outer, np.setdiff1d(np.arange(len(mesh.vertices)), outer)])
@@ -127,7 +127,7 @@ def test_the_inside_is_that_of_known_tets(tmp_path: Path, cache: FitCache) -> No
 def test_a_surface_is_filled_once(
     tmp_path: Path, cache: FitCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Filling is slow and another one each time: what was filled is kept."""
+    """Filling is slow and differs each time, so its result is kept."""
     calls: list[dict[str, float]] = []
 
     def fill(vertices: Any, faces: Any, **size: float) -> TetMesh:
@@ -147,7 +147,7 @@ def test_a_surface_is_filled_once(
     assert calls == [{}, {"edge_length": 0.1}]
 
 
-def test_the_first_pose_decides_on_the_unit_of_length(
+def test_the_first_pose_decides_the_unit_of_length(
     tmp_path: Path, cache: FitCache, capsys: pytest.CaptureFixture[str]
 ) -> None:
     paths = write_tet_poses(tmp_path)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from snapspace import load_posing, read_surface
+from snapspace import load_posing, read_surface, write_animation
 
 from .conftest import Run
 
@@ -26,12 +27,18 @@ def test_a_path_goes_from_rest_to_the_motion(run: Run, model: Path, tmp_path: Pa
     np.testing.assert_allclose(last, read_surface(tmp_path / "one.obj")[0], atol=1e-5)
 
 
-def test_a_path_becomes_a_film(run: Run, model: Path, tmp_path: Path) -> None:
+def test_a_path_becomes_a_film(
+    run: Run, model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def small(*arguments: Any, **options: Any) -> Any:
+        return write_animation(*arguments, **options, size=(96, 64), samples=1)
+
+    monkeypatch.setattr("snapspace.cli.pose_path.write_animation", small)
     film = tmp_path / "nod.gif"
     result = run("pose", model, *MOTION, "--path", 2, "-o", film, "--fps", 10)
     assert result.code == 0, result.err
     with Image.open(film) as images:
-        assert images.n_frames == 2  # type: ignore[attr-defined]
+        assert (images.n_frames, images.size) == (2, (96, 64))  # type: ignore[attr-defined]
         assert images.info["duration"] == 100
 
 

@@ -1,4 +1,4 @@
-"""Names of others are shown, and do nothing to the terminal."""
+"""Names from files and users are shown without any effect on the terminal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from snapspace.cli.printable import printable
 
 from .conftest import Run
 
-#: Sets the title, hides what follows, goes a line up, turns the direction of text, in one byte.
+#: Sets the title, hides text, moves up a line, reverses text; ends with a one-byte CSI.
 EVIL = "he\x1b]0;owned\x07ad\x1b[8m\x1b[A\u202egnp\x9b31m\r"
 SHOWN = r"he\x1b]0;owned\x07ad\x1b[8m\x1b[A\u202egnp\x9b31m"
 
@@ -35,11 +35,11 @@ def named(model: Path) -> Path:
 
 
 def test_names_in_a_model_are_shown_with_escapes(run: Run, named: Path) -> None:
-    told = run("info", named)
-    assert told.code == 0 and SHOWN in told.err.replace("\n", "")
+    shown = run("info", named)
+    assert shown.code == 0 and SHOWN in shown.err.replace("\n", "")
     refused = run("pose", named, "--handle", "he\x1b[2J", "-o", named.with_suffix(".obj"))
     assert r"he\x1b[2J" in refused.error and SHOWN in refused.error
-    for text in (told.err, refused.err):
+    for text in (shown.err, refused.err):
         assert not set(text) & set("\x1b\x07\x9b\r\u202e")
 
 

@@ -22,7 +22,7 @@ def test_a_log_has_one_line_for_every_tenth(capsys: pytest.CaptureFixture[str]) 
     assert "left" not in lines[-1]
 
 
-def test_samples_that_were_there_before_are_no_progress(
+def test_samples_that_were_finished_before_are_not_progress(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     with sample_progress("snapshots", done=35, total=40) as progress:
@@ -33,7 +33,7 @@ def test_samples_that_were_there_before_are_no_progress(
     ]
 
 
-def test_samples_tell_what_unseen_ones_may_expect(capsys: pytest.CaptureFixture[str]) -> None:
+def test_the_error_of_held_out_samples_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
     with sample_progress("snapshots", total=40) as progress:
         progress(SolveProgress(16, 40, 1.0, 16))
         progress(SolveProgress(32, 40, 2.0, 32, held_out_error=0.01234))

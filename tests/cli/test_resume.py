@@ -99,10 +99,10 @@ def test_an_interrupt_after_the_samples_keeps_them_too(
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no SIGTERM to receive")
-def test_sigterm_keeps_them_too_with_an_exit_code_of_its_own(
+def test_sigterm_keeps_them_too_with_its_own_exit_code(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """As schedulers and `kill` send it."""
+    """Schedulers and `kill` send it."""
 
     def terminated(*_: object, **__: object) -> None:
         signal.raise_signal(signal.SIGTERM)
@@ -119,10 +119,10 @@ def test_sigterm_keeps_them_too_with_an_exit_code_of_its_own(
     assert "resuming: 12 of 12" in run(*words).err
 
 
-def test_the_model_is_on_the_disk_before_its_samples_go(
+def test_the_model_is_on_the_disk_before_its_samples_are_removed(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Else a power failure right after a build could take both."""
+    """Otherwise a power failure right after a build could lose both."""
     made: list[str] = []
     flush, rename, remove = os.fsync, os.replace, Checkpoint.remove
 
@@ -141,7 +141,7 @@ def test_the_model_is_on_the_disk_before_its_samples_go(
     assert made[-4:] == ["flush", "rename", "flush", "remove"]
 
 
-def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(
+def test_an_interrupt_that_a_library_turns_into_an_error_keeps_them_too(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     broken = interrupted_as(TypeError("cannot compare these types"))
@@ -152,7 +152,7 @@ def test_an_interrupt_that_a_library_makes_an_error_of_keeps_them_too(
     assert result.err.splitlines()[-1].startswith("snapspace: interrupted: 12 of 12 samples are ")
 
 
-def test_samples_of_other_options_are_pointed_out_and_not_used(run: Run, tmp_path: Path) -> None:
+def test_samples_of_other_options_are_reported_and_not_used(run: Run, tmp_path: Path) -> None:
     problem = write_problem(tmp_path)
     words = ("build", "--problem", problem, "--samples", 12, "-o", tmp_path / "m.snapspace")
     run(*words, "--dimension", 4, "--max-iterations", 2)
@@ -164,7 +164,7 @@ def test_samples_of_other_options_are_pointed_out_and_not_used(run: Run, tmp_pat
     assert leftover.is_dir()
 
 
-def test_a_damaged_file_is_told_once_and_its_samples_are_solved_again(
+def test_a_damaged_file_is_reported_once_and_its_samples_are_solved_again(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*_: object, **__: object) -> None:

@@ -30,7 +30,7 @@ def test_json_has_the_agreed_keys_and_the_figures_of_the_library(run: Run, model
 def test_the_errors_are_ordered_as_they_must_be(run: Run, model: Path) -> None:
     figures = run("validate", model, "--samples", 5, "--json").json
     assert 0 < figures["projection_error"]["mean"] <= figures["error"]["mean"] < 1
-    assert figures["energy_ratio"]["max"] >= 1 - 1e-6  # the full minimum is the lower one
+    assert figures["energy_ratio"]["max"] >= 1 - 1e-6  # the full minimum is the lower of the two
 
 
 def test_fewer_modes_are_less_accurate(run: Run, model: Path) -> None:
@@ -47,7 +47,7 @@ def test_the_table_goes_to_standard_error(run: Run, model: Path) -> None:
         assert words in result.err
 
 
-def test_another_seed_asks_other_questions(run: Run, model: Path) -> None:
+def test_another_seed_draws_other_samples(run: Run, model: Path) -> None:
     first, second = (
         run("validate", model, "--samples", 3, "--seed", seed, "--json").json for seed in (1, 2)
     )

@@ -1,4 +1,4 @@
-"""`snapspace validate` with known full solutions, parts of errors, a picture and an advice."""
+"""`snapspace validate` with known full solutions: parts of the error, a picture, advice."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FIGURES = ("samples", "error", "projection_error", "energy_ratio", "inverted_tet
 
 @pytest.fixture(scope="module")
 def built_few(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A bar of the default material, with a tet for each mode. Not to be written to."""
+    """A bar in the default material, with one tet per mode. Tests must not write to it."""
     folder = tmp_path_factory.mktemp("few")
     problem = write_problem(folder, material={"model": "stable-neo-hookean"})
     path = folder / "few.snapspace"
@@ -32,7 +32,7 @@ def built_few(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def few_tets(built_few: Path, tmp_path: Path) -> Path:
-    """A copy of the model and its problem in a folder of their own."""
+    """A copy of the model and its problem in their own folder."""
     shutil.copytree(built_few.parent, tmp_path / "few")
     return tmp_path / "few" / built_few.name
 
@@ -45,7 +45,7 @@ def test_a_saved_reference_gives_the_same_figures(run: Run, model: Path, tmp_pat
     assert {key: again[key] for key in FIGURES} == {key: first[key] for key in FIGURES}
 
 
-def test_a_picture_and_its_figures_come_of_one_set_of_solves(
+def test_a_picture_and_its_figures_come_from_one_set_of_solves(
     run: Run, model: Path, tmp_path: Path
 ) -> None:
     picture = tmp_path / "error.png"
@@ -87,7 +87,7 @@ def test_the_advised_command_runs_and_lowers_the_error(
     assert shlex.join([program, *command]) in before.err
 
 
-def test_fewer_modes_than_there_are_ask_for_no_other_model(run: Run, few_tets: Path) -> None:
+def test_with_fewer_modes_the_advice_is_to_use_more(run: Run, few_tets: Path) -> None:
     result = run("validate", few_tets, "--samples", 8, "--dimension", 20, "--json")
     assert "the file has more modes; give a larger --dimension" in result.err
     assert result.json["next"] is None
@@ -113,7 +113,7 @@ def test_without_the_files_the_advice_is_in_python(
         (("--save-reference", "r.npz"), "r.npz"),
     ],
 )
-def test_what_cannot_be_is_refused_before_the_work(
+def test_impossible_options_are_refused_before_the_work(
     run: Run, model: Path, words: tuple[object, ...], message: str
 ) -> None:
     assert message in run("validate", model, *words).error
@@ -129,15 +129,15 @@ def test_a_reference_of_another_problem_is_refused(
 
 
 def test_a_build_ends_with_errors_that_validate_finds_too(run: Run, few_tets: Path) -> None:
-    """It solves the first of the same samples; the record is in the model, and `info` shows it."""
+    """It solves the first samples of `validate`; the record is in the model, shown by `info`."""
     record = load(few_tets).provenance["unseen"]
     figures = run("validate", few_tets, "--samples", record["samples"], "--json").json
     for ours, theirs in (("median", "median"), ("mean", "mean"), ("ninth", "ninth")):
         assert record[ours] == pytest.approx(figures["error"][theirs], rel=1e-9)
     assert record["inverted_tets"]["frames"]["max"] == figures["inverted_tets"]["frames_max"]
     assert record["inverted_tets"]["samples"]["shapes"] == 60
-    told = " ".join(run("info", few_tets).err.split())
-    assert "unseen motions are off by" in told and "inverted tets" in told
+    text = " ".join(run("info", few_tets).err.split())
+    assert "unseen motions are off by" in text and "inverted tets" in text
     json.dumps(record)
 
 
@@ -155,7 +155,7 @@ def test_a_bad_build_says_what_to_do(run: Run, tmp_path: Path) -> None:
     assert "make the box of motions smaller" in result.err
 
 
-def test_a_soft_subspace_is_cured_by_accuracy(run: Run, tmp_path: Path) -> None:
+def test_the_advice_for_a_poor_subspace_is_a_target_error(run: Run, tmp_path: Path) -> None:
     problem = write_problem(tmp_path, material={"model": "stable-neo-hookean"})
     words = ("--samples", 16, "--dimension", 6)
     result = run("build", "--problem", problem, *words, "-o", tmp_path / "m.snapspace")

@@ -1,4 +1,4 @@
-"""A bar with many tets, its snapshots and the models that are trained on them."""
+"""A bar with many tets, its snapshots and a model trained on them."""
 
 from __future__ import annotations
 

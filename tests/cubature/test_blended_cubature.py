@@ -1,4 +1,4 @@
-"""The blended energy over few tets: exact with all of them, its derivatives, its loop."""
+"""The blended energy over few tets: exact with all tets, derivatives, solver."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ every_kind = pytest.mark.parametrize("kind", sorted(MATERIALS))
 
 
 def problem(kind: str) -> InterpolationProblem:
-    """Of the shape between the poses, which need not be a minimum here."""
+    """The mean shape is the first pose: it need not be a minimum here."""
     poses = bar_poses()
     along = np.linspace(0.0, 1.0, len(poses.tets))
     material = MATERIALS[kind].from_lame(lam=1.0 + along, mu=0.5 + along)
@@ -79,7 +79,7 @@ def test_all_tets_with_their_volumes_are_the_exact_energy(
 @every_kind
 @pytest.mark.parametrize("weights", WEIGHTS[:2])
 def test_taylor(kind: str, weights: FloatArray) -> None:
-    """Of second order with the gradient, of third with the Hessian."""
+    """Remainders of second order: value minus gradient model, gradient minus Hessian model."""
     one = problem(kind)
     elastic = some_tets(one, subspace(one), 33)
     rng = np.random.default_rng(3)
@@ -104,7 +104,7 @@ def test_taylor(kind: str, weights: FloatArray) -> None:
 
 
 @every_kind
-def test_fewer_coordinates_are_those_without_the_rest(kind: str) -> None:
+def test_fewer_coordinates_are_the_first_with_the_rest_zero(kind: str) -> None:
     one = problem(kind)
     elastic = some_tets(one, subspace(one), 17)
     q = 0.02 * np.random.default_rng(4).normal(size=3)
@@ -114,8 +114,8 @@ def test_fewer_coordinates_are_those_without_the_rest(kind: str) -> None:
     assert gradient == pytest.approx(slope[:3], rel=1e-5, abs=1e-6 * np.abs(slope).max())
 
 
-def test_a_pose_more_changes_nothing_if_nobody_wants_it() -> None:
-    """And the cost of a density that collapses does not depend on the number of poses."""
+def test_another_pose_with_weight_zero_changes_nothing() -> None:
+    """The cost of a density that allows collapse does not depend on the number of poses."""
     one = problem("stable-neo-hookean")
     space = subspace(one)
     few = some_tets(one, space, 21)
@@ -129,7 +129,7 @@ def test_a_pose_more_changes_nothing_if_nobody_wants_it() -> None:
     assert slope == pytest.approx(gradient, rel=1e-11, abs=1e-13)
 
 
-def test_the_loop_solves_what_the_function_says(
+def test_the_loop_minimises_the_same_function(
     blended_cubature_model: InterpolationModel,
 ) -> None:
     model = blended_cubature_model
@@ -159,7 +159,7 @@ def test_newton_and_bfgs_find_the_same_shape(blended_cubature_model: Interpolati
 def test_reduced_solutions_are_near_the_full_ones(
     blended_cubature_model: InterpolationModel,
 ) -> None:
-    """Trained on 27 of 30 snapshots of a tiny bar: the record tells the errors of the others."""
+    """Trained on 27 of 30 snapshots of a tiny bar; the record has the errors of the other 3."""
     errors = blended_cubature_model.provenance["cubature"]["held_out"]
     assert errors["displacement_median"] < 0.01
     assert errors["energy_median"] < 0.02

@@ -1,4 +1,4 @@
-"""The sum over few tets against the exact quartic, its derivatives and its bad input."""
+"""The sum over few tets: compared with the exact quartic, derivatives, bad input."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def test_rest_has_no_energy_and_no_force() -> None:
     np.testing.assert_array_equal(gradient, np.zeros(8))
 
 
-def test_moving_all_and_turning_all_costs_nothing() -> None:
+def test_translations_and_rotations_cost_nothing() -> None:
     problem, subspace = problem_and_subspace(6)
     vertices = problem.mesh.vertices
     turned = vertices @ random_rotation().T - vertices

@@ -1,4 +1,4 @@
-"""Models with a cubature: near the exact ones, positive, the same each time, honest on errors."""
+"""Models with a cubature: near exact ones, positive weights, reproducible, recorded errors."""
 
 from __future__ import annotations
 
@@ -85,15 +85,15 @@ def test_the_same_arguments_give_the_same_model(
     )
 
 
-def test_a_drag_there_and_back_ends_where_it_began(cubature_model: PosingModel) -> None:
+def test_a_drag_there_and_back_ends_where_it_started(cubature_model: PosingModel) -> None:
     session = cubature_model.session()
-    way = [(0.0, 0.0, 0.02 * k) for k in range(20)]
-    for euler in way:
+    path = [(0.0, 0.0, 0.02 * k) for k in range(20)]
+    for euler in path:
         assert session.move("head", euler=euler).converged
     there = session.vertices
-    for euler in [*way[::-1], *way]:
+    for euler in [*path[::-1], *path]:
         session.move("head", euler=euler)
-    size = mass_norms(cubature_model.subspace.mass, (there - way[0]).reshape(-1, 1))
+    size = mass_norms(cubature_model.subspace.mass, (there - path[0]).reshape(-1, 1))
     miss = mass_norms(cubature_model.subspace.mass, (session.vertices - there).reshape(-1, 1))
     assert miss < 1e-3 * size
 
@@ -129,14 +129,14 @@ def test_fewer_dimensions_are_those_of_the_smaller_model(
     assert session.solve().value < before
 
 
-def test_a_solve_anew_is_never_higher(cubature_model: PosingModel) -> None:
+def test_solving_anew_never_raises_the_energy(cubature_model: PosingModel) -> None:
     session = cubature_model.session()
     value = session.move("head", euler=(0.2, -0.3, 0.2), translation=(0.2, 0.0, 0.1)).value
     assert session.solve_anew().value <= value * (1 + 1e-6)
 
 
-def test_a_precision_that_it_does_not_have_is_refused(cubature_model: PosingModel) -> None:
-    """Rows are always kept in one way; silence would promise another model."""
+def test_a_choice_of_precision_is_refused(cubature_model: PosingModel) -> None:
+    """Rows always have the same precision; accepting the option would promise another model."""
     with pytest.raises(ValueError, match="a cubature always keeps its rows so"):
         cubature_model.session(precision="single")
 
@@ -159,8 +159,8 @@ def test_bad_input_is_named(
         cubature(posing_model.subspace, snapshots)
 
 
-def test_snapshots_at_rest_say_nothing(snapshots: Snapshots) -> None:
-    """And ten of the others are needed."""
+def test_snapshots_at_rest_do_not_count(snapshots: Snapshots) -> None:
+    """Ten others are needed."""
     parameters = snapshots.parameters[:12].copy()
     parameters[:3] = 0.0
     some = solve_snapshots(snapshots.problem, parameters, threads=1)

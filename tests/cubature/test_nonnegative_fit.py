@@ -1,4 +1,4 @@
-"""Few positive weights: what is found, what is refused, and against SciPy's solver."""
+"""Few positive weights: planted ones are found, and errors are near those of SciPy's solver."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ def test_weights_are_positive_and_no_more_than_asked_for(seed: int, count: int) 
     assert (weights > 0).all()
     assert (np.diff(chosen) > 0).all()
     residual = target - A[:, chosen].astype(float) @ weights
-    # at the minimum over the chosen columns the residual has nothing along any of them
+    # at the minimum over the chosen columns the residual is orthogonal to each of them
     along = A[:, chosen].T.astype(float) @ residual
     assert along == pytest.approx(np.zeros(len(chosen)), abs=1e-5 * np.linalg.norm(target) * 10)
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_more_columns_are_never_worse_and_near_the_best_there_is(seed: int) -> None:
+def test_more_columns_are_never_worse_and_near_the_best_possible(seed: int) -> None:
     A = columns(60, 40, seed)
     target = np.random.default_rng(100 + seed).normal(size=60) + A.sum(axis=1)
     _, best = nnls(A.astype(float), target)
@@ -57,7 +57,7 @@ def test_more_columns_are_never_worse_and_near_the_best_there_is(seed: int) -> N
     assert best * (1 - 1e-6) <= errors[-1] <= 1.05 * best
 
 
-def test_a_target_that_no_positive_sum_comes_near_is_left_alone() -> None:
+def test_a_target_that_no_positive_sum_approaches_gets_no_columns() -> None:
     A = np.abs(columns(20, 30))
     chosen, weights = nonnegative_fit(A.T.copy(), -np.ones(20), 10)
     assert len(chosen) == len(weights) == 0
@@ -65,21 +65,21 @@ def test_a_target_that_no_positive_sum_comes_near_is_left_alone() -> None:
 
 def test_columns_that_hardly_matter_get_no_huge_weights() -> None:
     A = columns(60, 100)
-    A[:, 50:] *= 1e-9  # tets that are carried along rigidly
+    A[:, 50:] *= 1e-9  # tets that move rigidly
     target = A.sum(axis=1, dtype=float) + 0.1 * np.random.default_rng(5).normal(size=60)
     chosen, weights = nonnegative_fit(A.T.copy(), target, 30)
     assert (chosen < 50).all()
     assert weights.max() < 100
 
 
-def test_without_bounds_in_the_way_the_weights_solve_the_normal_equations() -> None:
+def test_without_active_bounds_the_weights_solve_the_normal_equations() -> None:
     A = np.abs(columns(30, 6)).astype(float)
     x = np.arange(1.0, 7.0)
     gram = A.T @ A
     assert nonnegative_weights(gram, gram @ x, np.zeros(6)) == pytest.approx(x, rel=1e-5)
 
 
-def test_the_start_does_not_get_worse() -> None:
+def test_the_result_is_not_worse_than_the_start() -> None:
     A = columns(30, 12).astype(float)
     target = np.random.default_rng(3).normal(size=30)
     start = np.abs(np.random.default_rng(4).normal(size=12))

@@ -1,4 +1,4 @@
-"""The compiled parts of training, against sums written down."""
+"""The compiled parts of training, compared with explicit sums."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ..shapes import irregular_bar
 def test_columns_are_products_of_forces_and_directions(
     candidates: int, dimension: int, states: int, directions: int
 ) -> None:
-    """Whatever is left over of whole groups, packs and tiles; what lies beyond is not touched."""
+    """Sizes leave any remainder of groups, packs and tiles; columns beyond are not touched."""
     rng = np.random.default_rng(candidates)
     rows = rng.normal(size=(candidates, 9, dimension)).astype(np.float32)
     stresses = rng.normal(size=(states, candidates, 9)).astype(np.float32)

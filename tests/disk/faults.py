@@ -1,8 +1,8 @@
 """A layer of faults under everything that writes: full disks, calls that fail, kills.
 
-Writers use the disk in two ways: bytes go through the system's `write`, from Python or from
-libraries, and a few calls make names and flush (`os.replace`, `os.fsync`). The first are stopped by
-the system's own limit on the size of files, the second one by one.
+Writers use the disk in two ways. Bytes go through the system's `write`, from Python or from
+libraries; the system's limit on the size of files stops them. A few calls rename and flush
+(`os.replace`, `os.fsync`); they are made to fail one by one.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ CALLS = ("flush", "rename", "flush folder")
 
 @contextmanager
 def full_disk(size: int) -> Iterator[None]:
-    """No file can grow beyond so many bytes: what writes more gets an OSError."""
+    """No file can grow beyond `size` bytes: writing more raises OSError."""
     limits = resource.getrlimit(resource.RLIMIT_FSIZE)
     before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, limits[1]))
@@ -35,7 +35,7 @@ def full_disk(size: int) -> Iterator[None]:
 
 @contextmanager
 def at_call(number: int, fault: Callable[[], NoReturn]) -> Iterator[None]:
-    """The call of this number, counted over `os.fsync` and `os.replace`, is a fault."""
+    """Replaces call `number` of `os.fsync` and `os.replace`, counted from 0, by `fault`."""
     made = 0
 
     def counted(real: Callable[..., Any]) -> Callable[..., Any]:
@@ -56,20 +56,20 @@ def at_call(number: int, fault: Callable[[], NoReturn]) -> Iterator[None]:
 
 
 def io_error() -> NoReturn:
-    """What a broken disk says."""
+    """The error of a broken disk."""
     raise OSError(errno.EIO, "Input/output error")
 
 
 def killed() -> NoReturn:
-    """No handler runs, as with a power failure."""
+    """Ends the process without any handler, like a power failure."""
     os.kill(os.getpid(), signal.SIGKILL)
     raise AssertionError("still alive")
 
 
 def in_a_child(work: Callable[[], object], *, size: int | None = None) -> int:
-    """Runs work in a copy of this process, and returns the signal that killed it, 0 if none did.
+    """Runs `work` in a fork of this process; returns the signal that killed it, 0 if none did.
 
-    With a size the system kills it when a file grows beyond so many bytes.
+    If `size` is given, the system kills it when a file grows beyond so many bytes.
     """
     child = os.fork()
     if child == 0:

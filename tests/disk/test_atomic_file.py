@@ -1,4 +1,4 @@
-"""Content is on the disk before its name is, and temporaries of dead processes go."""
+"""Content is on the disk before its name; temporary files of dead processes are removed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ on_linux = pytest.mark.skipif(sys.platform != "linux", reason="elsewhere nothing
 
 @pytest.fixture
 def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
-    """What reaches the system, in order: 'flush NAME' and 'rename NAME'."""
+    """Calls that reach the system, in order: 'flush NAME' and 'rename NAME'."""
     made: list[str] = []
     names: dict[int, str] = {}
     real_open, real_sync, real_replace = os.open, os.fsync, os.replace
@@ -46,7 +46,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 def test_the_content_is_flushed_before_the_rename_and_the_folder_after(
     tmp_path: Path, calls: list[str]
 ) -> None:
-    """Else a power failure could leave an empty file in place of the old one."""
+    """Otherwise a power failure could leave an empty file in place of the old one."""
     with atomic_file(tmp_path / "a.txt") as temporary:
         temporary.write_text("new")
     name = temporary.name
@@ -66,7 +66,7 @@ def test_the_folder_of_a_checkpoint_is_flushed_into_its_parent(
 def test_a_flush_that_fails_leaves_the_old_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Where blocks are only taken on the disk at the end, as in a network, the flush fails."""
+    """On a network file system, blocks may be allocated only at the end: then the flush fails."""
 
     def full(_: int) -> None:
         raise OSError(28, "No space left on device")
@@ -97,12 +97,12 @@ def left_by(folder: Path, process: int, *, mark: str | None = None) -> Path:
 
 
 @on_linux
-def test_what_a_dead_process_left_goes_and_all_else_stays(tmp_path: Path) -> None:
+def test_files_of_a_dead_process_are_removed_and_all_others_stay(tmp_path: Path) -> None:
     stays = [
         left_by(tmp_path, os.getpid()),
         left_by(tmp_path, 1),
-        left_by(tmp_path, dead_process(), mark="0" * 12),  # another machine, or container
-        left_by(tmp_path, 10**9),  # no system has so many
+        left_by(tmp_path, dead_process(), mark="0" * 12),  # of another machine or container
+        left_by(tmp_path, 10**9),  # no system has such a number
         tmp_path / ".dragon.snapspace",
         tmp_path / ".dragon.1234abcd.snapspace",
         tmp_path / "dragon.snapspace",
@@ -122,7 +122,7 @@ def test_the_first_write_to_a_folder_sweeps_it(tmp_path: Path) -> None:
     assert not gone.exists()
 
 
-def test_nothing_goes_where_the_system_cannot_be_asked(
+def test_nothing_is_removed_where_the_boot_is_unknown(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = left_by(tmp_path, dead_process())
@@ -131,11 +131,11 @@ def test_nothing_goes_where_the_system_cannot_be_asked(
     assert path.exists()
 
 
-def test_a_folder_that_is_not_there_is_swept_in_vain(tmp_path: Path) -> None:
+def test_sweeping_a_missing_folder_does_nothing(tmp_path: Path) -> None:
     assert sweep(tmp_path / "none") == []
 
 
-def test_long_names_leave_room_for_that_of_the_temporary_file(tmp_path: Path) -> None:
+def test_long_names_are_written_through_shorter_temporary_names(tmp_path: Path) -> None:
     target = tmp_path / f"{'é' * 120}.txt"
     with atomic_file(target) as temporary:
         temporary.write_text("new")

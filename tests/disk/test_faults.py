@@ -1,4 +1,4 @@
-"""Whatever happens while a file is written, the old one stays or the new one is there."""
+"""Whatever happens while a file is written, either the old or the new one is complete."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def cached_tets(path: Path, scale: float) -> None:
     cache._save(path.stem, {"vertices": scale * POINTS}, {})
 
 
-#: By extension, and what follows it: every function of the package that writes a file.
+#: Every function of the package that writes small files, by extension.
 WRITERS: dict[str, Write] = {
     **{
         name: lambda path, scale: ss.write_surface(path, scale * POINTS, MESH.surface)
@@ -64,7 +64,7 @@ each_writer = pytest.mark.parametrize("suffix", WRITERS)
 
 
 class Files:
-    """An old file in a folder of its own, and the bytes of old and new ones."""
+    """An old file in its own folder, and the bytes of the old and the new content."""
 
     def __init__(self, folder: Path, suffix: str, write: Write | None = None) -> None:
         self.write = write or WRITERS[suffix]
@@ -79,7 +79,7 @@ class Files:
         self.write(self.path, 2.0)
 
     def check(self, *, temporaries: bool = False) -> bytes:
-        """The content, which is that of old or new, after a check that nothing else is there."""
+        """The content, after checks that it is old or new and that no other file is left."""
         if temporaries:
             sweep(self.path.parent)
         if not temporaries or sys.platform == "linux":
@@ -105,8 +105,8 @@ def test_a_full_disk_leaves_the_old_file(
 
 @each_writer
 @pytest.mark.parametrize("call", range(len(CALLS)), ids=CALLS)
-def test_a_call_that_fails_leaves_one_of_them(tmp_path: Path, suffix: str, call: int) -> None:
-    """Where only the folder cannot be flushed the new file is there, and that is no error."""
+def test_a_failing_call_leaves_the_old_or_new_file(tmp_path: Path, suffix: str, call: int) -> None:
+    """If only the folder cannot be flushed, the new file is complete: that is not an error."""
     files = Files(tmp_path, suffix)
     with at_call(call, io_error):
         if CALLS[call] == "flush folder":
@@ -119,7 +119,7 @@ def test_a_call_that_fails_leaves_one_of_them(tmp_path: Path, suffix: str, call:
 
 
 @each_writer
-def test_a_kill_at_any_call_leaves_one_of_them(tmp_path: Path, suffix: str) -> None:
+def test_a_kill_at_any_call_leaves_the_old_or_the_new_file(tmp_path: Path, suffix: str) -> None:
     files = Files(tmp_path, suffix)
     left = []
     for call in range(len(CALLS)):
@@ -147,7 +147,7 @@ def test_a_kill_in_the_middle_of_a_write_leaves_the_old_file(
 def test_models_pages_and_snapshots_are_written_alike(
     tmp_path: Path, posing_model: ss.PosingModel, posing_snapshots: ss.Snapshots
 ) -> None:
-    """Of large files one case each, since their writing takes longer."""
+    """One case for each large file, since they take longer to write."""
     writers: dict[str, Write] = {
         ".snapspace": lambda path, scale: posing_model.leading(int(3 * scale)).save(path),
         ".html": lambda path, scale: ss.export_html(posing_model.leading(int(3 * scale)), path),
@@ -166,15 +166,15 @@ def test_models_pages_and_snapshots_are_written_alike(
         assert files.check(temporaries=True) == files.old
 
 
-def test_the_faults_are_seen_by_a_writer_that_is_not_safe(tmp_path: Path) -> None:
-    """Else this file would prove nothing."""
+def test_an_unsafe_writer_fails_these_checks(tmp_path: Path) -> None:
+    """Otherwise this file would prove nothing."""
     unsafe = Files(tmp_path, ".x", lambda path, scale: path.write_bytes(bytes([int(scale)] * 999)))
     in_a_child(unsafe.write_new, size=500)
     with pytest.raises(AssertionError):
         unsafe.check()
 
 
-def test_what_was_read_back_is_what_was_written(tmp_path: Path) -> None:
+def test_files_are_read_back_as_written(tmp_path: Path) -> None:
     """The bytes above are those of complete files."""
     write_checked(tmp_path / "a", {"a": POINTS}, {"b": "c"})
     arrays, words = read_checked(tmp_path / "a")

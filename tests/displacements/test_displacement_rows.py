@@ -1,4 +1,4 @@
-"""DisplacementRows is the matrix that its rows would make, whatever they are and wherever."""
+"""DisplacementRows acts as the matrix of its rows, wherever they are stored."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def test_rows_blocks_and_selections(store: Callable[[Path], FloatArray], tmp_pat
 
 
 def test_rows_side_by_side_are_not_copied(tmp_path: Path) -> None:
-    """A block of a file, or of what a solver returned, is a view; from two files it cannot be."""
+    """A block of one file, or of a solver's result, is a view; rows of two files are copied."""
     matrix = MATRIX.copy()
     for rows in (DisplacementRows(matrix, SIZE), DisplacementRows(list(matrix), SIZE)):
         assert np.shares_memory(first_block(rows[2:5]), matrix[2:5])
@@ -96,12 +96,12 @@ def test_nothing_can_be_written_to(tmp_path: Path) -> None:
         (np.zeros(12)[::2], "row 1 is float64 of shape (6,), but must be a contiguous"),
     ],
 )
-def test_rows_that_are_none_are_refused(row: FloatArray, message: str) -> None:
+def test_arrays_that_are_not_rows_are_refused(row: FloatArray, message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)):
         DisplacementRows([np.zeros(6), row], 6)
 
 
-def test_shifted_rows_do_not_follow_others() -> None:
+def test_shifted_rows_cannot_be_appended() -> None:
     rows = DisplacementRows(np.ones((2, 6)), 6)
     with pytest.raises(ValueError, match="append first, then shift"):
         rows.followed_by(rows.shifted(np.ones(6)))
@@ -113,7 +113,7 @@ def snapshots() -> Snapshots:
     return solve_snapshots(problem, parameters(problem, 4), threads=1)
 
 
-def test_snapshots_give_shapes_and_take_them(snapshots: Snapshots) -> None:
+def test_snapshots_convert_to_shapes_and_back(snapshots: Snapshots) -> None:
     base = snapshots.problem.base
     assert snapshots.shapes.shape == (base.size, 4)
     np.testing.assert_array_equal(snapshots.shapes[:, 2], base + snapshots.displacements[2])

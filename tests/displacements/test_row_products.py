@@ -1,4 +1,4 @@
-"""Products and combinations of rows of displacements, against SciPy's and NumPy's."""
+"""Products and combinations of rows of displacements, compared with SciPy and NumPy."""
 
 from __future__ import annotations
 
@@ -11,35 +11,35 @@ from snapspace import _core as core
 from snapspace.displacements import DisplacementRows
 
 FloatArray = NDArray[np.float64]
-POINTS = 150  # a block of vertices and a part of one
+POINTS = 150  # vertices: a block and a part of one
 RANDOM = np.random.default_rng(0)
 MASS = csr_array(RANDOM.random((POINTS, POINTS)) * (RANDOM.random((POINTS, POINTS)) < 0.1))
 ROWS = RANDOM.standard_normal((45, 3 * POINTS))
 
 
-def of(matrix: csr_array) -> core.MassProducts:
+def mass_products(matrix: csr_array) -> core.MassProducts:
     starts, columns = matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32)
     return core.MassProducts(starts, columns, matrix.data)
 
 
 def products(rows: FloatArray, others: FloatArray, *, threads: int = 1) -> FloatArray:
-    return of(MASS).multiply(list(rows), None, list(others), threads=threads)
+    return mass_products(MASS).multiply(list(rows), None, list(others), threads=threads)
 
 
 @pytest.mark.parametrize(("count", "others"), [(1, 1), (4, 3), (5, 9), (45, 17), (0, 3), (3, 0)])
 def test_products_have_the_matrix_in_between(count: int, others: int) -> None:
     rows, offset = ROWS[:count], ROWS[-1]
     left, right = DisplacementRows(rows, ROWS.shape[1]).shifted(offset), ROWS[10 : 10 + others]
-    result = left.mass_products(of(MASS), DisplacementRows(right, ROWS.shape[1]))
+    result = left.mass_products(mass_products(MASS), DisplacementRows(right, ROWS.shape[1]))
     expected = (rows + offset) @ kron(MASS, identity(3)) @ right.T
     np.testing.assert_allclose(result, expected.reshape(count, others), rtol=0, atol=1e-11)
 
 
-def test_products_have_the_same_bits_in_any_company_and_on_any_threads() -> None:
+def test_products_have_the_same_bits_with_any_others_and_on_any_threads() -> None:
     every = products(ROWS, ROWS)
     np.testing.assert_array_equal(products(ROWS, ROWS, threads=3), every)
     np.testing.assert_array_equal(products(ROWS[7:9], ROWS[40:41]), every[7:9, 40:41])
-    mass = of(MASS)  # whose memory is used again, also for fewer others
+    mass = mass_products(MASS)  # its memory is reused, also for fewer others
     for count in (45, 20, 19, 45):
         again = mass.multiply(list(ROWS), None, list(ROWS[:count]), threads=2)
         np.testing.assert_array_equal(again, every[:, :count])
@@ -48,7 +48,7 @@ def test_products_have_the_same_bits_in_any_company_and_on_any_threads() -> None
 def test_rows_of_the_matrix_without_entries_give_zero() -> None:
     matrix = csr_array((np.array([2.0]), np.array([2]), np.array([0, 0, 1, 1])), shape=(3, 3))
     units, row = np.eye(9), np.arange(9.0)
-    weighted = of(matrix).multiply(list(units), None, [row], threads=1)
+    weighted = mass_products(matrix).multiply(list(units), None, [row], threads=1)
     np.testing.assert_array_equal(weighted[:, 0], [0, 0, 0, 12, 14, 16, 0, 0, 0])
 
 
@@ -64,7 +64,7 @@ def test_combinations_are_products_with_the_weights(size: int, count: int) -> No
     np.testing.assert_allclose(shifted, expected, atol=1e-13)
 
 
-def test_a_combination_does_not_depend_on_others_nor_on_rows_without_weight() -> None:
+def test_a_combination_depends_on_no_other_and_on_no_row_without_weight() -> None:
     weights = RANDOM.standard_normal((6, 45)) * (RANDOM.random((6, 45)) < 0.5)
     rows = DisplacementRows(ROWS, ROWS.shape[1])
     every = rows.combined(weights)
@@ -87,7 +87,7 @@ def test_a_combination_does_not_depend_on_others_nor_on_rows_without_weight() ->
         ([0, 1], [0, 0], "one value per column"),
     ],
 )
-def test_matrices_that_are_none_are_refused(
+def test_arrays_that_are_not_a_matrix_are_refused(
     starts: list[int], columns: list[int], message: str
 ) -> None:
     with pytest.raises(ValueError, match=message):
@@ -102,7 +102,7 @@ def test_nothing_is_read_beyond_an_array() -> None:
         ([row], None, [short]),
     ):
         with pytest.raises(ValueError, match=r"as long|must be \(3n,\)"):
-            of(MASS).multiply(rows, offset, others, threads=1)
+            mass_products(MASS).multiply(rows, offset, others, threads=1)
     with pytest.raises(ValueError, match="as long"):
         core.combine_rows([row, short], 450, np.ones((1, 2)))
     with pytest.raises(ValueError, match="one column of weights per row"):

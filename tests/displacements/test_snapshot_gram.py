@@ -1,4 +1,4 @@
-"""Inner products of snapshots: exact, the same however they are gathered, and enough for errors."""
+"""Inner products of snapshots: exact, independent of how they are gathered, enough for errors."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LARGE = bar(16, 8, 8)
 
 
 def gram(mass: csr_array, rows: FloatArray, splits: list[int] | None = None) -> SnapshotGram:
-    """Of rows (k, 3n), added in pieces that end at the splits."""
+    """The products of rows (k, 3n), added in pieces that end at the splits."""
     result = SnapshotGram(mass)
     for begin, end in pairwise([0, *(splits or []), len(rows)]):
         result.add(rows[begin:end])
@@ -36,7 +36,7 @@ def gram(mass: csr_array, rows: FloatArray, splits: list[int] | None = None) -> 
 
 
 def decaying(count: int, rank: int, *, seed: int = 0) -> FloatArray:
-    """Rows (count, 3n) in a space of that dimension, over three decades."""
+    """Rows (count, 3n) in a space of dimension `rank`, with sizes over three decades."""
     rng = np.random.default_rng(seed)
     weights = rng.normal(size=(count, rank)) * 10.0 ** -np.linspace(0, 3, rank)
     rows: FloatArray = weights @ np.random.default_rng(99).normal(size=(rank, SIZE))
@@ -44,7 +44,7 @@ def decaying(count: int, rank: int, *, seed: int = 0) -> FloatArray:
 
 
 def direct_errors(mass: csr_array, known: FloatArray, new: FloatArray, d: int) -> FloatArray:
-    """The same errors from shapes: by the basis, and differences of vectors."""
+    """The same errors from shapes, with the basis and differences of vectors."""
     basis = pca(known.T, np.zeros(SIZE), mass, dimension=d).basis
     left = new.T - basis @ mass_gram(mass, basis, new.T)
     return mass_norms(mass, left) / mass_norms(mass, new.T)
@@ -60,7 +60,7 @@ def test_is_the_matrix_of_inner_products(mass: csr_array, count: int) -> None:
     np.testing.assert_array_equal(matrix, matrix.T)
 
 
-def test_over_many_blocks_of_vertices() -> None:
+def test_it_sums_over_several_blocks_of_vertices() -> None:
     mass = mass_matrix(LARGE)
     rows = displacements(5, LARGE.vertices.size)
     assert rows.shape[1] > BLOCK
@@ -70,8 +70,8 @@ def test_over_many_blocks_of_vertices() -> None:
 
 @settings(max_examples=40)
 @given(data=st.data(), count=st.integers(2, 70))
-def test_the_same_bits_however_the_rows_come(data: st.DataObject, count: int) -> None:
-    """A resumed run finds other parts of its samples finished."""
+def test_the_same_bits_however_the_rows_are_split(data: st.DataObject, count: int) -> None:
+    """A resumed run finds its samples finished in other pieces."""
     mass, rows = MASSES["consistent"], displacements(count, SIZE)
     splits = sorted(data.draw(st.lists(st.integers(0, count), max_size=6)))
     np.testing.assert_array_equal(gram(mass, rows, splits).matrix, gram(mass, rows).matrix)
@@ -142,8 +142,8 @@ def test_errors_fall_with_every_dimension(seed: int, count: int) -> None:
     np.testing.assert_array_equal(errors[-1], errors[count - 1])
 
 
-def test_errors_vanish_in_the_span_of_the_training() -> None:
-    """Also when the training rows depend on each other, and nothing is divided by noise."""
+def test_errors_vanish_in_the_span_of_the_training_rows() -> None:
+    """Also when the training rows are linearly dependent: nothing is divided by noise."""
     rows = decaying(40, 6)
     errors = gram(MASSES["consistent"], rows).held_out_error(range(30), range(30, 40), 20)
     np.testing.assert_allclose(errors, 0.0, atol=3e-7)  # roots of what rounding leaves
@@ -166,10 +166,10 @@ def test_the_reference_shape_itself_has_no_error() -> None:
     np.testing.assert_array_equal(products.held_out_error([5], [0, 5], 3), [1.0, 0.0])
 
 
-def test_all_dimensions_at_once_are_each_of_them() -> None:
+def test_all_dimensions_at_once_agree_with_single_ones() -> None:
     products = gram(MASSES["consistent"], decaying(30, 6))
     every = products.held_out_errors(range(20), range(20, 30))
-    np.testing.assert_array_equal(every[0], 1.0)  # without a direction nothing is held
+    np.testing.assert_array_equal(every[0], 1.0)  # without a direction nothing is represented
     for dimension, errors in enumerate(every[1:], start=1):
         one = products.held_out_error(range(20), range(20, 30), dimension)
         np.testing.assert_array_equal(one, errors)
@@ -179,12 +179,12 @@ def test_all_dimensions_at_once_are_each_of_them() -> None:
     ("training", "dimension", "message"),
     [(range(3), 0, "dimension is 0"), ([], 2, "there are no training rows")],
 )
-def test_refuses_what_has_no_subspace(training: range, dimension: int, message: str) -> None:
+def test_it_refuses_what_has_no_subspace(training: range, dimension: int, message: str) -> None:
     products = gram(MASSES["consistent"], displacements(5, SIZE))
     with pytest.raises(ValueError, match=f"SnapshotGram: {message}"):
         products.held_out_error(np.array(training, int), [4], dimension)
 
 
-def test_refuses_rows_of_another_mesh() -> None:
+def test_it_refuses_rows_of_another_mesh() -> None:
     with pytest.raises(ValueError, match=r"row 0 is float64 of shape \(6,\), but must be"):
         SnapshotGram(MASSES["lumped"]).add([np.zeros(6)])

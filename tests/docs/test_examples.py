@@ -1,4 +1,4 @@
-"""The examples run, and show what they claim; the pictures of the docs can be made."""
+"""The examples run and show what they claim; the docs have the pictures that scripts make."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ def test_interpolation_keeps_the_volume_that_the_linear_blend_loses(
     np.testing.assert_allclose(vertices, session.vertices[mesh.surface_vertices], atol=1e-6)
 
 
-def test_every_picture_that_is_made_is_in_the_docs(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_scripts_make_all_pictures_of_the_docs(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.syspath_prepend(ROOT / "docs")
     script = runpy.run_path(str(ROOT / "docs" / "make_pictures.py"))
     made = {f"{name}.png" for name in script["PICTURES"]}
     # by make_page_pictures.py, in a browser
     made |= {"page-posing.png", "page-blending.png", "page-many-poses.png", "page-choosing.png"}
-    made |= {"path-lion.png"}  # by benchmarks/blend_strip.py, of meshes that are not ours
+    made |= {"path-lion.png"}  # by benchmarks/blend_strip.py, from meshes outside the project
     assert made == {path.name for path in (ROOT / "docs" / "pictures").iterdir()}

@@ -1,4 +1,4 @@
-"""What the README and the examples say is so."""
+"""The statements of the README and of the quickstart hold."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def test_the_python_of_the_readme_is_the_quickstart() -> None:
     assert block.group(1).strip() == code
 
 
-def test_every_file_and_room_that_the_readme_names_is_there() -> None:
+def test_every_file_and_folder_that_the_readme_names_exists() -> None:
     for path in re.findall(r"\]\((docs/[^)]+)\)", README):
         assert (ROOT / path).is_file(), path
     for path in re.findall(r"`((?:core|docs)/[\w./]*)`", README):
         assert (ROOT / path).exists(), path
 
 
-def test_quickstart_makes_a_model_whose_head_is_where_it_was_put(
+def test_quickstart_makes_a_model_whose_head_follows_its_handle(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -1,4 +1,4 @@
-"""What the docs site is made of; `make docs` builds it."""
+"""The sources of the docs site, which `make docs` builds."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def test_every_page_is_in_the_contents() -> None:
     assert sorted(listed) == sorted(pages)
 
 
-def test_files_that_pages_show_are_there() -> None:
+def test_files_that_pages_show_exist() -> None:
     shown = [
         (page, name)
         for page in DOCS.glob("*.md")

@@ -1,4 +1,4 @@
-"""The typed stub of the compiled core is the one that its bindings give."""
+"""The typed stub of the compiled core is up to date with its bindings."""
 
 from __future__ import annotations
 

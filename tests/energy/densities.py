@@ -1,7 +1,7 @@
-"""All materials of the registry as tests meet them, and formulas of those that have one here.
+"""All materials of the registry, helpers to evaluate them, and formulas of some.
 
-A density that is registered later is tested by every property that does not need a formula; one
-line in `FORMULAS` lets its values and stresses be compared as well.
+A density that is registered later is tested for every property that needs no formula. With a line
+in `FORMULAS` its values and stresses are compared, too.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..shapes import CORNER_TET
 FloatArray = NDArray[np.float64]
 LAM, MU = 1.5, 0.7
 KINDS = list(MATERIALS.values())
-#: One of each, with Lame parameters that differ.
+#: One material of each kind, with different Lame parameters.
 EACH = [kind.from_lame(lam=LAM, mu=MU) for kind in KINDS]
 
 every_kind = pytest.mark.parametrize("kind", KINDS, ids=lambda kind: kind.kind)
@@ -30,13 +30,13 @@ every_material = pytest.mark.parametrize("material", EACH, ids=lambda material: 
 
 
 def varied(kind: type[Material], tets: int, *, seed: int = 6) -> Material:
-    """With moduli of every tet of its own."""
+    """A material with its own moduli in every tet."""
     lam, mu = np.random.default_rng(seed).uniform(0.3, 3.0, (2, tets))
     return kind.from_lame(lam=lam, mu=mu)
 
 
 def single_tets(material: Material, count: int) -> core.ElasticEnergy:
-    """The energy of so many unit corner tets that share no vertex, each of volume 1/6."""
+    """The energy of `count` unit corner tets that share no vertex, each of volume 1/6."""
     tets = np.arange(4 * count, dtype=np.int32).reshape(-1, 4)
     return core.ElasticEnergy(np.tile(CORNER_TET, (count, 1)), tets, material.core)
 
@@ -60,8 +60,10 @@ def has_barrier(material: Material) -> bool:
 
 
 def random_stretches(count: int, *, inverted: bool, seed: int = 3) -> FloatArray:
-    """Signed singular values (count, 3), the last of which is negative where inverted; no two of
-    them nearly cancel, where the nearest rotation jumps."""
+    """Signed singular values (count, 3), the last one negative if `inverted`.
+
+    No two of them nearly cancel: there the nearest rotation jumps.
+    """
     s = np.random.default_rng(seed).uniform(0.2, 2.0, (count, 3))
     s = -np.sort(-s, axis=1)
     if inverted:
@@ -71,7 +73,7 @@ def random_stretches(count: int, *, inverted: bool, seed: int = 3) -> FloatArray
 
 
 def turned(s: FloatArray, *, seed: int = 4) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """F = U diag(s) V^T with random rotations; U and V as well."""
+    """F = U diag(s) V^T with random rotations U and V; returns F, U and V."""
     U = Rotation.random(len(s), random_state=seed).as_matrix()
     V = Rotation.random(len(s), random_state=seed + 1).as_matrix()
     return U * s[:, None, :] @ V.swapaxes(1, 2), U, V

@@ -1,3 +1,5 @@
+"""Input that ElasticEnergy and the core's energy refuse."""
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -47,9 +49,7 @@ def test_vertices_and_shape_vectors_mean_the_same(energy: ElasticEnergy) -> None
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf, 1e200])
 @every_material
-def test_a_shape_that_is_not_finite_gives_an_energy_that_is_not(
-    material: Material, wrong: float
-) -> None:
+def test_a_shape_that_is_not_finite_has_no_finite_energy(material: Material, wrong: float) -> None:
     x = MESH.vertices.copy()
     x[3, 1] = wrong
     assert not np.isfinite(ElasticEnergy(MESH, material).value(x))
@@ -76,19 +76,19 @@ def test_the_core_refuses_another_number_of_moduli(kind: type[Material]) -> None
 
 
 @pytest.mark.parametrize("name", ["foo", "", "StVK", "stvk "])
-def test_the_core_refuses_a_material_that_it_does_not_know_by_its_name(name: str) -> None:
+def test_the_core_refuses_an_unknown_material_by_name(name: str) -> None:
     with pytest.raises(ValueError, match=f"unknown material '{name}'"):
         core.Material(name, np.ones((1, 2)))
 
 
-def test_a_projection_that_there_is_not_is_refused(energy: ElasticEnergy) -> None:
+def test_an_unknown_projection_is_refused(energy: ElasticEnergy) -> None:
     for projection in ("none", "stretches", "Clamp"):
         message = f"unknown projection '{projection}'; known are clamp, absolute"
         with pytest.raises(ValueError, match=message):
             energy.projected_hessian(MESH.vertices, projection=projection)
 
 
-def test_the_core_reads_no_vertex_that_is_not_there() -> None:
+def test_the_core_refuses_vertices_that_do_not_exist() -> None:
     for corner in (4, -1):
         tets = np.array([[0, 1, 2, corner]], dtype=np.int32)
         with pytest.raises(ValueError, match="a tet has a vertex index out of range"):

@@ -1,3 +1,5 @@
+"""clamped_hessian: the Hessian at states whose singular values are clamped."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -23,7 +25,7 @@ def deformation_gradients(mesh: TetMesh, x: FloatArray) -> FloatArray:
 
 
 def clamped_state(F: FloatArray, threshold: float) -> FloatArray:
-    """U max(s, threshold) V^T, U and V rotations, the sign of an inversion in the smallest s."""
+    """U max(s, threshold) V^T with rotations U and V; the smallest s has the sign of det F."""
     U, s, Vt = np.linalg.svd(F)
     flip = np.diag([1.0, 1.0, np.linalg.det(U)])
     flop = np.diag([1.0, 1.0, np.linalg.det(Vt)])
@@ -58,8 +60,8 @@ def test_equals_the_hessian_at_the_states_that_an_svd_clamps(size: float, thresh
 
 
 @every_material
-def test_the_same_for_every_material(material: Material) -> None:
-    """It is no projection for all of them, but the Hessian of a state that is not inverted."""
+def test_it_is_the_same_for_every_material(material: Material) -> None:
+    """Not a projection for every material, but the Hessian of a state that is not inverted."""
     x = deformed(MESH, 0.6)
     expected = hessian_of_clamped_states(MESH, x, 0.65, material)
     clamped = ElasticEnergy(MESH, material).clamped_hessian(x, threshold=0.65).toarray()
@@ -96,13 +98,13 @@ def test_is_positive_semidefinite_at_threshold_one(size: float, scale: float) ->
     plain = np.linalg.eigvalsh(ENERGY.hessian(x).toarray())
     loosely = np.linalg.eigvalsh(ENERGY.clamped_hessian(x, threshold=0.3).toarray())
     clamped = np.linalg.eigvalsh(ENERGY.clamped_hessian(x, threshold=1.0).toarray())
-    assert plain[0] < -1e-3 * plain[-1], "the case is too tame to need clamping"
-    assert loosely[0] < -1e-3 * loosely[-1], "a threshold far below one is no guarantee"
+    assert plain[0] < -1e-3 * plain[-1], "the case must need clamping"
+    assert loosely[0] < -1e-3 * loosely[-1], "a threshold far below one guarantees nothing"
     assert clamped[0] > -1e-12 * clamped[-1]
 
 
 def test_a_collapsed_tet_gets_the_spectrum_of_its_rest_shape() -> None:
-    """F = 0 is clamped to some rotation, which turns the Hessian at rest."""
+    """F = 0 is clamped to some rotation, which rotates the Hessian at rest."""
     mesh = one_tet()
     energy = ElasticEnergy(mesh, MATERIAL)
     clamped = energy.clamped_hessian(np.zeros(12), threshold=1.0).toarray()
@@ -110,7 +112,7 @@ def test_a_collapsed_tet_gets_the_spectrum_of_its_rest_shape() -> None:
     assert np.linalg.eigvalsh(clamped) == pytest.approx(rest, abs=1e-12 * rest[-1])
 
 
-def test_turns_with_the_shape() -> None:
+def test_rotates_with_the_shape() -> None:
     x, rotation = deformed(MESH, 0.5), random_rotation()
     turn = np.kron(np.eye(len(MESH.vertices)), rotation)
     clamped = ENERGY.clamped_hessian(x, threshold=0.6).toarray()

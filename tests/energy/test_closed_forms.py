@@ -1,4 +1,4 @@
-"""Densities and stresses against formulas in principal stretches, written down a second time."""
+"""Densities and stresses compared with independent formulas in principal stretches."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ def mesh(request: pytest.FixtureRequest) -> TetMesh:
 
 
 def homogeneous(mesh: TetMesh, F: FloatArray, material: Material = MATERIAL) -> float:
-    """Energy density of the same deformation gradient everywhere."""
+    """Energy density of a homogeneous deformation with gradient F."""
     return ElasticEnergy(mesh, material).value(mesh.vertices @ F.T) / mesh.volume
 
 
-def test_formulas_are_of_materials_that_there_are() -> None:
+def test_formulas_belong_to_existing_materials() -> None:
     assert set(FORMULAS) <= set(MATERIALS)
 
 
@@ -73,7 +73,7 @@ def test_uniaxial_stretch(material: Material, mesh: TetMesh, stretch: float) -> 
 
 @pytest.mark.parametrize("scale", [0.3, 0.98, 1.7])
 @with_formula
-def test_uniform_scaling_after_a_turn(material: Material, mesh: TetMesh, scale: float) -> None:
+def test_uniform_scaling_after_a_rotation(material: Material, mesh: TetMesh, scale: float) -> None:
     expected = FORMULAS[material.kind](np.full(3, scale), material.lam, material.mu)
     density = homogeneous(mesh, scale * random_rotation(), material)
     assert density == pytest.approx(expected, rel=1e-10)

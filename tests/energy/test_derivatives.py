@@ -1,4 +1,4 @@
-"""Value, gradient and Hessian of every material belong together, at every kind of state."""
+"""Value, gradient and Hessian of every material are consistent, at every kind of state."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Case = tuple[ElasticEnergy, np.ndarray, np.ndarray]
 
 
 def stretched() -> np.ndarray:
-    """A bar pulled and pressed to twice and half of its sizes, every tet in a way of its own."""
+    """A bar stretched to twice and compressed to half its sizes, with noise in every tet."""
     F = np.array([[1.9, 0.3, 0.0], [0.0, 0.5, 0.2], [-0.2, 0.0, 1.2]])
     return (deformed(irregular_bar(), 0.03).reshape(-1, 3) @ F.T).reshape(-1)
 
@@ -47,7 +47,7 @@ def case(request: pytest.FixtureRequest) -> Case:
 
 
 def _length(mesh: TetMesh) -> float:
-    """A share of the height of the flattest tet: the scale on which the energy changes."""
+    """A third of the size of the flattest tet: the scale on which the energy changes."""
     corners = mesh.vertices[mesh.tets]
     return float(np.linalg.svd(corners[:, 1:] - corners[:, :1], compute_uv=False).min() / 3)
 
@@ -85,7 +85,7 @@ def test_gradient_minus_linear_model_falls_at_order_two(case: Case) -> None:
 
 
 def test_hessian_products_have_symmetric_differences(case: Case) -> None:
-    """The third derivative by d and v is that by v and d; what is left falls at order two."""
+    """The third derivative is symmetric in d and v; the remainder falls at order two."""
     energy, x, d = case
     v = np.random.default_rng(8).normal(size=x.size) * np.abs(d).max() / 3
     by_d, by_v = energy.hessian_product(x, d), energy.hessian_product(x, v)
@@ -109,7 +109,7 @@ def test_the_assembled_hessian_is_the_matrix_of_the_products(case: Case) -> None
     np.testing.assert_allclose(assembled, assembled.T, rtol=0, atol=1e-14 * scale)
 
 
-def test_vertices_that_share_no_tet_do_not_meet_in_the_hessian() -> None:
+def test_vertices_that_share_no_tet_have_no_entry_in_the_hessian() -> None:
     mesh = irregular_bar(4, 1, 1)
     hessian = ElasticEnergy(mesh, StVK()).hessian(deformed(mesh, 0.1)).toarray()
     share = np.zeros((len(mesh.vertices),) * 2, dtype=bool)

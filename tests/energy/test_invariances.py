@@ -1,4 +1,4 @@
-"""What holds for every isotropic density: rigid motions, turns of the material, and scales."""
+"""Invariances of every isotropic density: rigid motions, rotated material, and scale."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def test_the_rest_shape_has_no_energy_and_no_force(material: Material) -> None:
     shift=st.tuples(*[st.floats(-10, 10)] * 3),
 )
 @settings(max_examples=10)
-def test_a_rigid_motion_keeps_the_energy_and_turns_the_force(
+def test_a_rigid_motion_keeps_the_energy_and_rotates_the_force(
     material: Material, size: float, angles: tuple[float, ...], shift: tuple[float, ...]
 ) -> None:
     energy, x = ElasticEnergy(MESH, material), deformed(MESH, size)
@@ -56,7 +56,7 @@ def test_the_energy_of_a_rigidly_moved_rest_shape_is_rounding(material: Material
 
 @pytest.mark.parametrize("inverted", [False, True])
 @every_material
-def test_turning_the_material_or_the_world_keeps_the_density(
+def test_rotating_the_material_or_the_world_keeps_the_density(
     material: Material, inverted: bool
 ) -> None:
     """psi(R F Q) = psi(F) and P(R F Q) = R P(F) Q: frame indifference and isotropy."""
@@ -67,7 +67,7 @@ def test_turning_the_material_or_the_world_keeps_the_density(
     turned_psi, turned_P = densities(material, R @ F @ Q)
     np.testing.assert_allclose(turned_psi, psi, rtol=1e-10)
     np.testing.assert_allclose(turned_P, R @ P @ Q, rtol=0, atol=1e-9 * max(np.abs(P).max(), 1.0))
-    # the stress turns forces only: P F^T, Kirchhoff's, is symmetric
+    # angular momentum: the Kirchhoff stress P F^T is symmetric
     tau = P @ F.swapaxes(1, 2)
     np.testing.assert_allclose(tau, tau.swapaxes(1, 2), rtol=0, atol=1e-10 * np.abs(P).max())
 
@@ -109,8 +109,8 @@ def test_the_energy_scales_with_the_volume(material: Material) -> None:
     )
 
 
-def test_st_venant_kirchhoff_cannot_tell_an_inverted_element_from_its_mirror_image() -> None:
-    """The known weakness psi(F) = psi(-F), which solvers must live with."""
+def test_st_venant_kirchhoff_does_not_distinguish_mirror_images() -> None:
+    """The known weakness psi(F) = psi(-F), which solvers must cope with."""
     energy, x = ElasticEnergy(MESH, StVK(lam=1.5, mu=0.7)), deformed(MESH, 0.2)
     value, gradient = energy.value_and_gradient(x)
     mirrored_value, mirrored_gradient = energy.value_and_gradient(-x)

@@ -1,4 +1,4 @@
-"""Tets without volume and turned inside out: counted, and every derivative finite."""
+"""Flat and inverted tets: they are counted, and every derivative is finite."""
 
 from __future__ import annotations
 
@@ -32,15 +32,14 @@ DEGENERATE = np.array(
 
 
 @every_material
-def test_a_material_says_whether_it_has_a_barrier(material: Material) -> None:
-    """Solves start without inverted tets where it says so."""
+def test_a_material_reports_whether_it_has_a_barrier(material: Material) -> None:
+    """If it has one, solves start without inverted tets."""
     assert material.barrier == has_barrier(material)
 
 
 @every_material
 def test_the_stress_and_the_hessian_of_degenerate_tets_are_finite(material: Material) -> None:
-    """So is the value, or it is infinite and has no gradient: a barrier that solvers step back
-    from."""
+    """The value is finite, too, or infinite with a zero gradient: a barrier that solvers avoid."""
     psi, P = densities(material, DEGENERATE)
     if has_barrier(material):
         assert (psi == np.inf).all()
@@ -80,8 +79,8 @@ def test_one_inverted_tet_of_a_mesh_is_enough_for_a_barrier(material: Material) 
 
 
 @every_material
-def test_flattening_costs_energy_and_a_barrier_infinitely_much(material: Material) -> None:
-    """Along diag(1, 1, h) from rest down to zero psi rises, however little is left."""
+def test_flattening_costs_energy_without_bound_for_a_barrier(material: Material) -> None:
+    """Along diag(1, 1, h), psi rises as h falls from one to zero."""
     heights = np.linspace(1.0, 0.0, 21)
     F = np.tile(np.eye(3), (len(heights), 1, 1))
     F[:, 2, 2] = heights
@@ -92,7 +91,7 @@ def test_flattening_costs_energy_and_a_barrier_infinitely_much(material: Materia
 
 
 def test_counts_the_planted_inversions() -> None:
-    """Pushing an apex through the face that its tet shares inverts that tet only."""
+    """Pushing an apex through the opposite face inverts only its own tet."""
     vertices = np.vstack([CORNER_TET, [[1.0, 1.0, 1.0], [-1.0, 0.2, 0.2]]])
     mesh = TetMesh(vertices, [[0, 1, 2, 3], [1, 2, 3, 4], [0, 3, 2, 5]])
     energy = ElasticEnergy(mesh, StVK())

@@ -1,4 +1,4 @@
-"""One sample per lane of a pack: a sample has the same bits in any lane, beside any, and alone."""
+"""One sample per lane of a pack; its bits do not depend on the lane or on other samples."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def assert_same_bits(a: tuple[FloatArray, FloatArray], b: tuple[FloatArray, Floa
 def in_packs(
     energy: core.ElasticEnergy, shapes: FloatArray, *, single: bool = False
 ) -> tuple[FloatArray, FloatArray]:
-    """Values and gradients of any number of samples; builds differ in their lanes."""
+    """Values and gradients of any number of samples; the number of lanes depends on the build."""
     width = WIDTHS[single]
     parts = [
         energy.lane_values_and_gradients(shapes[k : k + width], single=single)
@@ -78,7 +78,7 @@ def test_a_sample_has_the_same_bits_in_any_lane_beside_any_others(
 @precisions
 @pytest.mark.parametrize("wild", [np.nan, np.inf, 1e200])
 @every_kind
-def test_a_lane_that_is_not_finite_stays_alone(
+def test_a_lane_that_is_not_finite_spoils_no_other(
     kind: type[Material], wild: float, single: bool
 ) -> None:
     energy, shapes = compiled(kind), displaced(WIDTHS[single])
@@ -91,8 +91,8 @@ def test_a_lane_that_is_not_finite_stays_alone(
 
 
 @every_kind
-def test_single_precision_is_the_double_one_to_its_digits(kind: type[Material]) -> None:
-    """Sums are kept in double; a tet has the digits of a float."""
+def test_single_precision_agrees_with_double_to_its_digits(kind: type[Material]) -> None:
+    """Sums are in double precision; the terms of each tet in single precision."""
     energy, shapes = compiled(kind), displaced(4 if has_barrier(kind()) else 6)
     values, gradients = in_packs(energy, shapes)
     single_values, single_gradients = in_packs(energy, shapes, single=True)
@@ -106,13 +106,13 @@ def test_single_precision_is_the_double_one_to_its_digits(kind: type[Material]) 
 
 @every_kind
 def test_the_sum_over_tets_is_that_of_their_stresses(kind: type[Material]) -> None:
-    """Lane sums go over the tets in stops; tet_stresses goes tet by tet."""
+    """Lanes sum over groups of tets; tet_stresses works tet by tet."""
     mesh = irregular_bar(6, 3, 3)
     energy, u = compiled(kind, mesh), deformed(mesh, 0.03) - mesh.vertices.reshape(-1)
     stresses, energies = energy.tet_stresses(u)
     corners = mesh.vertices[mesh.tets]
     inverse = np.linalg.inv((corners[:, 1:] - corners[:, :1]).swapaxes(1, 2))
-    # a column per corner but the first, which has their negative sum
+    # a column for each corner except the first, whose force is their negative sum
     forces = stresses.reshape(-1, 3, 3) @ inverse.swapaxes(1, 2)
     expected = np.zeros_like(mesh.vertices)
     for corner in range(3):

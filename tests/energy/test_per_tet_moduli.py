@@ -1,4 +1,4 @@
-"""Moduli of every tet of its own: through the energy, and through systems that renumber tets."""
+"""Moduli that differ from tet to tet, in the energy and in systems that renumber tets."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 def shuffled_bar() -> TetMesh:
-    """Whose tets and vertices come in no order, so that a system numbers them anew."""
+    """A bar with tets and vertices in random order, so that systems renumber them."""
     mesh, random = irregular_bar(4, 2, 2), np.random.default_rng(9)
     place = random.permutation(len(mesh.vertices))
     vertices = np.empty_like(mesh.vertices)
@@ -29,7 +29,7 @@ X = deformed(MESH, 0.03)
 
 
 def sum_of_tets(mesh: TetMesh, material: Material, x: FloatArray) -> tuple[float, FloatArray]:
-    """Energy and gradient: every tet a mesh of its own, of one material."""
+    """Energy and gradient as sums over meshes of one tet, each of one material."""
     value, gradient = 0.0, np.zeros((len(mesh.vertices), 3))
     positions = x.reshape(-1, 3)
     for index, tet in enumerate(mesh.tets):
@@ -66,7 +66,7 @@ def test_the_energy_is_the_sum_of_those_of_its_tets(kind: type[Material]) -> Non
 
 
 @every_kind
-def test_hessians_are_sums_as_well(kind: type[Material]) -> None:
+def test_hessians_are_sums_over_tets_too(kind: type[Material]) -> None:
     material = varied(kind, len(MESH.tets))
     energy, v = ElasticEnergy(MESH, material), np.random.default_rng(3).normal(size=X.size)
     parts = np.zeros((len(MESH.vertices), 3))
@@ -82,7 +82,7 @@ def test_hessians_are_sums_as_well(kind: type[Material]) -> None:
 
 
 @every_kind
-def test_the_same_number_in_every_tet_is_that_number(kind: type[Material]) -> None:
+def test_equal_moduli_in_every_tet_act_as_one_number(kind: type[Material]) -> None:
     number = kind.from_lame(lam=1.5, mu=0.7)
     names = kind.names()
     arrays = kind(**{name: np.full(len(MESH.tets), getattr(number, name)) for name in names})
@@ -94,7 +94,7 @@ def test_the_same_number_in_every_tet_is_that_number(kind: type[Material]) -> No
 
 
 @every_kind
-def test_moduli_go_with_their_tets(kind: type[Material]) -> None:
+def test_moduli_stay_with_their_tets(kind: type[Material]) -> None:
     material = varied(kind, len(MESH.tets))
     order = np.random.default_rng(1).permutation(len(MESH.tets))
     expected = ElasticEnergy(MESH, material).value_and_gradient(X)
@@ -105,7 +105,7 @@ def test_moduli_go_with_their_tets(kind: type[Material]) -> None:
 
 
 @every_kind
-def test_a_posing_system_carries_them_to_its_own_numbers(kind: type[Material]) -> None:
+def test_a_posing_system_renumbers_them(kind: type[Material]) -> None:
     problem = posing(varied(kind, len(MESH.tets)))
     u = X - MESH.vertices.reshape(-1)
     value, gradient = sum_of_tets(MESH, problem.material, X)
@@ -118,7 +118,7 @@ def test_a_posing_system_carries_them_to_its_own_numbers(kind: type[Material]) -
 
 @every_kind
 def test_its_scalar_matrix_is_the_laplacian_of_their_stiffness(kind: type[Material]) -> None:
-    """(2 mu + lam) volume (grad, grad) of every tet, and twice the weights of the handles."""
+    """The sum over tets of (2 mu + lam) volume (grad, grad), plus twice the handles' weights."""
     problem = posing(varied(kind, len(MESH.tets)))
     n = len(MESH.vertices)
     matrix = np.zeros((n, n))
@@ -141,8 +141,8 @@ def test_its_scalar_matrix_is_the_laplacian_of_their_stiffness(kind: type[Materi
 
 
 @every_kind
-def test_a_blend_of_poses_has_them_in_every_pose(kind: type[Material]) -> None:
-    """sum_k w_k E_k, with the energy E_k whose rest shape is pose k."""
+def test_a_blend_of_poses_uses_them_in_every_pose(kind: type[Material]) -> None:
+    """sum_k w_k E_k, where E_k is the energy with pose k as its rest shape."""
     poses = bar_poses(irregular_bar(4, 2, 2))
     material = varied(kind, len(poses.tets))
     system = core.InterpolationSystem(poses.shapes, poses.tets, material.core)

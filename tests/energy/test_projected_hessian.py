@@ -1,4 +1,4 @@
-"""Hessians of tets made positive semi-definite, against dense eigenvalues."""
+"""Hessians of tets made positive semi-definite, compared with dense eigenvalues."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TET = one_tet()
 
 
 def states(material: Material) -> FloatArray:
-    """Deformation gradients (k, 3, 3): at rest, near it, far from it, and inverted if it may be."""
+    """Deformation gradients (k, 3, 3): at rest, near it, far from it, and inverted if allowed."""
     near = 1.0 + 0.1 * np.random.default_rng(1).uniform(0.0, 1.0, (10, 3))
     s = [np.ones((1, 3)), near, random_stretches(20, inverted=False)]
     if not has_barrier(material):
@@ -34,8 +34,10 @@ def states(material: Material) -> FloatArray:
 
 
 def by_entries(hessian: FloatArray) -> FloatArray:
-    """The second derivative (9, 9) of 1/6 psi by the entries of F, column by column: vertices 1 to
-    3 of the unit corner tet are these columns."""
+    """The second derivative (9, 9) of 1/6 psi by the entries of F, column by column.
+
+    Vertices 1 to 3 of the unit corner tet are these columns.
+    """
     return hessian[3:, 3:]
 
 
@@ -44,7 +46,7 @@ def by_entries(hessian: FloatArray) -> FloatArray:
 def test_eigenvalues_are_those_of_the_exact_hessian_made_positive(
     material: Material, projection: str
 ) -> None:
-    """And eigenvectors are its own: the nearest positive semi-definite matrix of its kind."""
+    """Eigenvectors stay the same; clamping gives the nearest positive semi-definite matrix."""
     energy = ElasticEnergy(TET, material)
     indefinite = 0
     for F in states(material):
@@ -55,7 +57,7 @@ def test_eigenvalues_are_those_of_the_exact_hessian_made_positive(
         expected = vectors * POSITIVE[projection](eigenvalues) @ vectors.T
         found = energy.projected_hessian(x, projection=projection).toarray()
         np.testing.assert_allclose(by_entries(found), expected, rtol=0, atol=1e-10 * scale)
-    assert indefinite > 3, "the states are too tame to need a projection"
+    assert indefinite > 3, "some states must need a projection"
 
 
 @projections
@@ -74,16 +76,16 @@ def test_nothing_changes_where_the_hessian_is_semi_definite(
         semi_definite += 1
         found = energy.projected_hessian(x, projection=projection).toarray()
         np.testing.assert_allclose(found, exact, rtol=0, atol=1e-13 * eigenvalues[-1])
-    assert semi_definite > 0, "the rest shape is one"
+    assert semi_definite > 0, "at least the rest shape"
 
 
 @projections
 @pytest.mark.parametrize("size", [0.05, 1.0])
 @every_kind
-def test_of_a_mesh_it_is_symmetric_and_semi_definite(
+def test_for_a_mesh_it_is_symmetric_and_semi_definite(
     kind: type[Material], size: float, projection: str
 ) -> None:
-    """With moduli per tet; every tet is projected, so that the sum is not the nearest matrix."""
+    """With moduli per tet. Every tet is projected, so the sum is not the nearest matrix."""
     mesh = irregular_bar()
     energy = ElasticEnergy(mesh, varied(kind, len(mesh.tets)))
     hessian = energy.projected_hessian(deformed(mesh, size), projection=projection).toarray()
@@ -94,7 +96,7 @@ def test_of_a_mesh_it_is_symmetric_and_semi_definite(
 
 
 @every_material
-def test_absolute_is_at_least_as_stiff_as_clamped_and_that_as_the_exact_one(
+def test_absolute_is_stiffer_than_clamped_and_clamped_than_exact(
     material: Material,
 ) -> None:
     mesh = irregular_bar()
@@ -105,7 +107,7 @@ def test_absolute_is_at_least_as_stiff_as_clamped_and_that_as_the_exact_one(
     for more, less in ((clamped, exact), (absolute, clamped)):
         difference = np.linalg.eigvalsh((more - less).toarray())
         assert difference[0] > -1e-12 * abs(exact).max()
-        assert difference[-1] > 1e-6 * abs(exact).max(), "nothing was projected"
+        assert difference[-1] > 1e-6 * abs(exact).max(), "the projection must change the matrix"
 
 
 @every_material

@@ -1,4 +1,4 @@
-"""Soft modes and guesses of bodies whose moduli differ from tet to tet, against dense matrices."""
+"""Soft modes and guesses of bodies with moduli per tet, compared with dense matrices."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 
 
 def rest_hessian(problem: PosingProblem) -> FloatArray:
-    """The objective's: that of the elastic energy, and twice the weights of the handles."""
+    """The objective's Hessian at rest: the elastic energy's plus twice the handles' weights."""
     held = np.zeros(problem.base.size)
     for axis in range(3):
         held[3 * problem.pinned + axis] = 2.0 * problem.pin_weights
@@ -26,8 +26,10 @@ def rest_hessian(problem: PosingProblem) -> FloatArray:
 
 @every_kind
 def test_responses_of_the_handles_are_those_of_linear_elasticity(kind: type[Material]) -> None:
-    """Up to 3 % of the energy: they are solved to about a hundredth. Others of the same moduli, in
-    another order, are farther off."""
+    """Up to 3 % of the energy, since they are solved to about 1 %.
+
+    Responses for the same moduli in another order are farther off.
+    """
     material = varied(kind, len(MESH.tets))
     problem, other = posing(material), posing(material.of_tets(np.arange(len(MESH.tets))[::-1]))
     hessian, elastic = rest_hessian(problem), problem.energy.hessian(problem.base)

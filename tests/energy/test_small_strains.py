@@ -1,4 +1,4 @@
-"""Near rest every material is linear elasticity of its lam and mu, which may differ tet by tet."""
+"""Near rest every material is linear elasticity with its lam and mu, also per tet."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ MESHES = pytest.mark.parametrize("mesh", [bar(2, 2, 2), irregular_bar(), flat_cy
 
 
 def linear_elasticity(mesh: TetMesh, lam: FloatArray, mu: FloatArray) -> FloatArray:
-    """The dense stiffness matrix by scikit-fem, a modulus per element."""
+    """The dense stiffness matrix by scikit-fem, with moduli per element."""
     element = skfem.ElementVector(skfem.ElementTetP1())
     basis = skfem.Basis(skfem.MeshTet(mesh.vertices.T, mesh.tets.T.astype(np.int64)), element)
     piecewise = basis.with_element(skfem.ElementTetP0())
@@ -48,7 +48,7 @@ def test_the_hessian_at_rest_is_that_of_linear_elasticity(
 
 @pytest.mark.parametrize("mesh", [bar(2, 2, 2), irregular_bar()], ids=repr)
 @every_material
-def test_the_hessian_at_rest_has_six_zero_modes_and_is_positive_else(
+def test_the_hessian_at_rest_has_six_zero_modes_and_is_otherwise_positive(
     material: Material, mesh: TetMesh
 ) -> None:
     hessian = ElasticEnergy(mesh, material).hessian(mesh.vertices).toarray()
@@ -68,14 +68,14 @@ def test_the_hessian_at_rest_has_six_zero_modes_and_is_positive_else(
 def test_small_displacements_have_the_energy_of_linear_elasticity(
     material: Material, mesh: TetMesh
 ) -> None:
-    """Up to the cubic term, which falls with the size, and to rounding of stresses of F."""
+    """Up to the cubic term, which falls with the size, and the rounding of stresses of F."""
     energy = ElasticEnergy(mesh, material)
     hessian = energy.hessian(mesh.vertices)
     for size in (1e-5, 1e-6):
         u = deformed(mesh, size) - mesh.vertices.reshape(-1)
         value, gradient = energy.core.value_and_gradient(u)
         force = hessian @ u
-        allowed = 1e3 * size + 1e-12 / size  # tets are some 40 times thinner than long
+        allowed = 1e3 * size + 1e-12 / size  # tets are about 40 times as long as thick
         assert value == pytest.approx(u @ force / 2, rel=allowed)
         assert np.linalg.norm(gradient - force) < allowed * np.linalg.norm(force)
 
@@ -83,10 +83,10 @@ def test_small_displacements_have_the_energy_of_linear_elasticity(
 @pytest.mark.parametrize("size", [1e-8, 1e-12])
 @pytest.mark.parametrize("mesh", [irregular_bar(), flat_cylinder()], ids=repr)
 @pytest.mark.parametrize("kind", [StVK, StableNeoHookean])
-def test_in_the_displacement_gradient_small_displacements_keep_their_precision(
+def test_densities_of_displacement_gradients_keep_their_precision_near_rest(
     kind: type[Material], mesh: TetMesh, size: float
 ) -> None:
-    """E = u^T H u / 2 up to a relative O(u); from F^T F - I it would be off by 1e-16 / u."""
+    """E = u^T H u / 2 up to a relative O(u); with F^T F - I the error would be 1e-16 / u."""
     energy = ElasticEnergy(mesh, kind.from_lame(lam=1.5, mu=0.7))
     u = deformed(mesh, size) - mesh.vertices.reshape(-1)
     value, gradient = energy.core.value_and_gradient(u)
@@ -97,7 +97,7 @@ def test_in_the_displacement_gradient_small_displacements_keep_their_precision(
 
 
 @pytest.mark.parametrize("size", [1e-8, 1e-12])
-def test_positions_lose_only_the_digits_that_they_do_not_hold(size: float) -> None:
+def test_positions_lose_only_the_digits_that_they_cannot_represent(size: float) -> None:
     mesh = irregular_bar()
     energy = ElasticEnergy(mesh, StVK(lam=1.5, mu=0.7))
     x = deformed(mesh, size)

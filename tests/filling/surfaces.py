@@ -1,4 +1,4 @@
-"""A closed surface as the tests of both ways to fill one take it."""
+"""The closed surface of a mesh, for the tests of both filling methods."""
 
 from __future__ import annotations
 

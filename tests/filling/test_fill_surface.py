@@ -1,4 +1,4 @@
-"""One small surface takes fTetWild half a second, so the filled meshes are shared."""
+"""fill_surface. fTetWild takes half a second for a small surface, so filled meshes are shared."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def test_the_surface_is_near_the_boundary_and_follows_the_tets(
 
 
 def test_unit_frame_orientation_and_unused_vertices_do_not_matter(barrel: Surface) -> None:
-    """fTetWild has thresholds without a unit and keeps what is left of the faces."""
+    """fTetWild's thresholds have no unit, and the orientation decides what it keeps."""
     vertices, faces = barrel
     far = np.vstack([1e-4 * vertices + 7.0, [[1e3, 1e3, 1e3]]])
     mesh = fill_surface(far, faces[:, ::-1], **COARSE)
@@ -63,7 +63,7 @@ def test_parts_that_overlap_become_one_solid() -> None:
     """Two bars that cross: their surfaces intersect each other."""
     along, faces = surface_of(bar(4, 1, 1, length=4.0, width=1.0, height=1.0))
     across = along[:, [1, 0, 2]] + [1.5, -1.5, 0.1]
-    # exchanging two axes mirrors the bar, so its faces turn
+    # exchanging two axes mirrors the bar, so its faces are reversed
     both = np.concatenate([faces, faces[:, ::-1] + len(along)])
     mesh = fill_surface(np.concatenate([along, across]), both, **COARSE)
     assert mesh.volume == pytest.approx(4.0 + 4.0 - 0.9, rel=0.03)
@@ -113,7 +113,7 @@ def test_refuses_what_cannot_be_filled(
     ("program", "message"),
     [
         ("print('first'); raise SystemExit('no memory')", "exit status 1: no memory; check the"),
-        # what the C++ code does when it meets an inverted tet
+        # the C++ code does this when it meets an inverted tet
         ("raise SystemExit(0)", "exit status 0: it wrote nothing"),
         ("import os; os.abort()", "exit status -?[0-9]+: "),
     ],

@@ -1,4 +1,4 @@
-"""fTetWild ends with the process that asked for it, and its folder goes."""
+"""fTetWild ends with the process that started it, and its folder is removed."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 from snapspace.filling import ftetwild
 
 PATIENCE = 20.0
-#: Works without listening, as compiled code does: it notes its number, and ignores signals.
+#: Like compiled code it ignores signals while it works; it writes its process number first.
 WORK = """
 import os, signal, sys, time
 for number in (signal.SIGINT, signal.SIGTERM):
@@ -25,8 +25,8 @@ with open(os.path.join(sys.argv[1], "began.part"), "w") as file:
 os.rename(os.path.join(sys.argv[1], "began.part"), os.path.join(sys.argv[1], "began"))
 time.sleep(600)
 """
-#: A program that fills, without the time that importing all of snapspace takes.
-ASKS = """
+#: A program that fills a surface, without the time to import all of snapspace.
+FILLS = """
 import importlib, sys, types
 for name, folder in (("snapspace", ""), ("snapspace.filling", "/filling")):
     sys.modules[name] = types.ModuleType(name)
@@ -47,7 +47,7 @@ def wait_for(done: Callable[[], bool]) -> None:
 
 
 def is_running(process: int) -> bool:
-    """Whether it works still; one that has ended and that nobody has asked for does not."""
+    """Whether a process still runs; a zombie does not."""
     try:
         state = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0]
     except OSError:
@@ -57,7 +57,7 @@ def is_running(process: int) -> bool:
 
 @pytest.mark.skipif(sys.platform != "linux", reason="asks Linux for the state of a process")
 @pytest.mark.parametrize("sent", [signal.SIGKILL, signal.SIGTERM])
-def test_ftetwild_dies_with_its_parent_and_its_folder_goes(
+def test_ftetwild_dies_with_its_parent_and_its_folder_is_removed(
     tmp_path: Path, sent: signal.Signals
 ) -> None:
     work, folder = tmp_path / "work.py", tmp_path / "folder"
@@ -65,7 +65,7 @@ def test_ftetwild_dies_with_its_parent_and_its_folder_goes(
     folder.mkdir()
     package = Path(ftetwild.__file__).parents[1]
     words = [str(package), str(work), str(folder)]
-    with subprocess.Popen([sys.executable, "-c", ASKS, *words]) as parent:
+    with subprocess.Popen([sys.executable, "-c", FILLS, *words]) as parent:
         try:
             wait_for((folder / "began").exists)
             process = int((folder / "began").read_text())

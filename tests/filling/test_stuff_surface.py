@@ -1,3 +1,5 @@
+"""stuff_surface: tets of a lattice that fill a closed surface."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -39,7 +41,7 @@ def test_the_tets_are_well_shaped_and_of_the_wanted_size(stuffed: TetMesh) -> No
     assert 0.5 * EDGE < np.median(lengths) < 1.1 * EDGE
 
 
-def test_the_same_twice_also_turned_inside_out(barrel: Surface, stuffed: TetMesh) -> None:
+def test_it_is_reproducible_and_ignores_the_orientation(barrel: Surface, stuffed: TetMesh) -> None:
     vertices, faces = barrel
     again = stuff_surface(vertices, faces[:, ::-1], edge_length=EDGE)
     assert np.array_equal(again.vertices, stuffed.vertices)
@@ -53,13 +55,13 @@ def test_corners_are_cut_off_but_not_lost(edge_length: float) -> None:
     assert stuffed.volume == pytest.approx(mesh.volume, rel=edge_length)
 
 
-def test_a_part_that_is_too_thin_is_told_and_not_lost() -> None:
+def test_a_part_that_is_too_thin_is_an_error() -> None:
     mesh = bar(16, 1, 1, length=4.0, width=0.02, height=0.02)
     with pytest.raises(ValueError, match=r"edge_length is 0\.1 of the diagonal, too long"):
         stuff_surface(*surface_of(mesh), edge_length=0.1)
 
 
-def test_two_solids_are_not_one(barrel: Surface) -> None:
+def test_two_solids_are_refused(barrel: Surface) -> None:
     vertices, faces = surface_of(bar(4, 2, 2))
     two = np.vstack([vertices, vertices + np.array([20.0, 0.0, 0.0])])
     with pytest.raises(ValueError, match="vertices are far from the tets"):

@@ -1,4 +1,4 @@
-"""Bars and their surfaces, bent by maps that are known."""
+"""Bars and their surfaces, bent by known maps."""
 
 from __future__ import annotations
 

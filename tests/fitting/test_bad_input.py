@@ -1,4 +1,4 @@
-"""What fit_poses refuses, and how it says so."""
+"""Input that fit_poses refuses, and the messages."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def test_positive_deviations_pass(deviation: float) -> None:
     check_deviation(deviation)
 
 
-def test_the_core_reads_nothing_that_is_not_there() -> None:
+def test_the_core_checks_indices_and_shapes() -> None:
     areas = np.ones(COUNT)
     for corner in (-1, len(MESH.vertices)):
         corners = SURFACE.corners.copy()

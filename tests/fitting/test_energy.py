@@ -1,4 +1,4 @@
-"""The energy of fits is symmetric Dirichlet's, in the numbers of the mesh, bounded in stretch.
+"""The energy of fits: the symmetric Dirichlet energy with a bound on the stretch.
 
 Derivatives, invariances and closed forms of the density are tested in tests/energy.
 """
@@ -46,7 +46,7 @@ def some_displacement(mesh: TetMesh) -> FloatArray:
 def test_without_a_bound_it_is_the_material_of_unit_shear_modulus(
     mesh: TetMesh, system: core.FittingSystem
 ) -> None:
-    """Value, gradient, and the Hessian with negative eigenvalues of tets clamped."""
+    """Value, gradient, and the Hessian with the negative eigenvalues of each tet clamped."""
     u, v = some_displacement(mesh), RANDOM.standard_normal(mesh.vertices.size)
     material = ElasticEnergy(mesh, SymmetricDirichlet(mu=1.0))
     x = mesh.vertices.reshape(-1) + u
@@ -74,7 +74,7 @@ def test_gradient(mesh: TetMesh, system: core.FittingSystem) -> None:
 
 
 def test_hessian_where_nothing_is_projected(mesh: TetMesh, system: core.FittingSystem) -> None:
-    """All tets stretched: then every eigenvalue is positive, and the projected one is the true."""
+    """If all tets are stretched, every eigenvalue is positive: the projection changes nothing."""
     u = linear_map(mesh, np.diag([1.6, 1.4, 1.5]))
     u += 0.005 * RANDOM.standard_normal(u.size)
     v = RANDOM.standard_normal(u.size)
@@ -108,10 +108,10 @@ def test_value_of_a_stretch(mesh: TetMesh, system: core.FittingSystem) -> None:
 
 
 @pytest.mark.parametrize("stretch", [STRETCH, 1.0 / STRETCH])
-def test_it_grows_without_end_towards_the_bound(
+def test_it_grows_without_limit_towards_the_bound(
     mesh: TetMesh, system: core.FittingSystem, stretch: float
 ) -> None:
-    """The bound is on |F|^2 + |F^-1|^2 - 6, so a stretch of ten alone is just beyond it."""
+    """The bound is on |F|^2 + |F^-1|^2 - 6, so a single stretch of ten is just beyond it."""
 
     def energy(s: float) -> float:
         value: float = system.energy(linear_map(mesh, np.diag([s, 1.0, 1.0])), stretch=STRETCH)[0]

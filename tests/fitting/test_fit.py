@@ -1,4 +1,4 @@
-"""Fitted poses match their targets, are valid, and come out in the frame of the rest shape."""
+"""Fitted poses match their targets, are valid, and are in the frame of the rest shape."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def test_a_bent_bar_is_found_from_its_surface(angle: float) -> None:
     assert report.converged and report.rms <= 5e-4 and report.rms <= report.max
     assert report.inverted_tets == inverted_tets(MESH, fits.shapes[0]) == 0
     assert 0.0 < report.smallest_stretch < 1.0 < report.largest_stretch < 4.0
-    # inside of the surface too the bar is where the map brings it, up to what bending warps
+    # the inside follows the map, too, up to the warping of cross sections
     assert distance_up_to_motion(fits.shapes[0], bent(MESH.vertices, angle)) < 5e-3
 
 
@@ -65,7 +65,7 @@ def test_the_frame_of_a_target_does_not_matter() -> None:
 
 
 def test_a_small_motion_is_not_rounded_away() -> None:
-    """The surface may be off by `deviation`, but not by as much as it moves."""
+    """The surface may be off by `deviation`, but only by a part of its own motion."""
     target = bent(REST, 0.01)
     moved = rms(MESH, target - REST)
     assert moved < 5e-3
@@ -74,8 +74,8 @@ def test_a_small_motion_is_not_rounded_away() -> None:
     assert distance_up_to_motion(SURFACE.vertices(fits.shapes[0]), target) < 0.1 * moved
 
 
-def test_points_inside_of_tets_are_matched_as_vertices_are() -> None:
-    """Every point of the surface moved to the middle of a tet at it."""
+def test_points_inside_tets_are_matched_like_vertices() -> None:
+    """The points of the surface are the centres of the tets."""
     middle = np.full((len(MESH.tets), 4), 0.25)
     surface = EmbeddedSurface(
         np.arange(3 * (len(MESH.tets) // 3), dtype=np.int32).reshape(-1, 3), MESH.tets, middle
@@ -87,13 +87,13 @@ def test_points_inside_of_tets_are_matched_as_vertices_are() -> None:
 
 
 def test_a_target_that_intersects_itself_still_gives_a_valid_pose() -> None:
-    """The bar bent once around and through itself, and its end turned inside out."""
+    """The bar bent once around and through itself, and a bar with its end turned inside out."""
     around = bent(REST, 6.5)
     inside_out = REST.copy()
     inside_out[REST[:, 0] > 3.0, 1] *= -1.0
     fits = fit_poses(MESH, SURFACE, [around, inside_out], max_iterations=60)
     assert fits.reports[0].converged
-    assert not fits.reports[1].converged, "no pose without inverted tets is near"
+    assert not fits.reports[1].converged, "no pose without inverted tets is near it"
     for shape, report in zip(fits.shapes, fits.reports, strict=True):
         assert inverted_tets(MESH, shape) == report.inverted_tets == 0
         assert np.isfinite(shape).all()
@@ -103,7 +103,7 @@ def without_seconds(fits: PoseFits) -> list[object]:
     return [replace(report, seconds=0.0) for report in fits.reports]
 
 
-def test_poses_do_not_depend_on_threads_nor_on_each_other() -> None:
+def test_poses_depend_neither_on_threads_nor_on_each_other() -> None:
     targets = [bent(REST, angle) for angle in (0.5, 1.0, 2.0, -1.0)]
     one = fit_poses(MESH, SURFACE, targets, threads=1)
     many = fit_poses(MESH, SURFACE, targets, threads=3)
@@ -122,7 +122,7 @@ def test_the_unit_of_length_does_not_matter() -> None:
 
 
 @pytest.mark.parametrize("count", [1, 3])
-def test_reports_read_well(count: int) -> None:
+def test_reports_are_readable(count: int) -> None:
     targets = [bent(REST, 0.5)] * count
     fits = fit_poses(MESH, SURFACE, targets, names=[f"pose{i}" for i in range(count)])
     assert len(fits) == count
@@ -140,7 +140,7 @@ def pulled(distance: float) -> np.ndarray:
     return target
 
 
-def test_a_spike_is_left_by_a_little_where_it_would_stretch_tets_too_much() -> None:
+def test_a_spike_that_would_stretch_tets_too_much_is_not_quite_reached() -> None:
     system = fitting_system(MESH, SURFACE)
 
     def fit(stretch: float) -> float:
@@ -161,7 +161,7 @@ def test_a_spike_is_left_by_a_little_where_it_would_stretch_tets_too_much() -> N
     assert fit(1e6) > 10.0 > fit(10.0) > 5.0
 
 
-def test_a_surface_that_needs_more_gets_more() -> None:
+def test_a_surface_that_needs_more_stretch_gets_it() -> None:
     stretch = np.array([15.0, 1.0, 1.0])
     fits = fit_poses(MESH, SURFACE, [REST * stretch])
     (report,) = fits.reports

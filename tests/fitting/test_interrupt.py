@@ -1,4 +1,4 @@
-"""Ctrl-C keeps the poses that are finished; progress tells of all."""
+"""Ctrl-C keeps the finished poses; progress reports every pose."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def test_every_pose_is_announced_once() -> None:
     assert counts == sorted(counts) and counts[-1] == (len(TARGETS), len(TARGETS))
 
 
-def test_ctrl_c_leaves_what_is_finished() -> None:
+def test_ctrl_c_keeps_finished_poses() -> None:
     kept: dict[int, np.ndarray] = {}
 
     def progress(done: int, total: int) -> None:
@@ -69,7 +69,7 @@ def test_an_error_of_the_callback_ends_the_fit() -> None:
 
 
 def test_ctrl_c_in_the_callback_loses_no_finished_pose() -> None:
-    """The pose whose call was interrupted is offered again, and so are those that were not yet."""
+    """The pose whose call was interrupted is offered again, then finished poses not yet offered."""
     offered: list[int] = []
     kept: dict[int, np.ndarray] = {}
 

@@ -1,4 +1,4 @@
-"""Faults that the fuzzers found, as the smallest file that shows each."""
+"""Faults that the fuzzers found, each with the smallest file that shows it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def cubature(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_table_of_tets_in_a_cubature(cubature: Path, tmp_path: Path) -> None:
-    """The error of the compiled core, about types, was shown over many lines."""
+    """The core's error about types went over many lines."""
     arrays, header = read_container(cubature)
     arrays["cubature_tets"] = arrays["cubature_tets"][None]
     write_container(tmp_path / "b.snapspace", arrays, header)
@@ -44,7 +44,7 @@ def test_line_ends_in_a_models_header(cubature: Path, tmp_path: Path, entry: str
 @pytest.mark.parametrize("name", ["parameters", "displacements"])
 @pytest.mark.parametrize("change", ["missing", "empty", "flat"])
 def test_samples_with_other_arrays(tmp_path: Path, name: str, change: str) -> None:
-    """KeyError, a TypeError of a memory view, or a TypeError of a length."""
+    """They raised KeyError, or TypeError from a memory view or a length."""
     found = snapshots()
     arrays = {
         "parameters": np.asarray(found.parameters),
@@ -74,14 +74,14 @@ def test_control_characters_in_a_problem(tmp_path: Path) -> None:
 
 
 def test_a_meshb_file_without_vertices(tmp_path: Path) -> None:
-    """meshio gives None in place of the table, and counting its rows was a TypeError."""
+    """meshio gives None in place of the table, and counting its rows raised TypeError."""
     (tmp_path / "a.meshb").write_bytes(struct.pack("<8i", 1, 2, 3, 20, 3, 54, 0, 0))
     with pytest.raises(ValueError, match=r"a\.meshb: .*its vertices are not a table"):
         read_tets(tmp_path / "a.meshb")
 
 
 @pytest.mark.parametrize("version", ["2.2 0 8", "4.1 0 8"])
-def test_a_huge_vertex_number_fills_no_memory(tmp_path: Path, version: str) -> None:
+def test_a_huge_vertex_number_does_not_fill_the_memory(tmp_path: Path, version: str) -> None:
     nodes, elements = "1\n2000000000 0 0 0\n", "1\n1 15 2 0 0 2000000000\n"
     if version.startswith("4"):
         nodes = "1 1 2000000000 2000000000\n0 1 0 1\n2000000000\n0 0 0\n"
@@ -94,7 +94,7 @@ def test_a_huge_vertex_number_fills_no_memory(tmp_path: Path, version: str) -> N
         read_tets(tmp_path / "a.msh")
 
 
-def test_bounded_arrays_are_numpys_below_the_bound() -> None:
+def test_below_the_bound_bounded_arrays_are_those_of_numpy() -> None:
     bounded = BoundedArrays()
     np.testing.assert_array_equal(bounded.full((2, 3), 7), np.full((2, 3), 7))
     np.testing.assert_array_equal(bounded.arange(2, 9, 3), np.arange(2, 9, 3))

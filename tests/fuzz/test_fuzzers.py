@@ -1,4 +1,4 @@
-"""The fuzzers see what they look for, and a few of their files in every run of the tests."""
+"""The fuzzers find what they look for, and every test run tries a few of their files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def corpus(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.filterwarnings("ignore")  # meshio's about text and about tags that it adds
+@pytest.mark.filterwarnings("ignore")  # meshio warns of text and of tags that it adds
 @pytest.mark.parametrize("name", PYTHON)
 def test_readers_take_or_refuse_mutated_files(name: str, corpus: Path, tmp_path: Path) -> None:
     target, random, taken = TARGETS[name], Random(7), []
@@ -48,7 +48,7 @@ def _failing(error: BaseException) -> Callable[[Path], None]:
     [KeyError("x"), MemoryError(), SystemExit(1), ValueError("two\nlines"), ValueError(""),
      ValueError("x" * 2000), UnicodeDecodeError("utf-8", b"x", 0, 1, "bad")],
 )  # fmt: skip
-def test_what_is_no_refusal_in_one_line_is_a_fault(error: BaseException) -> None:
+def test_anything_but_a_refusal_in_one_line_is_a_fault(error: BaseException) -> None:
     with pytest.raises(FaultError):
         run(Target("model", _failing(error)), Path())
     assert not run(Target("model", _failing(ValueError("bad.obj: it has no faces"))), Path())

@@ -1,4 +1,4 @@
-"""What every tet mesh must satisfy, checked the slow and plain way."""
+"""Conditions that every tet mesh must satisfy, checked slowly and plainly."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ from snapspace.generators import (
 
 from .conforming import assert_solid
 
-# Made once for all tests that only look at it; determinism has a test of its own.
+# Made once for all tests that only read it; determinism has its own test.
 made = cache(creature)
 
 
@@ -83,11 +83,11 @@ def test_handles_of_another_mesh_are_refused() -> None:
 
 def test_paint_is_symmetric_and_in_range() -> None:
     mesh = made(25_000)
-    colors = creature_paint(mesh)
-    assert colors.shape == mesh.vertices.shape
-    assert colors.min() >= 0.0 and colors.max() <= 1.0
+    colours = creature_paint(mesh)
+    assert colours.shape == mesh.vertices.shape
+    assert colours.min() >= 0.0 and colours.max() <= 1.0
     eyes = np.linalg.norm(np.abs(mesh.vertices) - [1.06, 0.3, 1.68], axis=1).argsort()[:6]
-    assert colors[eyes].mean() < 0.4 < colors.mean()
+    assert colours[eyes].mean() < 0.4 < colours.mean()
 
 
 @pytest.mark.parametrize(

@@ -31,7 +31,7 @@ def test_no_tet_is_inverted_and_poses_differ(count: int, tets: int, seed: int, b
     rest = tet_volumes(poses[0].vertices, poses[0].tets)
     for i, pose in enumerate(poses):
         assert np.array_equal(pose.tets, poses[0].tets)
-        # bending thins the inner side, and limbs keep their volume on the whole
+        # bending thins the inner side, but limbs keep their volume as a whole
         assert (tet_volumes(pose.vertices, pose.tets) > 0.2 * rest).all()
         assert pose.volume == pytest.approx(poses[0].volume, rel=0.1)
         for other in poses[:i]:
@@ -50,7 +50,7 @@ def test_is_one_solid_body_in_every_pose(tets: int) -> None:
         assert_solid(pose, euler=2)
 
 
-def test_the_straight_one_has_the_known_volume() -> None:
+def test_the_straight_lizard_has_the_known_volume() -> None:
     """A torso, and frustums with square sections."""
 
     def frustum(length: float, tip: float) -> float:
@@ -86,7 +86,7 @@ def test_the_shape_does_not_depend_on_the_resolution() -> None:
 
 
 def test_the_tail_is_bent_most() -> None:
-    """Far poses are what they are for: its tip moves by a good part of its length of 2.5."""
+    """The poses are meant to be far apart: its tip moves by a good part of its length of 2.5."""
     poses = lizard_poses(20, 1_000)
     tip = poses[0].vertices[:, 0].argmin()
     moved = [np.linalg.norm((pose.vertices - poses[0].vertices)[tip]) for pose in poses[1:]]
@@ -108,7 +108,7 @@ def test_a_rod_without_bends_is_straight() -> None:
     assert np.array_equal(frames, np.broadcast_to(np.eye(3), frames.shape))
 
 
-def test_they_are_poses() -> None:
+def test_they_are_valid_poses() -> None:
     poses = Poses.of(lizard_poses(3, 500))
     assert poses.inverted_tets.tolist() == [0, 0, 0]
 

@@ -1,4 +1,4 @@
-"""The progress of batches looks like that of one run."""
+"""Progress over batches is reported like that of a single run."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def test_samples_of_finished_batches_are_counted() -> None:
         (13, 9),
     ]
     assert all(state.total == 30 for state in seen)
-    # the errors that the batches' own runs told are of that batch alone, and not passed on
+    # errors reported within a batch concern that batch alone and are not passed on
     assert [state.held_out_error for state in seen] == [None, None, None, None, 0.25, 0.25]
 
 

@@ -1,4 +1,4 @@
-"""The first steps of the full solver tell where a reduced model is wrong."""
+"""The first steps of the full solver show where a reduced model is wrong."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def norms(model: ReducedModel, rows: FloatArray) -> FloatArray:
     return mass_norms(model.problem.mass(), rows.T)
 
 
-def test_the_estimate_vanishes_where_the_reduced_solution_is_the_full_one() -> None:
+def test_the_estimate_vanishes_where_reduced_and_full_solutions_agree() -> None:
     snapshots = solved(posing_bar(), 12)
     model = model_of(snapshots, 12)
     estimates = estimated_errors(model, snapshots.parameters, single=False)
@@ -84,12 +84,12 @@ def test_it_ranks_unseen_samples_like_their_true_errors(
     errors = norms(model, unseen.displacements.array() - starts)
     estimates = norms(model, estimated_errors(model, unseen.parameters))
     assert spearmanr(estimates, errors).statistic > least
-    # a lower bound, nearly: the solver has not gone all the way, and seldom beyond
+    # nearly a lower bound: the solver has not converged, and rarely overshoots
     assert np.quantile(estimates / errors, 0.9) < 1.1
     assert np.median(estimates / errors) > 0.3
 
 
-def test_it_has_the_same_bits_for_any_number_of_threads_and_company() -> None:
+def test_it_has_the_same_bits_for_any_number_of_threads_and_any_order() -> None:
     model = model_of(solved(posing_bar(), 10), 6)
     unseen = sample(model.problem.domain, 24, seed=2)
     one = estimated_errors(model, unseen, threads=1)

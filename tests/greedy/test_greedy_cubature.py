@@ -1,4 +1,4 @@
-"""Greedy samples of a material whose reduced energy is a cubature."""
+"""Greedy samples for a material whose reduced energy is a cubature."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def test_batches_are_chosen_where_a_model_with_few_tets_is_worst() -> None:
     assert_same_bits(chosen, greedy_snapshots(problem(), 24, batch=12, dimension=6, seed=3))
 
 
-def test_the_sequence_goes_as_it_is_until_there_are_ten_samples() -> None:
-    """As many as a cubature is trained on."""
+def test_the_sequence_is_used_unchanged_until_there_are_ten_samples() -> None:
+    """A cubature needs ten samples for its training."""
     chosen = greedy_snapshots(problem(), 16, batch=4, dimension=6, seed=3)
     sequence = sample(problem().domain, 4 + 3 * 12, method="sobol", seed=3)
     numbers = [int(np.flatnonzero((sequence == w).all(axis=1))[0]) for w in chosen.parameters]

@@ -1,4 +1,4 @@
-"""Greedy samples: where the model is worst, the same however they are solved, until the target."""
+"""Greedy samples: chosen where the model is worst, reproducible, until the target is met."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Make = Callable[[], PosingProblem | InterpolationProblem]
 
 
 @PROBLEMS
-def test_it_takes_points_of_the_sequence_and_none_twice(make: Make) -> None:
+def test_it_takes_points_of_the_sequence_at_most_once(make: Make) -> None:
     problem = make()
     snapshots = greedy_snapshots(problem, 20, seed=3, **SMALL)
     assert len(snapshots) == 20
@@ -49,7 +49,7 @@ def test_it_takes_points_of_the_sequence_and_none_twice(make: Make) -> None:
     assert np.all((numbers[8:16] >= 8) & (numbers[8:16] < 32)) and np.all(numbers[16:] >= 32)
 
 
-def test_what_it_takes_is_farther_from_the_subspace_than_what_it_leaves() -> None:
+def test_chosen_points_are_farther_from_the_subspace_than_the_others() -> None:
     problem = posing_bar(bound=0.5)
     chosen = greedy_snapshots(problem, 16, **SMALL)
     points = sample(problem.domain, 32, method="sobol")[8:]
@@ -58,7 +58,7 @@ def test_what_it_takes_is_farther_from_the_subspace_than_what_it_leaves() -> Non
     gram = chosen.gram
     assert gram is not None
     gram.add(list(solve_snapshots(problem, left).displacements))
-    # absolute errors: these are what the basis minimises
+    # absolute errors: the basis minimises these
     missed = gram.held_out_error(range(8), range(8, 32), 4) * np.sqrt(np.diag(gram.matrix)[8:])
     # measured: 1.23 times; 1.06 to 1.41 for five seeds
     assert np.mean(missed[:8]) > 1.1 * np.mean(missed[8:])
@@ -78,7 +78,7 @@ def test_the_result_has_the_same_bits_on_any_threads_and_executor(make: Make) ->
     np.testing.assert_array_equal(with_gram.basis, without.basis)
 
 
-def test_a_longer_run_begins_with_the_batches_of_a_shorter_one() -> None:
+def test_a_longer_run_starts_with_the_batches_of_a_shorter_one() -> None:
     short, long = (greedy_snapshots(posing_bar(), count, **SMALL) for count in (16, 24))
     np.testing.assert_array_equal(long.parameters[:16], short.parameters)
     np.testing.assert_array_equal(long.shapes[:, :16], short.shapes)
@@ -96,7 +96,7 @@ def interrupting(at: int) -> Callable[[SolveProgress], None]:
     ("make", "at"),
     [*((posing_bar, at) for at in (1, 8, 12, 16)), (interpolation_problem, 12)],
 )
-def test_an_interrupted_run_goes_on_to_the_same_result(make: Make, at: int, tmp_path: Path) -> None:
+def test_an_interrupted_run_resumes_to_the_same_result(make: Make, at: int, tmp_path: Path) -> None:
     at_once = greedy_snapshots(make(), 20, **SMALL)
     checkpoint = Checkpoint(tmp_path / "run")
     with pytest.raises(Interrupted, match=r"^\d+ of 20 samples are in finished batches"):
@@ -123,7 +123,7 @@ def test_ctrl_c_while_samples_are_chosen_loses_nothing(
     assert finished_samples(checkpoint) == 8
 
 
-def test_a_batch_that_was_chosen_differently_does_not_take_anothers_samples(
+def test_a_batch_does_not_use_the_samples_of_a_different_choice(
     tmp_path: Path,
 ) -> None:
     checkpoint = Checkpoint(tmp_path / "run")
@@ -155,14 +155,14 @@ def test_it_ends_at_the_target(candidates: int) -> None:
     np.testing.assert_array_equal(ended.shapes, every.shapes[:, : len(ended)])
 
 
-def test_one_candidate_each_is_the_sequence_itself() -> None:
+def test_one_candidate_per_sample_gives_the_sequence_itself() -> None:
     problem = posing_bar()
     snapshots = greedy_snapshots(problem, 20, candidates=1, seed=5, **SMALL)
     wanted = sample(problem.domain, 20, method="sobol", seed=5)
     np.testing.assert_array_equal(snapshots.parameters, wanted)
 
 
-def test_known_snapshots_choose_the_first_batch_and_are_not_returned() -> None:
+def test_known_snapshots_decide_the_first_batch_and_are_not_returned() -> None:
     problem = posing_bar(bound=0.5)
     known = solve_snapshots(problem, sample(problem.domain, 12, seed=7))
     snapshots = greedy_snapshots(problem, 12, known=known, **SMALL)
@@ -204,6 +204,6 @@ def test_known_snapshots_of_another_problem_are_refused() -> None:
         greedy_snapshots(posing_bar(stiffness=5.0), 2, known=known)
 
 
-def test_a_first_batch_without_a_solution_is_told() -> None:
+def test_a_first_batch_without_a_solution_is_an_error() -> None:
     with pytest.raises(ValueError, match="none of the 8 snapshots converged"):
         greedy_snapshots(posing_bar(), 16, options=SolverOptions(max_iterations=1), **SMALL)

@@ -1,4 +1,4 @@
-"""Moduli of materials: numbers or one per tet, checked, compared, sent."""
+"""Moduli of materials: numbers or one per tet; checks, comparison, pickling."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ def test_the_default_moduli_are_those_of_the_paper(kind: type[Material]) -> None
     assert kind().moduli.shape == (1, len(kind.names()))
 
 
-def test_every_material_is_made_of_lames_parameters(kind: type[Material]) -> None:
-    """Those without a volume term ignore the first, and say that it is zero."""
+def test_every_material_can_be_made_from_lames_parameters(kind: type[Material]) -> None:
+    """Materials without a volume term ignore lam and report it as zero."""
     material = kind.from_lame(lam=3.0, mu=0.5)
     assert material.mu == 0.5
     assert material.lam == (3.0 if "lam" in kind.names() else 0.0)
@@ -126,7 +126,7 @@ def test_the_key_depends_on_every_modulus_of_every_tet(kind: type[Material]) -> 
     assert len(keys) == len(given)
 
 
-def test_materials_travel_without_what_is_compiled(kind: type[Material]) -> None:
+def test_materials_are_pickled_without_their_compiled_part(kind: type[Material]) -> None:
     for material in (kind(), kind.from_lame(lam=1.0, mu=MU)):
         _ = material.core
         again = pickle.loads(pickle.dumps(material))
@@ -137,7 +137,7 @@ def test_materials_travel_without_what_is_compiled(kind: type[Material]) -> None
 
 
 @pytest.mark.parametrize("wrong", [-1.0, math.nan, math.inf])
-def test_moduli_must_not_be_negative_and_finite(kind: type[Material], wrong: float) -> None:
+def test_moduli_must_be_finite_and_not_negative(kind: type[Material], wrong: float) -> None:
     for name in kind.names():
         with pytest.raises(ValueError, match=rf"{kind.__name__}: {name} is .*must be"):
             kind(**{name: wrong})
@@ -168,7 +168,7 @@ def test_lam_must_not_be_negative(lam: float) -> None:
         ([[1.0], [1.0, 2.0]], "mu must be a number, or one per tet"),
     ],
 )
-def test_what_is_no_number_is_refused(wrong: Any, message: str) -> None:
+def test_values_that_are_not_numbers_are_refused(wrong: Any, message: str) -> None:
     with pytest.raises(ValueError, match=f"ARAP: {message}"):
         ARAP(mu=wrong)
 

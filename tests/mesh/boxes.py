@@ -1,4 +1,4 @@
-"""Meshes for the tests of this room: boxes of unit cubes, six tets each."""
+"""Meshes for these tests: boxes of cells of six tets each."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Arrays = tuple[NDArray[np.float64], NDArray[np.int32]]
 def box_arrays(
     cells: tuple[int, int, int] = (2, 2, 2), size: tuple[float, float, float] = (1.0, 1.0, 1.0)
 ) -> Arrays:
-    """Kuhn's subdivision: a tet for each order in which a path walks along x, y, z."""
+    """Vertices and tets of Kuhn's subdivision: one tet for each order of the axes in each cell."""
     counts = np.array(cells) + 1
     index = np.arange(counts.prod()).reshape(counts)
     vertices = np.stack(np.unravel_index(index.ravel(), counts), axis=1) * np.divide(size, cells)
@@ -37,7 +37,7 @@ def box_mesh(
 
 
 def irregular_mesh() -> TetMesh:
-    """A box whose vertices have coordinates with all their digits."""
+    """A box whose coordinates use all digits of a double."""
     vertices, tets = box_arrays((3, 2, 2), (1.0, 0.7, 0.9))
     noise = np.random.default_rng(5).uniform(-0.02, 0.02, vertices.shape)
     return TetMesh(vertices + noise, tets)

@@ -1,3 +1,5 @@
+"""Checks that a surface is closed, and the volume that it encloses."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -40,7 +42,7 @@ def test_refuses_open_surfaces(faces: ArrayLike, message: str) -> None:
         check_closed(np.array(faces, dtype=np.int32), who="test")
 
 
-def test_volume_has_the_sign_of_the_orientation_and_no_origin() -> None:
+def test_volume_has_the_sign_of_the_orientation_and_ignores_the_origin() -> None:
     mesh = box_mesh((2, 3, 1), (1.0, 2.0, 0.5))
     for shift in (0.0, 100.0):
         vertices = mesh.vertices + shift

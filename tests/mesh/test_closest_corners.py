@@ -1,3 +1,5 @@
+"""closest_corners: a vertex of the closest triangle for each point."""
+
 from __future__ import annotations
 
 import numpy as np

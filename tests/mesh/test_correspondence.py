@@ -1,3 +1,5 @@
+"""Poses correspond if they have the same faces or tets in the same order."""
+
 from __future__ import annotations
 
 import re
@@ -48,7 +50,7 @@ TURNED = np.roll(BOX.surface[5], 1).tolist()
             f"face 0 has vertices {', '.join(map(str, BOX.surface[-1].tolist()))}, but in "
             f"stand.obj {', '.join(map(str, BOX.surface[0].tolist()))}; 48 of 48 faces differ",
         ),
-        # one that begins at another corner hints at another order of the file
+        # a face that starts at another corner suggests that the file was reordered
         (
             (BOX.vertices, changed(5, TURNED)),
             f"face 5 has vertices {', '.join(map(str, TURNED))}, but in stand.obj {FIRST}; 1 of 48",

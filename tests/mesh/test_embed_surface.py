@@ -1,3 +1,5 @@
+"""embed_surface: surface vertices as weighted corners of tets."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -19,7 +21,7 @@ def affine(seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def near(mesh: TetMesh, count: int, *, seed: int = 0, outside: float = 0.015) -> np.ndarray:
-    """Random points of the bounding box, made larger by a share of the diagonal."""
+    """Random points of the bounding box, enlarged by a share `outside` of the diagonal."""
     margin = outside * mesh.diagonal / np.sqrt(3)
     low, high = mesh.vertices.min(axis=0) - margin, mesh.vertices.max(axis=0) + margin
     return np.random.default_rng(seed).uniform(low, high, (count, 3))
@@ -48,7 +50,7 @@ def test_points_inside_have_the_weights_of_their_tet() -> None:
     assert surface.weights == pytest.approx(weights, abs=1e-10)
 
 
-def test_vertices_follow_single_tet_vertices() -> None:
+def test_surface_vertices_at_tet_vertices_follow_them() -> None:
     mesh = irregular_mesh()
     order = np.random.default_rng(2).permutation(len(mesh.vertices))
     jitter = np.random.default_rng(3).uniform(-4e-10, 4e-10, mesh.vertices.shape)
@@ -66,7 +68,7 @@ def test_midpoints_of_edges_follow_their_ends() -> None:
     assert surface.vertices(x) == pytest.approx(x[ends].mean(axis=1), abs=1e-10)
 
 
-def test_the_kept_surface_is_embedded_exactly_with_its_own_faces() -> None:
+def test_a_surface_kept_by_the_mesher_is_embedded_exactly_with_its_own_faces() -> None:
     """Tetrahedralisers that keep the surface put its vertices first."""
     mesh = irregular_mesh()
     count = len(mesh.vertices) // 2
@@ -85,7 +87,7 @@ def test_the_embedded_boundary_is_the_boundary() -> None:
     assert np.array_equal(surface.vertices(x), own.vertices(x))
 
 
-def test_outside_of_a_sliver_the_weights_stay_small() -> None:
+def test_outside_a_sliver_the_weights_stay_small() -> None:
     """The tet behind the closest face is flat; its neighbour is not."""
     vertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.3, 0.3, 1e-4], [0.3, 0.3, -1]]
     mesh = TetMesh(vertices, [[0, 1, 2, 3], [0, 2, 1, 4]])
@@ -95,7 +97,7 @@ def test_outside_of_a_sliver_the_weights_stay_small() -> None:
     assert surface.vertices(mesh.vertices) == pytest.approx(point)
 
 
-def test_another_limb_is_not_taken_although_it_would_extrapolate_less() -> None:
+def test_a_point_follows_its_own_limb_even_if_another_would_extrapolate_less() -> None:
     """Two prongs with a gap: points in the gap follow the prong that is closer."""
     box = box_mesh((5, 1, 5), (5.0, 1.0, 5.0))
     middle = box.vertices[box.tets].mean(axis=1)
@@ -118,7 +120,7 @@ def test_units_and_frames_do_not_matter() -> None:
     assert moved.weights == pytest.approx(surface.weights, abs=1e-9)
 
 
-def test_what_is_far_outside_is_carried_along_where_that_is_allowed() -> None:
+def test_points_far_outside_follow_the_tets_where_that_is_allowed() -> None:
     mesh = box_mesh((3, 2, 2), (1.0, 0.7, 0.9))
     points = near(mesh, 80, seed=8, outside=0.5)
     with pytest.raises(ValueError, match="outside the tets"):
@@ -127,7 +129,7 @@ def test_what_is_far_outside_is_carried_along_where_that_is_allowed() -> None:
     matrix, shift = affine(8)
     moved = surface.vertices(mesh.vertices @ matrix.T + shift)
     assert moved == pytest.approx(points @ matrix.T + shift, abs=1e-11)
-    # within two edges of a tet its coordinates are of the order of two
+    # within two edges of a tet, barycentric coordinates are of order two
     assert np.abs(surface.weights).max() < 4.0
 
 

@@ -1,3 +1,5 @@
+"""EmbeddedSurface: vertices as weighted corners of a mesh."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -50,7 +52,7 @@ def test_matrix_adds_a_corner_that_is_named_twice() -> None:
 
 
 @pytest.mark.parametrize("place", range(4))
-def test_exact_is_about_single_weights_wherever_they_are(place: int) -> None:
+def test_exact_means_single_weights_in_any_place(place: int) -> None:
     weights = np.roll([[1.0, 0.0, 0.0, 0.0]], place, axis=1)
     surface = EmbeddedSurface([[0, 0, 0]], [[3, 1, 2, 0]], weights)
     x = np.random.default_rng(3).normal(size=(4, 3))
@@ -69,7 +71,7 @@ def test_the_boundary_follows_every_deformation_exactly() -> None:
     assert np.array_equal(surface.vertices(x)[surface.faces], x[mesh.surface])
 
 
-def test_the_boundary_does_not_feel_the_inside() -> None:
+def test_the_boundary_does_not_depend_on_inner_vertices() -> None:
     mesh = box_mesh((3, 3, 3))
     inside = np.setdiff1d(np.arange(len(mesh.vertices)), mesh.surface_vertices)
     x = mesh.vertices.copy()
@@ -113,7 +115,7 @@ def test_the_result_is_fresh_and_the_surface_is_frozen() -> None:
         (FACE, CORNERS, [[np.inf, -1, 0, 0], *WEIGHTS[1:]], "weights of vertex 0 sum to inf"),
     ],
 )
-def test_refuses_what_is_no_embedding(
+def test_refuses_arrays_that_are_not_an_embedding(
     faces: ArrayLike, corners: ArrayLike, weights: ArrayLike, message: str
 ) -> None:
     with pytest.raises(ValueError, match=f"EmbeddedSurface: .*{message}") as caught:
@@ -137,7 +139,7 @@ def test_refuses_shapes_of_another_mesh(shape: np.ndarray, message: str) -> None
         surface.matrix(4)
 
 
-def test_each_vertex_follows_the_corner_of_its_largest_weight_most() -> None:
+def test_the_nearest_corner_is_that_of_the_largest_weight() -> None:
     assert EmbeddedSurface(FACE, CORNERS, WEIGHTS).nearest.tolist() == [0, 4, 2]
     mesh = irregular_mesh()
     assert np.array_equal(boundary_surface(mesh).nearest, mesh.surface_vertices)

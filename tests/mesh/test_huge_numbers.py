@@ -1,4 +1,4 @@
-"""Numbers that no vertex index or coordinate can be are refused by every reader, in one line."""
+"""Every reader refuses impossible indices and coordinates, in one line."""
 
 from __future__ import annotations
 
@@ -57,19 +57,19 @@ CASES = {
 
 @pytest.mark.parametrize(("name", "text", "message"), CASES.values(), ids=CASES)
 @pytest.mark.filterwarnings("error")
-def test_it_is_one_line_that_names_the_number(
+def test_the_error_is_one_line_that_names_the_number(
     tmp_path: Path, name: str, text: str, message: str
 ) -> None:
     (tmp_path / name).write_text(text)
     read = read_surface if name.endswith(("obj", "off", "ply")) else read_tets
     with pytest.raises(ValueError) as caught:
         read(tmp_path / name)
-    told = str(caught.value)
-    assert told.startswith(str(tmp_path / name)) and "\n" not in told
-    assert message in told
+    error = str(caught.value)
+    assert error.startswith(str(tmp_path / name)) and "\n" not in error
+    assert message in error
 
 
-def test_without_that_number_the_files_are_read(tmp_path: Path) -> None:
+def test_with_a_valid_number_the_files_are_read(tmp_path: Path) -> None:
     for name, text in (("a.obj", OBJ.format(3)), ("a.off", OFF.format(2)), ("a.ply", ply())):
         (tmp_path / name).write_text(text)
         assert read_surface(tmp_path / name)[1].tolist() == [[0, 1, 2]]

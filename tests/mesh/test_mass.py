@@ -1,3 +1,5 @@
+"""Mass matrices and the inner products that they define."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -61,7 +63,7 @@ def test_agrees_with_the_kronecker_product() -> None:
     assert mass_norm(mass, a[:, 1]) == pytest.approx(mass_norms(mass, a)[1])
 
 
-def test_names_what_is_wrong_with_shapes() -> None:
+def test_wrong_shapes_are_named() -> None:
     mass = mass_matrix(box_mesh())
     with pytest.raises(ValueError, match=r"apply_mass: shapes must be \(81,\) or \(81, k\)"):
         apply_mass(mass, np.zeros(27))

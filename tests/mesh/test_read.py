@@ -1,3 +1,5 @@
+"""read_tets: files of other programs, repairs, and refusals."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -12,7 +14,7 @@ from .boxes import box_arrays, irregular_mesh
 
 pytestmark = pytest.mark.filterwarnings("error")
 
-# name of the file, meshio's name of the format, its options
+# file name, meshio's name of the format, options
 MESHIO_FILES = [
     ("ascii.mesh", "medit", {}),
     ("binary.meshb", "medit", {}),
@@ -53,7 +55,7 @@ def write_with_meshio(path: Path, mesh: TetMesh, file_format: str, **options: ob
 
 
 @pytest.mark.parametrize(("name", "file_format", "options"), MESHIO_FILES)
-def test_reads_what_other_programs_write(
+def test_reads_files_of_other_programs(
     tmp_path: Path, name: str, file_format: str, options: dict[str, object]
 ) -> None:
     mesh = irregular_mesh()
@@ -62,7 +64,7 @@ def test_reads_what_other_programs_write(
 
 
 def test_reads_ascii_vtu(tmp_path: Path) -> None:
-    """In a test of its own, since meshio writes 12 digits there."""
+    """A separate test, since meshio writes 12 digits there."""
     mesh = irregular_mesh()
     write_with_meshio(tmp_path / "a.vtu", mesh, "vtu", binary=False)
     read = read_tets(tmp_path / "a.vtu")
@@ -112,7 +114,7 @@ def test_tets_inverted_throughout_are_flipped_with_a_notice(tmp_path: Path) -> N
     assert flipped.volumes == pytest.approx(mesh.volumes)
 
 
-def test_repair_mends_and_notes(tmp_path: Path) -> None:
+def test_repair_mends_the_mesh_and_lists_the_repairs(tmp_path: Path) -> None:
     vertices, tets = box_arrays()
     tets[3] = tets[3][[1, 0, 2, 3]]
     content = meshio.Mesh(np.concatenate([vertices, [[2, 2, 2]]]), [("tetra", tets)])
@@ -157,7 +159,7 @@ def test_refuses_quadratic_tets_with_the_cure(tmp_path: Path) -> None:
 
 
 def test_refuses_other_solid_cells_besides_tets(tmp_path: Path) -> None:
-    """Leaving them out would leave out a part of the solid."""
+    """Leaving them out would leave out part of the solid."""
     vertices, tets = box_arrays()
     cells = [("tetra", tets), ("hexahedron", [[0, 1, 4, 3, 9, 10, 13, 12]])]
     meshio.write(tmp_path / "a.vtu", meshio.Mesh(vertices, cells))
@@ -189,7 +191,7 @@ NAMES = [*(name for name, _, _ in MESHIO_FILES), "a.veg"]
 
 @pytest.mark.parametrize("junk", [b"", b"\n\n", b"hello world\n", bytes(range(256)) * 20])
 @pytest.mark.parametrize("name", NAMES)
-def test_junk_is_one_clear_line(
+def test_junk_gives_one_clear_line(
     tmp_path: Path, name: str, junk: bytes, capfd: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / name
@@ -202,7 +204,7 @@ def test_junk_is_one_clear_line(
 
 @pytest.mark.parametrize("fraction", [0.05, 0.3, 0.5, 0.8])
 @pytest.mark.parametrize("name", NAMES)
-def test_truncated_files_are_one_clear_line(tmp_path: Path, name: str, fraction: float) -> None:
+def test_truncated_files_give_one_clear_line(tmp_path: Path, name: str, fraction: float) -> None:
     file = tmp_path / name
     if file.suffix == ".veg":
         write_veg(file, irregular_mesh())

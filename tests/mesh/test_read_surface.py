@@ -1,3 +1,5 @@
+"""read_surface: OBJ, OFF, PLY and STL files, and their faults."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -99,7 +101,7 @@ def test_ply_of_every_encoding(tmp_path: Path, encoding: str, name: str) -> None
     assert faces.tolist() == [[0, 1, 2], [0, 2, 3], [0, 1, 4]]
 
 
-def test_ply_with_equal_faces_takes_the_fast_way_to_the_same_result(tmp_path: Path) -> None:
+def test_ply_with_equal_faces_is_read_quickly_to_the_same_result(tmp_path: Path) -> None:
     header = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
     header += "property float z\nelement face {}\nproperty list uchar int vertex_indices\n"
     header += "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
@@ -165,7 +167,7 @@ def test_planted_faults(tmp_path: Path, name: str, text: str, message: str) -> N
 
 @pytest.mark.parametrize("name", ["a.obj", "a.off", "a.ply", "a.stl"])
 @pytest.mark.parametrize("junk", [b"", b"hello world\n", bytes(range(256)) * 20])
-def test_junk_is_one_clear_line(tmp_path: Path, name: str, junk: bytes) -> None:
+def test_junk_gives_one_clear_line(tmp_path: Path, name: str, junk: bytes) -> None:
     (tmp_path / name).write_bytes(junk)
     with pytest.raises(ValueError, match=r"^[^\n]*" + name + r": [^\n]*$"):
         read_surface(tmp_path / name)

@@ -1,4 +1,4 @@
-"""The formats read by our own code: what they may look like, and a planted fault for each check."""
+"""Formats with our own readers: what they accept, and a planted fault for each check."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from snapspace.mesh import read_tets
 
 
 def test_medit_version_1_keeps_all_digits(tmp_path: Path) -> None:
-    """Rounded to single precision, as the header allows, this sliver would be inverted."""
+    """In single precision, which the header allows, this sliver would be flat or inverted."""
     text = """MeshVersionFormatted 1 Dimension
     3  # a comment
     Vertices 4

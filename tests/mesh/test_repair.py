@@ -1,3 +1,5 @@
+"""repair_tets: each fault is mended and listed, or refused."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -11,14 +13,14 @@ from snapspace.mesh import TetMesh, repair_tets
 from .boxes import box_arrays
 
 
-def test_a_valid_mesh_comes_back_as_it_was() -> None:
+def test_a_valid_mesh_comes_back_unchanged() -> None:
     vertices, tets = box_arrays()
     mesh, notes = repair_tets(vertices, tets)
     assert mesh.fingerprint == TetMesh(vertices, tets).fingerprint
     assert notes == []
 
 
-def test_every_fault_is_mended_and_noted() -> None:
+def test_every_fault_is_mended_and_listed() -> None:
     vertices, tets = box_arrays()
     island = np.array([[9, 9, 9], [10, 9, 9], [9, 10, 9], [9, 9, 10]])
     planted = tets.copy()

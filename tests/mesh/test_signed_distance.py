@@ -1,3 +1,5 @@
+"""SignedDistance: compared with the formula for a box and with searches among tets."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -9,8 +11,8 @@ from snapspace.mesh.signed_distance import SignedDistance
 from snapspace.mesh.tet_search import closest_boundary_faces, containing_tets
 
 
-def test_of_a_box_it_is_known() -> None:
-    """Beyond faces, edges and corners, where the closest points are of all three kinds."""
+def test_it_is_that_of_a_box() -> None:
+    """Beyond faces, edges and corners, so that closest points are of all three kinds."""
     mesh = bar(4, 2, 2, length=2.0, width=1.0, height=1.0)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
     points = np.random.default_rng(0).uniform(low - 1.0, high + 1.0, (3000, 3))

@@ -1,3 +1,5 @@
+"""Boundary faces, normals and dihedral angles of tet meshes."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -7,7 +9,7 @@ from snapspace.mesh import TetMesh, boundary_faces, compact_surface, vertex_norm
 
 from .boxes import box_mesh
 
-# Too many vertices for the three indices of a face to be one number of 64 bits.
+# Too many vertices to pack the three indices of a face into 64 bits.
 MANY = 3_000_000
 
 
@@ -88,7 +90,7 @@ def test_tiny_dihedral_angles_keep_their_digits() -> None:
 
 
 def test_faces_do_not_depend_on_how_many_vertices_there_are() -> None:
-    """Of the same tets among the last of so many vertices that faces are sorted in another way."""
+    """Tets with the last indices of so many vertices that faces are sorted differently."""
     tets = box_mesh((5, 4, 3)).tets
     far = (MANY - 1 - tets.max() + tets).astype(np.int32)
     assert np.array_equal(boundary_faces(far), boundary_faces(tets) + far.min() - tets.min())

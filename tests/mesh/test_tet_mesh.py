@@ -1,3 +1,5 @@
+"""TetMesh: measures, immutability, and refusals of invalid meshes."""
+
 from __future__ import annotations
 
 import pickle
@@ -39,7 +41,7 @@ def test_a_box_has_its_volume_and_its_diagonal() -> None:
 
 
 def test_vertex_masses_weigh_the_centroid() -> None:
-    """A quarter of a tet per corner is exact for the integral of a linear function."""
+    """A quarter of each tet's volume per corner integrates linear functions exactly."""
     mesh = box_mesh((3, 4, 2), (2.0, 3.0, 0.5))
     centroid = mesh.vertex_masses @ mesh.vertices / mesh.volume
     assert centroid == pytest.approx([1.0, 1.5, 0.25])
@@ -75,7 +77,7 @@ def test_pickling_gives_the_same_read_only_mesh() -> None:
     assert not copy.vertices.flags.writeable
 
 
-def test_fingerprint_changes_with_every_array_and_only_then() -> None:
+def test_fingerprint_changes_with_every_array_and_nothing_else() -> None:
     vertices, tets = box_arrays()
     mesh = TetMesh(vertices, tets)
     assert TetMesh(vertices.copy(order="F"), tets.astype(np.int64)).fingerprint == mesh.fingerprint
@@ -101,7 +103,7 @@ def test_volume_scales_and_ignores_rigid_motions(seed: int, scale: float, offset
     assert moved.volume == pytest.approx(10 ** (3 * scale), rel=1e-9)
 
 
-def test_slivers_as_tetgen_makes_them_pass() -> None:
+def test_slivers_such_as_those_of_tetgen_are_accepted() -> None:
     sliver = [[0, 0, 0], [1, 0, 0], [0.5, 1, 0], [0.5, 0.3, 1e-7]]
     assert TetMesh(sliver, ONE).volume == pytest.approx(1e-7 / 6)
 
@@ -145,7 +147,7 @@ def test_refuses_a_tet_that_repeats_a_vertex() -> None:
     refuse(vertices, tets, r"tet 5 repeats a vertex .*1 such tet of 48: drop with .*repair_tets")
 
 
-def test_refuses_a_tet_that_is_there_twice() -> None:
+def test_refuses_a_tet_that_occurs_twice() -> None:
     vertices, tets = box_arrays()
     twice = np.concatenate([tets, tets[[4, 2]][:, [1, 2, 0, 3]]])
     refuse(vertices, twice, r"tet 48 has the same four vertices .*2 such tets of 50: drop with")
@@ -179,7 +181,7 @@ def test_refuses_unused_vertices() -> None:
     refuse(extra, tets, "vertex 27 belongs to no tet; 2 such vertices of 29: drop with .*repair")
 
 
-def test_refuses_several_components_and_says_their_sizes() -> None:
+def test_refuses_several_components_and_gives_their_sizes() -> None:
     vertices, tets = box_arrays()
     both = np.concatenate([CORNER - 9, vertices])
     refuse(both, np.concatenate([ONE, tets + 4]), r"has 2 components \(48, 1 tets\), one is needed")

@@ -1,3 +1,5 @@
+"""Searches among tets and faces, compared with trying all of them."""
+
 from __future__ import annotations
 
 import numpy as np
@@ -21,7 +23,7 @@ SEEDS = st.integers(0, 2**32 - 1)
 
 
 def random_mesh(rng: np.random.Generator) -> TetMesh:
-    """Part of a Delaunay mesh: not convex, of tets of all shapes."""
+    """A part of a Delaunay mesh: not convex, with tets of all shapes."""
     points = rng.normal(size=(30, 3))
     tets = Delaunay(points).simplices
     mesh, _ = repair_tets(points, tets[rng.random(len(tets)) < 0.8])
@@ -44,7 +46,7 @@ def test_the_tree_finds_what_trying_every_box_finds(seed: int, boxes: int) -> No
 
 
 def closest_by_optimisation(point: np.ndarray, triangle: np.ndarray) -> float:
-    """Distance by non-negative least squares, the weights tied to one by a heavy equation."""
+    """Distance by non-negative least squares; a heavy equation makes the weights sum to one."""
     heavy = 1e6
     system = np.vstack([(triangle - point).T, np.full(3, heavy)])
     weights, _ = nnls(system, np.array([0.0, 0.0, 0.0, heavy]))

@@ -1,3 +1,5 @@
+"""write_tets and write_surface: files come back exactly; failures leave old files alone."""
+
 from __future__ import annotations
 
 from pathlib import Path
@@ -40,7 +42,7 @@ def test_a_deformed_shape_is_written_in_place_of_the_rest_shape(tmp_path: Path, 
 
 
 @pytest.mark.parametrize("name", ["a.msh", "a.vtu", "a.vtk"])
-def test_point_data_come_along(tmp_path: Path, name: str) -> None:
+def test_point_data_are_written(tmp_path: Path, name: str) -> None:
     mesh = irregular_mesh()
     data = {"displacement": mesh.vertices * 0.1, "mass": mesh.vertex_masses}
     write_tets(tmp_path / name, mesh, point_data=data)
@@ -133,7 +135,7 @@ def test_refused_input_leaves_the_file_untouched(
     assert [file.read_text() for file in tmp_path.iterdir()] == ["precious"]
 
 
-def test_formats_say_what_they_cannot_hold(tmp_path: Path) -> None:
+def test_formats_name_the_data_that_they_cannot_hold(tmp_path: Path) -> None:
     mesh = box_mesh()
     with pytest.raises(ValueError, match=r"MEDIT files hold no such data; write \.vtu"):
         write_tets(tmp_path / "a.mesh", mesh, point_data={"u": mesh.vertices})
@@ -159,7 +161,7 @@ def test_refuses_wrong_surfaces(tmp_path: Path, vertices: Any, faces: Any, messa
 
 
 @pytest.mark.parametrize("error", [OSError(28, "No space left on device"), KeyboardInterrupt()])
-def test_a_failure_half_way_leaves_nothing_over(
+def test_a_failure_half_way_leaves_nothing_behind(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: BaseException
 ) -> None:
     def half(path: Path, *_: object) -> None:

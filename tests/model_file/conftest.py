@@ -1,4 +1,4 @@
-"""A small model and the file of it."""
+"""A small model and its file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..snapshots.bars import parameters, posing_bar
 
 @pytest.fixture(scope="session")
 def model() -> ReducedModel:
-    """Five dimensions of a bar, with figures in its provenance that are easy to get wrong."""
+    """A bar in five dimensions; its provenance has values that are easy to get wrong."""
     problem = posing_bar(stiffness=1234.5678901234567)
     snapshots = solve_snapshots(problem, parameters(problem, 8), threads=1)
     provenance = {"seed": 0, "seconds": 0.1 + 0.2, "mesh": "Schildkröte.mesh", "none": None}

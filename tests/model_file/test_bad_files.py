@@ -1,4 +1,4 @@
-"""Files that are no whole, unaltered model of this version: one line, the file and the cure."""
+"""Incomplete, altered or foreign model files: one line names the file and the cure."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def refused(path: Path) -> str:
 
 
 def rewrite(path: Path, change: Change, *, sign: bool = True) -> None:
-    """Changes arrays and header of a model file; signed, only the content can give it away."""
+    """Changes arrays and header of a model file; with `sign` the checksum is that of the change."""
     arrays: dict[str, Any] = load_file(path)
     with safe_open(path, framework="np") as file:
         header = dict(file.metadata())
@@ -42,7 +42,7 @@ def rewrite(path: Path, change: Change, *, sign: bool = True) -> None:
 
 
 def test_a_rewritten_file_is_fine_if_nothing_changed(saved: Path) -> None:
-    """What the other tests refuse is refused for its change."""
+    """So the files of the other tests are refused for their changes only."""
     rewrite(saved, lambda arrays, header: None)
     assert load(saved).dimension == 5
 
@@ -57,13 +57,13 @@ def test_every_truncation_is_noticed(saved: Path) -> None:
         assert "not a complete snapspace model" in refused(saved)
 
 
-def test_bytes_too_many_are_noticed(saved: Path) -> None:
+def test_extra_bytes_are_noticed(saved: Path) -> None:
     saved.write_bytes(saved.read_bytes() + b"\0" * 8)
     refused(saved)
 
 
 def test_a_flipped_bit_is_noticed_wherever_it_is(saved: Path) -> None:
-    """All of the header, and the payload in steps that visit every array."""
+    """Every byte of the header, and the payload in steps that visit every array."""
     content = saved.read_bytes()
     header = 8 + int.from_bytes(content[:8], "little")
     arrays = [array.nbytes for array in load_file(saved).values()]
@@ -85,7 +85,7 @@ def test_a_wrong_header_length_is_noticed(saved: Path, offset: int) -> None:
     refused(saved)
 
 
-def test_an_altered_number_is_told_from_a_broken_file(saved: Path) -> None:
+def test_an_altered_number_is_distinguished_from_a_broken_file(saved: Path) -> None:
     content = bytearray(saved.read_bytes())
     content[-3] ^= 1
     saved.write_bytes(content)
@@ -170,7 +170,7 @@ def deep(arrays: dict[str, Any], header: dict[str, str]) -> None:
 
 
 def a_huge_integer(arrays: dict[str, Any], header: dict[str, str]) -> None:
-    """No float holds it."""
+    """An integer too large for a float."""
     content = {**json.loads(header["problem"]), "stiffness": 10**400}
     header["problem"] = json.dumps(content)
 
@@ -191,7 +191,7 @@ def bounds_as_text(arrays: dict[str, Any], header: dict[str, str]) -> None:
     header["problem"] = json.dumps({**json.loads(header["problem"]), "domain": "wide"})
 
 
-def a_stiffness_that_is_no_number(arrays: dict[str, Any], header: dict[str, str]) -> None:
+def a_stiffness_that_is_nan(arrays: dict[str, Any], header: dict[str, str]) -> None:
     header["problem"] = json.dumps({**json.loads(header["problem"]), "stiffness": float("nan")})
 
 
@@ -216,18 +216,18 @@ def no_problem(arrays: dict[str, Any], header: dict[str, str]) -> None:
         a_list_of_records,
         handles_as_a_number,
         bounds_as_text,
-        a_stiffness_that_is_no_number,
+        a_stiffness_that_is_nan,
     ],
 )
-def test_content_that_makes_no_model_is_refused(saved: Path, change: Change) -> None:
-    """Even with a valid checksum: what is loaded goes through the validators of its types."""
+def test_content_that_is_not_a_valid_model_is_refused(saved: Path, change: Change) -> None:
+    """Even with a valid checksum: loaded content passes the validators of its types."""
     rewrite(saved, change)
     assert "the model is inconsistent" in refused(saved)
 
 
 @pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
 def test_a_number_that_is_not_finite_is_refused_in_any_array(saved: Path, value: float) -> None:
-    """Even with a valid checksum: it would become a shape that is nowhere."""
+    """Even with a valid checksum: the shapes would not be finite."""
     content = saved.read_bytes()
     names = [name for name, array in load_file(saved).items() if array.dtype.kind == "f"]
     assert {"vertices", "basis", "quartic", "handle_S", "training_coordinates"} <= set(names)

@@ -1,4 +1,4 @@
-"""Models with a cubature in files: the same bits, and no quartic."""
+"""Files of models with a cubature: the same bits come back, and there is no quartic."""
 
 from __future__ import annotations
 

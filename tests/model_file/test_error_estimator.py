@@ -1,4 +1,4 @@
-"""Error estimators are saved with their model, and models without one stay as they were."""
+"""Error estimators are saved with their model; files of models without one lack the arrays."""
 
 from __future__ import annotations
 
@@ -39,14 +39,16 @@ def test_a_loaded_model_gives_the_same_certificates(
     assert certificates[0] == certificates[1]
 
 
-def test_models_without_one_have_no_such_arrays(posing_model: PosingModel, tmp_path: Path) -> None:
+def test_models_without_an_estimator_have_no_such_arrays(
+    posing_model: PosingModel, tmp_path: Path
+) -> None:
     path = posing_model.save(tmp_path / "model.snapspace")
     assert not set(load_file(path)) & set(DTYPES)
     assert load(path).error_estimator is None
 
 
 @pytest.mark.parametrize("name", DTYPES)
-def test_a_file_with_a_part_of_one_is_refused(
+def test_a_file_with_an_incomplete_estimator_is_refused(
     models: dict[str, PosingModel], name: str, tmp_path: Path
 ) -> None:
     path = models["posing"].save(tmp_path / "model.snapspace")
@@ -57,7 +59,7 @@ def test_a_file_with_a_part_of_one_is_refused(
         load(path)
 
 
-def test_a_damaged_one_is_refused(models: dict[str, PosingModel], tmp_path: Path) -> None:
+def test_a_damaged_estimator_is_refused(models: dict[str, PosingModel], tmp_path: Path) -> None:
     path = models["posing"].save(tmp_path / "model.snapspace")
     arrays, header = read_container(path)
     write_container(path, {**arrays, "estimator_weights": np.ones(1)}, header)

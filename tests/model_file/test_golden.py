@@ -1,4 +1,4 @@
-"""Files of every version that was ever written load, and give the shapes that they gave then."""
+"""Files of every version load, and give the same shapes as when they were written."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ EXPECTED = {
 }
 
 
-def test_every_kind_of_every_version_is_there() -> None:
+def test_there_is_a_file_of_every_kind_and_version() -> None:
     found: dict[int, set[str]] = {version: set() for version in READABLE}
     for name in EXPECTED:
         header = read_container(GOLDEN / name)[1]

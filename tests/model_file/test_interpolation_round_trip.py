@@ -1,4 +1,4 @@
-"""Interpolation models on disk: the same bits come back, or one line that says why not."""
+"""Files of interpolation models: the same bits come back, or one line says why not."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def test_a_loaded_session_gives_the_same_shapes(
 def test_a_loaded_model_is_validated_and_solved_to_the_same_bits(
     blending_model: InterpolationModel, saved: Path
 ) -> None:
-    """The mean shape is read, and not solved for again."""
+    """The mean shape is read, not solved for again."""
     model = loaded(saved)
     here, there = (validate(m, samples=2, threads=1) for m in (blending_model, model))
     np.testing.assert_array_equal(here.error, there.error)
@@ -138,8 +138,8 @@ def test_a_truncated_model_survives(blending_model: InterpolationModel, tmp_path
     assert_same_model(loaded(leading.save(tmp_path / "m.snapspace")), leading)
 
 
-def test_all_that_is_unusual_survives(tmp_path: Path) -> None:
-    """Names, an extrapolated domain, a lumped mass, inverted tets, a surface of its own."""
+def test_everything_unusual_survives(tmp_path: Path) -> None:
+    """Names, an extrapolated domain, a lumped mass, inverted tets, its own surface."""
     mesh = irregular_bar(6, 2, 2)
     shapes = np.stack([mesh.vertices, bent(mesh, 0.8) * [1.0, 1.0, -1.0]])
     poses = Poses(shapes, mesh.tets, names=["Fuß", 'the "mirror"'], accept_inverted=True)
@@ -179,7 +179,7 @@ def test_any_safetensors_reader_opens_it(blending_model: InterpolationModel, sav
 
 
 def test_a_rewritten_file_is_fine_if_nothing_changed(saved: Path) -> None:
-    """What the tests below refuse is refused for its change."""
+    """So the files of the tests below are refused for their changes only."""
     rewrite(saved, lambda arrays, header: None)
     assert load(saved).dimension == 12
 
@@ -263,7 +263,9 @@ CHANGES: list[tuple[Change, str]] = [
 
 
 @pytest.mark.parametrize(("change", "message"), CHANGES)
-def test_content_that_makes_no_model_is_refused(saved: Path, change: Change, message: str) -> None:
+def test_content_that_is_not_a_valid_model_is_refused(
+    saved: Path, change: Change, message: str
+) -> None:
     rewrite(saved, change)
     assert message in refused(saved)
 

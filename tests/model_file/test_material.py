@@ -1,4 +1,4 @@
-"""The material in model files: what it was saved with, old files, and what is refused by name."""
+"""Materials in model files: they come back, also from old files; bad ones are refused by name."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def solved(model: PosingModel) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", sorted(k for k in MATERIALS if not MATERIALS[k].barrier))
-def test_a_model_is_loaded_as_what_it_was_saved(kind: str, tmp_path: Path) -> None:
+def test_a_model_comes_back_with_its_material(kind: str, tmp_path: Path) -> None:
     made = posing_model(MATERIALS[kind].from_lame(lam=1.0, mu=0.7))
     path = made.save(tmp_path / "m.snapspace")
     again = load(path)
@@ -69,7 +69,7 @@ def test_a_model_is_loaded_as_what_it_was_saved(kind: str, tmp_path: Path) -> No
 
 @pytest.mark.parametrize("kind", [StVK, StableNeoHookean])
 def test_moduli_of_single_tets_are_an_array(kind: type[StVK], tmp_path: Path) -> None:
-    """The moduli of all tets of the mesh are kept; a cubature has those of its own tets."""
+    """The file has the moduli of all tets of the mesh; a cubature has those of its own tets."""
     made = posing_model(kind(lam=2.0, mu=STIFF_AND_SOFT))
     path = made.save(tmp_path / "m.snapspace")
     again = load(path)
@@ -128,7 +128,7 @@ def test_an_unknown_material_is_refused_by_its_name(saved: Path) -> None:
         (None, "material_moduli"),
     ],
 )
-def test_a_modulus_that_is_none_is_refused(saved: Path, value: Any, expected: str) -> None:
+def test_an_invalid_modulus_is_refused(saved: Path, value: Any, expected: str) -> None:
     def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
         content = json.loads(header["problem"])
         content["material"]["mu"] = value

@@ -1,4 +1,4 @@
-"""Posing models with a surface of the user: it is in the file; that of the tets is not."""
+"""Posing models with the user's surface have it in their file; the tets' boundary is not stored."""
 
 from __future__ import annotations
 
@@ -17,7 +17,9 @@ from .test_bad_files import Change, refused, rewrite
 NAMES = {"surface_faces", "surface_corners", "surface_weights"}
 
 
-def test_it_comes_back_to_the_last_bit(own_surface_model: PosingModel, tmp_path: Path) -> None:
+def test_the_surface_comes_back_to_the_last_bit(
+    own_surface_model: PosingModel, tmp_path: Path
+) -> None:
     model = load(own_surface_model.save(tmp_path / "own.snapspace"))
     for name in ("faces", "corners", "weights"):
         found, saved = getattr(model.surface, name), getattr(own_surface_model.surface, name)
@@ -26,7 +28,7 @@ def test_it_comes_back_to_the_last_bit(own_surface_model: PosingModel, tmp_path:
     assert leading.surface is own_surface_model.surface
 
 
-def test_that_of_the_tets_takes_no_room(posing_model: PosingModel, tmp_path: Path) -> None:
+def test_the_boundary_of_the_tets_is_not_stored(posing_model: PosingModel, tmp_path: Path) -> None:
     path = posing_model.save(tmp_path / "bar.snapspace")
     assert not NAMES & set(load_file(path))
     assert load(path).surface.is_boundary(posing_model.problem.mesh)
@@ -52,7 +54,7 @@ def with_a_face_too_far(arrays: dict[str, Any], _: object) -> None:
         (with_a_face_too_far, "'surface_faces' has an index that is not between"),
     ],
 )
-def test_one_that_does_not_fit_is_refused(
+def test_a_surface_that_does_not_fit_is_refused(
     own_surface_model: PosingModel, tmp_path: Path, change: Change, message: str
 ) -> None:
     path = own_surface_model.save(tmp_path / "own.snapspace")

@@ -1,4 +1,4 @@
-"""What is written is what is read, bit for bit, and nothing in it can run."""
+"""Files of posing models: the same bits come back, and nothing in a file can be executed."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def test_a_basis_that_is_not_from_snapshots_survives(tmp_path: Path) -> None:
 
 
 def test_bases_of_older_files_stay_as_they_are(saved: Path, tmp_path: Path) -> None:
-    """Up to version 2 they are in double precision; what is not read from single is not cut."""
+    """Up to version 2 they are in double precision, and they are saved again without rounding."""
 
     def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
         arrays["basis"] = arrays["basis"].astype(np.float64) * (1.0 + 1e-12)
@@ -132,19 +132,19 @@ def test_bases_of_older_files_stay_as_they_are(saved: Path, tmp_path: Path) -> N
 
 
 def test_a_truncated_model_survives(model: ReducedModel, tmp_path: Path) -> None:
-    """Leading columns of arrays are not contiguous; what is written must be."""
+    """Leading columns of arrays are not contiguous, but written arrays must be."""
     assert_same_model(load(model.leading(3).save(tmp_path / "m.snapspace")), model.leading(3))
 
 
 def test_saving_twice_gives_identical_bytes(model: ReducedModel, tmp_path: Path) -> None:
-    """So that models can be compared by their hash; what was loaded saves the same, too."""
+    """So that models can be compared by their hash; a loaded model saves the same bytes, too."""
     contents = {model.save(tmp_path / f"{i}.snapspace").read_bytes() for i in range(5)}
     contents.add(load(tmp_path / "0.snapspace").save(tmp_path / "again.snapspace").read_bytes())
     assert len(contents) == 1
 
 
 def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> None:
-    """Raw arrays and a header of JSON texts: there is nothing that could be executed."""
+    """Raw arrays and a header of JSON texts: nothing in it could be executed."""
     arrays = load_file(saved)
     assert set(arrays) == {
         "vertices",
@@ -177,11 +177,11 @@ def test_any_safetensors_reader_opens_it(model: ReducedModel, saved: Path) -> No
 
 
 def test_arrays_are_aligned(saved: Path) -> None:
-    """To eight bytes, so that they can be mapped into memory in other languages."""
+    """They begin at a multiple of eight bytes, so that other languages can map them into memory."""
     assert (8 + int.from_bytes(saved.read_bytes()[:8], "little")) % 8 == 0
 
 
-def test_the_path_comes_back(model: ReducedModel, tmp_path: Path) -> None:
+def test_saving_returns_the_path(model: ReducedModel, tmp_path: Path) -> None:
     assert save_model(model, str(tmp_path / "m.snapspace")) == tmp_path / "m.snapspace"
 
 

@@ -1,4 +1,4 @@
-"""A save that fails says so, leaves the old file as it was, and no temporary one."""
+"""A save that fails says so, leaves the old file unchanged, and leaves no temporary file."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ def header_of(path: Path) -> dict[str, str]:
 
 
 def timed(model: PosingModel, scale: float) -> PosingModel:
-    """As of a run that took so much longer."""
+    """The model of a run that took `scale` times as long."""
     record = {
         "seed": 0,
         "seconds": {"snapshots": 1.5 * scale, "basis": 0.1 * scale},
@@ -43,7 +43,7 @@ def timed(model: PosingModel, scale: float) -> PosingModel:
     return replace(model, provenance=record)
 
 
-def test_runs_of_other_speed_differ_in_nothing_but_seconds(
+def test_runs_of_other_speed_differ_only_in_their_seconds(
     model: PosingModel, tmp_path: Path
 ) -> None:
     paths = [tmp_path / "one.snapspace", tmp_path / "two.snapspace"]
@@ -64,7 +64,7 @@ def test_runs_of_the_same_speed_write_the_same_bytes(model: PosingModel, tmp_pat
 
 
 @given(record=st.dictionaries(st.sampled_from(["seconds", "b"]), RECORDS, max_size=2))
-def test_what_is_split_comes_together_again(record: dict[str, Any]) -> None:
+def test_split_records_are_merged_again(record: dict[str, Any]) -> None:
     rest, found = timings.split(record)
     assert "seconds" not in str(rest) or "seconds" in str(texts(record))
     assert timings.merged(rest, found) == record
@@ -110,7 +110,7 @@ def test_seconds_of_another_record_are_refused(saved: Path, entries: str) -> Non
     assert "the model is inconsistent" in refused(saved)
 
 
-def test_seconds_do_not_overwrite_what_has_a_checksum(saved: Path) -> None:
+def test_seconds_do_not_overwrite_the_record(saved: Path) -> None:
     def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
         header |= timings.timing_header([[["seed"], 1]])
 
@@ -118,8 +118,8 @@ def test_seconds_do_not_overwrite_what_has_a_checksum(saved: Path) -> None:
     assert "'seed' is not an entry with seconds" in refused(saved)
 
 
-def test_files_from_before_are_read(saved: Path) -> None:
-    """Up to version 3 the seconds were in the record, and one checksum of all."""
+def test_files_of_older_versions_are_read(saved: Path) -> None:
+    """Up to version 3 the seconds were in the record, under a single checksum."""
 
     def change(arrays: dict[str, Any], header: dict[str, str]) -> None:
         del header["timings"], header["timings_checksum"]

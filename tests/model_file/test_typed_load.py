@@ -1,4 +1,4 @@
-"""load_posing and load_blending: models of one kind; the error for the other names its function."""
+"""load_posing and load_blending load one kind; the error for the other names its function."""
 
 from __future__ import annotations
 
