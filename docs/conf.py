@@ -1,6 +1,6 @@
 """The docs site: `make docs` builds it into build/docs.
 
-It works from file://, and loads nothing from a network.
+The site works from file:// and loads nothing from a network.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ sys.path.insert(0, str(Path(__file__).parent / "site"))
 
 project = "Snapspace"
 version = release = snapspace.__version__
-project_copyright = "the authors of Snapspace"
+project_copyright = "Snapspace contributors"
 
 extensions = [
     "myst_nb",
@@ -22,14 +22,14 @@ extensions = [
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
     "sphinx_click",
-    "mathml",  # these three are in docs/site
+    "mathml",  # this one and the next two are in docs/site
     "docstrings",
     "name_links",
 ]
 exclude_patterns = ["site", "generated/*.txt"]
 templates_path = ["site/templates"]
 
-smartquotes = False  # options keep their two dashes
+smartquotes = False  # keeps the two dashes of options
 
 html_theme = "furo"
 html_title = "Snapspace"
@@ -49,5 +49,5 @@ autodoc_typehints = "none"  # docstrings have types and shapes
 autodoc_default_options = {"members": True}
 napoleon_google_docstring = False
 napoleon_use_rtype = False
-default_role = "py:obj"  # `names` in docstrings are links where they can be
-suppress_warnings = ["ref.python"]  # of two attributes of one name a link takes either
+default_role = "py:obj"  # `names` in docstrings become links where possible
+suppress_warnings = ["ref.python"]  # if two attributes share a name, a link may go to either

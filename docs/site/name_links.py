@@ -1,4 +1,4 @@
-"""Public names that a page sets as code, such as `reduce`, lead to their description."""
+"""Links public names that a page sets as code, such as `reduce`, to their description."""
 
 from __future__ import annotations
 
