@@ -6,7 +6,8 @@ from .. import _core as core
 from ..reduction import Cubature, PosingModel
 
 SINGLE_CUBATURE = (
-    "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
+    "Session: precision 'single' is for exact quartics only; a cubature always keeps its rows in "
+    "single precision"
 )
 
 

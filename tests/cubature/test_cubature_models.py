@@ -137,7 +137,7 @@ def test_a_solve_anew_is_never_higher(cubature_model: PosingModel) -> None:
 
 def test_a_precision_that_it_does_not_have_is_refused(cubature_model: PosingModel) -> None:
     """Rows are always kept in one way; silence would promise another model."""
-    with pytest.raises(ValueError, match="a cubature always keeps its rows so"):
+    with pytest.raises(ValueError, match="a cubature always keeps its rows in single"):
         cubature_model.session(precision="single")
 
 
