@@ -130,7 +130,7 @@ def test_a_connection_that_closes_is_said(cluster: Any) -> None:
     work.submit(backend, 8)
     client.close()
     # what was under way is cancelled, what would be next is refused
-    said = r"executor: (cancelled|does not take) samples .* in the checkpoint"
+    said = r"executor: (cancelled|does not accept) samples .* in the checkpoint"
     with pytest.raises(ValueError, match=said):
         while backend.wait(PATIENCE):
             pass
