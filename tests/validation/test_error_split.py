@@ -141,5 +141,5 @@ def test_json_names_the_largest_part(stiff_in_part: PosingModel) -> None:
 def test_a_reference_that_is_no_solution_is_refused(stiff_in_part: PosingModel) -> None:
     full = reference(stiff_in_part)
     reports = [replace(report, status="max_iterations") for report in full.reports]
-    with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are no full"):
+    with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are not full"):
         split_errors(stiff_in_part, replace(full, reports=reports))

@@ -95,7 +95,7 @@ def test_samples_that_did_not_converge_are_refused(
     reports[2] = replace(reports[2], status="max_iterations")
     broken = replace(checked.reference, reports=reports)
     with pytest.raises(
-        ValueError, match="1 of 5 reference samples are no full solutions: sample 2"
+        ValueError, match="1 of 5 reference samples are not full solutions: the status of sample 2"
     ):
         validate(posing_model, reference=broken)
     kept = validate(posing_model, reference=broken.select(broken.converged))
@@ -116,7 +116,7 @@ def test_a_reference_has_samples_and_decides_them(
     none = checked.reference.select(np.zeros(COUNT, bool))
     with pytest.raises(ValueError, match="the reference has no samples"):
         validate(posing_model, reference=none)
-    with pytest.raises(ValueError, match="samples and seed are of no effect"):
+    with pytest.raises(ValueError, match="samples and seed have no effect"):
         validate(posing_model, reference=checked.reference, samples=3)
 
 
