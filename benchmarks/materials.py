@@ -1,6 +1,6 @@
 """Comparison of materials in one run.
 
-    python benchmarks/materials.py --part cost         # of the fast solver, relative to St.VK
+    python benchmarks/materials.py --part cost         # the fast solver, relative to St.VK
     python benchmarks/materials.py --part newton       # Newton's method over the fast solver
     python benchmarks/materials.py --part uniqueness   # tight solutions from several starts
     python benchmarks/materials.py --part live         # frames against tight full solutions

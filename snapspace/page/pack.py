@@ -73,11 +73,11 @@ def packed(
     if up not in AXES:
         raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
-        kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
+        kind, arrays, about = "posing", _posing_arrays(model), _posing_metadata(model)
         if owners is not None:
             arrays["handle_of_vertex"] = owners.astype(np.int32)
         if before is not None:
-            arrays["from_before"] = _carrying_over(before, model)
+            arrays["from_before"] = _modes_in_other(before, model)
     elif isinstance(model, InterpolationModel):
         kind, arrays = "interpolation", _interpolation_arrays(model)
         about = {
@@ -103,14 +103,14 @@ def packed(
     return safetensors_bytes(arrays | estimator_arrays(model), header)
 
 
-def _carrying_over(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
+def _modes_in_other(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
     """The d' modes of one model in those of another, (d, d'): the closest ones in the M-norm."""
     subspace = model.subspace
     shapes = before.subspace.basis + subspace.tau[:, None]
     return np.ascontiguousarray(subspace.coordinates(shapes), np.float32)
 
 
-def _posing_about(model: PosingModel) -> dict[str, Any]:
+def _posing_metadata(model: PosingModel) -> dict[str, Any]:
     problem = model.problem
     bounds = np.vstack([np.zeros(6), problem.domain.bounds]).tolist()
     return {

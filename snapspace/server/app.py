@@ -91,7 +91,7 @@ def _content(workspaces: Workspaces, get: Callable[[Workspace, int], bytes | Non
         if workspace is not None:
             content = await run_in_threadpool(get, workspace, request.path_params["number"])
         if content is None:
-            return PlainTextResponse("snapspace: this is not kept any more", status_code=404)
+            return PlainTextResponse("snapspace: this is no longer kept", status_code=404)
         return Response(content, media_type="application/octet-stream")
 
     return send

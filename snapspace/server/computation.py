@@ -68,7 +68,7 @@ class Computation:
     def run(self) -> None:
         """Computes all models; raises the ValueErrors of the numerics."""
         order = self._order
-        with self._queue.turn(self._waiting):
+        with self._queue.turn(self._report_waiting):
             self._report.restart()
             self._report.send("snapshots")
             try:
@@ -77,9 +77,9 @@ class Computation:
                     target_error=order.target_error,
                     most_samples=order.most_samples,
                     seed=order.seed,
-                    progress=self._solving,
+                    progress=self._report_solving,
                     known=self._solved.starts(self._problem),
-                    begins=self._stage_begins,
+                    begins=self._report_stage,
                     start=self._start,
                     surface=self._surface,
                 ):
@@ -98,14 +98,14 @@ class Computation:
         if growth.step is not None:
             self._error = growth.step.error
 
-    def _waiting(self, before: int) -> None:
+    def _report_waiting(self, before: int) -> None:
         self._report.send("waiting", 0, before)
 
-    def _stage_begins(self, stage: str) -> None:
+    def _report_stage(self, stage: str) -> None:
         if stage != "snapshots":
             self._report.send(stage, error=self._error)
 
-    def _solving(self, progress: SolveProgress) -> None:
+    def _report_solving(self, progress: SolveProgress) -> None:
         done, total, eta = progress.done, progress.total, progress.eta
         self._report.send("snapshots", done, total, eta=eta, error=self._error)
 

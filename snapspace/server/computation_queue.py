@@ -45,7 +45,7 @@ class ComputationQueue:
         with self._changed:
             self._queue.append(ticket)
         try:
-            while before := self._before(ticket):
+            while before := self._wait_for_earlier(ticket):
                 waiting(before)
                 check_stop()
             yield
@@ -54,7 +54,7 @@ class ComputationQueue:
                 self._queue.remove(ticket)
                 self._changed.notify_all()
 
-    def _before(self, ticket: object) -> int:
+    def _wait_for_earlier(self, ticket: object) -> int:
         """How many come first; if there are any, waits for a change or `POLL_SECONDS`."""
         with self._changed:
             if self._queue[0] is not ticket:

@@ -87,7 +87,7 @@ class Keep:
 
     The next `Workspace` of the same id returns them, for example after the page is reloaded.
 
-    Fields are as in `Choose`, handles in any order, and as in `Compute`; up is the axis upwards.
+    Fields as in `Choose`, handles in any order, and as in `Compute`; up : axis that points up.
     """
 
     request: int

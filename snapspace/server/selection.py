@@ -92,8 +92,8 @@ def choices_of(problem: PosingProblem) -> tuple[HandleChoice, ...]:
         replace(
             choice,
             moving=True,
-            translation=_own(bounds[:3], common[:3]),
-            angle=_own(bounds[3:], common[3:]),
+            translation=_unless_common(bounds[:3], common[:3]),
+            angle=_unless_common(bounds[3:], common[3:]),
         )
         if bounds.any()
         else choice
@@ -114,5 +114,5 @@ def _bounds(handle: HandleChoice, own: Vector | None, common: Vector) -> Vector:
     return common if own is None else own
 
 
-def _own(bounds: np.ndarray, common: np.ndarray) -> Vector | None:
+def _unless_common(bounds: np.ndarray, common: np.ndarray) -> Vector | None:
     return as_vector(bounds) if (bounds != common).any() else None

@@ -25,19 +25,19 @@ class PromptHeaders(H11Protocol):
     def connection_made(self, transport: Any) -> None:
         """Starts the time limit."""
         super().connection_made(transport)
-        self._await_headers()
+        self._start_timer()
 
     def data_received(self, data: bytes) -> None:
         """Stops the time limit once headers are complete; the next request starts it again."""
         super().data_received(data)
         if self._is_served():
-            self._forget()
+            self._stop_timer()
         elif self._deadline is None:
-            self._await_headers()
+            self._start_timer()
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Stops the time limit."""
-        self._forget()
+        self._stop_timer()
         super().connection_lost(exc)
 
     def _is_served(self) -> bool:
@@ -46,10 +46,10 @@ class PromptHeaders(H11Protocol):
             return True
         return self.cycle is not None and not self.cycle.response_complete
 
-    def _await_headers(self) -> None:
+    def _start_timer(self) -> None:
         self._deadline = self.loop.call_later(self.header_seconds, self.transport.close)
 
-    def _forget(self) -> None:
+    def _stop_timer(self) -> None:
         if self._deadline is not None:
             self._deadline.cancel()
             self._deadline = None

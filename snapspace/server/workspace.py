@@ -177,7 +177,7 @@ class Workspace:
             return self._settings.model
         kept = self._models.find(number)
         if kept is None:
-            raise ValueError(f"model {number} is not kept any more; take the newest one")
+            raise ValueError(f"model {number} is no longer kept; use the newest one")
         return kept.model
 
     def _edit(self) -> None:

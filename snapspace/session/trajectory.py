@@ -18,7 +18,7 @@ def checked_path(frames: int, keys: int, easing: str) -> tuple[int, str]:
     if easing not in EASINGS:
         raise ValueError(f"animate: unknown easing '{easing}'; known are {', '.join(EASINGS)}")
     if keys < 2:
-        raise ValueError("animate: there are no keys; give at least one")
+        raise ValueError("animate: no keys are given, but at least one is needed")
     if frames < 2:
         raise ValueError(
             f"animate: frames is {frames}, but at least two are needed, the first and the last"

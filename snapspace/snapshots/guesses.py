@@ -47,12 +47,12 @@ class Guesses:
         if self._has_enough(len(known)):
             self._rows.clear()
             return None
-        if not self._made(wanted):
+        if not self._make_missing(wanted):
             return None
         guesses = DisplacementRows([self._rows[i] for i in wanted], rows.size)
         if len(known) < 2:  # only the rest shape, where guesses are exact
             return guesses.array()
-        self._made(known)
+        self._make_missing(known)
         weights = interpolation_weights(self._scaled[list(known)], self._scaled[list(wanted)])
         # a guess, plus the interpolated errors of the guesses at known samples
         every = guesses.followed_by(rows).followed_by([self._rows[i] for i in known])
@@ -61,13 +61,13 @@ class Guesses:
     def make(self, wanted: Sequence[int], *, known: int) -> None:
         """Makes the guesses that `corrected` needs for wanted samples, given `known` others."""
         if not self._has_enough(known):
-            self._made(wanted)
+            self._make_missing(wanted)
 
     def _has_enough(self, known: int) -> bool:
         enough: int = GUESSED * self._parameters.shape[1]
         return known >= enough
 
-    def _made(self, samples: Sequence[int]) -> bool:
+    def _make_missing(self, samples: Sequence[int]) -> bool:
         """Makes the missing guesses; returns whether the problem has any."""
         missing = [i for i in samples if i not in self._rows]
         if missing:

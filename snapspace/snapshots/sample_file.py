@@ -66,7 +66,7 @@ def read_indices(path: Path) -> list[int]:
     Raises ValueError, which names the fault, and OSError.
     """
     with path.open("rb") as file:
-        return _head(file)[0]
+        return _read_header(file)[0]
 
 
 def read_samples(path: Path) -> Samples:
@@ -78,7 +78,7 @@ def read_samples(path: Path) -> Samples:
     Raises ValueError, which names the fault, and OSError.
     """
     with path.open("rb") as file:
-        indices, shape, offset, metadata = _head(file)
+        indices, shape, offset, metadata = _read_header(file)
         file.seek(offset - 8 * len(indices))
         if _checksum(file, metadata["reports"]) != metadata["crc32"]:
             raise ValueError("its content has changed")
@@ -98,7 +98,7 @@ def _rows(file: BinaryIO, shape: tuple[int, int], offset: int) -> FloatArray:
     return mapped.view(np.ndarray)
 
 
-def _head(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, str]]:
+def _read_header(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, str]]:
     """Numbers, shape and position of the displacements, and metadata."""
     length = os.fstat(file.fileno()).st_size
     size = int.from_bytes(file.read(8), "little")

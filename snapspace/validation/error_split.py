@@ -107,13 +107,13 @@ def split_errors(
             )
         miss = row - (subspace.shape(projection) - subspace.tau)
         size, least = mass_norms(subspace.mass, np.column_stack([row, miss]))
-        inside = [np.linalg.norm(a - b) for a, b in _pairs(projection, every, reduced)]
+        inside = [np.linalg.norm(a - b) for a, b in _part_ends(projection, every, reduced)]
         outside = [np.hypot(least, np.linalg.norm(q - projection)) for q in (every, reduced)]
         target[:] = np.array([least, *inside, *outside]) / size
     return ErrorSplit(*parts.T)
 
 
-def _pairs(
+def _part_ends(
     projection: FloatArray, every: FloatArray, reduced: FloatArray
 ) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
     """End points of the stiffness part and of the cubature part."""

@@ -61,7 +61,7 @@ def with_lower_minima(
     if errors is None:
         errors = unseen_errors(model, reference)
     apart = np.flatnonzero(errors > APART)
-    found = _below(model, reference, apart, threads=threads) if len(apart) else {}
+    found = _lower_minima(model, reference, apart, threads=threads) if len(apart) else {}
     if not found:
         return reference, 0
     rows, reports = list(reference.displacements), list(reference.reports)
@@ -71,7 +71,7 @@ def with_lower_minima(
     return Snapshots(model.problem, reference.parameters, displacements, reports), len(found)
 
 
-def _below(
+def _lower_minima(
     model: ReducedModel, reference: Snapshots, apart: NDArray[np.intp], *, threads: int | None
 ) -> dict[int, tuple[FloatArray, SampleReport]]:
     """Displacements (3n,) and reports of minima below samples of a reference, by sample index."""

@@ -58,7 +58,7 @@ class NextOption:
     def python(self) -> str:
         """The calls that build it, for a given problem."""
         method = "" if self.method == "sobol" else f', method="{self.method}"'
-        tight = "" if self.tolerance is None else _tight(self.tolerance)
+        tight = "" if self.tolerance is None else _options_argument(self.tolerance)
         energy = "" if self.energy == "auto" else f', energy="{self.energy}"'
         tets = "" if self.tets is None else f", tets={self.tets}"
         return (
@@ -86,7 +86,7 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     """
     problem, cubature = model.problem, model.cubature
     tets = None if cubature is None else len(cubature.tets)
-    part, solved = split.largest, max(_solved(model), model.dimension)
+    part, solved = split.largest, max(_solved_samples(model), model.dimension)
     method: Method = "sobol"
     usual = default_tets(model.dimension)
     if isinstance(problem, InterpolationProblem):
@@ -95,12 +95,12 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
         usual = default_blended_tets(model.dimension)
     if part == "cubature" and tets is not None and tets < len(problem.mesh.tets):
         wanted = min(max(ceil(MORE * tets), usual), len(problem.mesh.tets))
-        tolerance = _tolerance(model, model.dimension, "cubature")
+        tolerance = _training_tolerance(model, model.dimension, "cubature")
         return NextOption(part, solved, model.dimension, wanted, "cubature", tolerance, method)
     dimension = ceil(LARGER * model.dimension)
     samples = max(ceil(MORE * solved), 2 * dimension)
     energy: Energy = "exact" if tets is None and dimension <= MOST_EXACT else "auto"
-    tolerance = _tolerance(model, dimension, energy)
+    tolerance = _training_tolerance(model, dimension, energy)
     return NextOption(part, samples, dimension, None, energy, tolerance, method)
 
 
@@ -109,11 +109,11 @@ def needs_advice(error: float, projection: float) -> bool:
     return bool(error > FACTOR * projection)
 
 
-def _tight(tolerance: float) -> str:
+def _options_argument(tolerance: float) -> str:
     return f", options=SolverOptions(tolerance={tolerance:g})"
 
 
-def _tolerance(model: ReducedModel, dimension: int, energy: Energy) -> float | None:
+def _training_tolerance(model: ReducedModel, dimension: int, energy: Energy) -> float | None:
     """Tolerance of the samples for a cubature, if the usual one is meant for an exact energy."""
     problem = model.problem
     assert isinstance(problem, PosingProblem | InterpolationProblem)
@@ -122,7 +122,7 @@ def _tolerance(model: ReducedModel, dimension: int, energy: Energy) -> float | N
     return training_tolerance(problem, dimension, energy)
 
 
-def _solved(model: ReducedModel) -> int:
+def _solved_samples(model: ReducedModel) -> int:
     """Number of samples solved for the model, without those known beforehand."""
     known = len(model.problem.poses) if isinstance(model.problem, InterpolationProblem) else 0
     return max(len(model.training_parameters) - known, 0)

@@ -93,7 +93,7 @@ class RestrictedEnergy:
         """
         q = start.copy()
         inverse = _positive_inverse(self.hessian(q, 1e-3 * STEP * scale))
-        value, gradient = self._at(q)
+        value, gradient = self._value_and_gradient(q)
         for _ in range(MOST_STEPS):
             direction = -inverse @ gradient
             slope = float(gradient @ direction)
@@ -110,7 +110,7 @@ class RestrictedEnergy:
             "leave out this reference sample, or choose a smaller domain"
         )
 
-    def _at(self, q: FloatArray) -> tuple[float, FloatArray]:
+    def _value_and_gradient(self, q: FloatArray) -> tuple[float, FloatArray]:
         values, gradients = self.evaluated(q[None])
         return float(values[0]), gradients[0]
 
@@ -120,7 +120,7 @@ class RestrictedEnergy:
         """Length of a step with sufficient decrease, zero if there is none; value and gradient."""
         length = 1.0
         for _ in range(HALVINGS):
-            after, gradient = self._at(q + length * direction)
+            after, gradient = self._value_and_gradient(q + length * direction)
             if after <= value + DECREASE * length * slope:
                 return length, after, gradient
             length *= 0.5

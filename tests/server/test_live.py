@@ -93,7 +93,7 @@ def test_models_come_and_become_better(server: Running, page: Page) -> None:
     stages = [message["stage"] for message in page.seen if message["type"] == "progress"]
     assert list(dict.fromkeys(stages)) == ["snapshots", "subspace", "energy"]
     status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
-    assert status == 404 and b"not kept any more" in text
+    assert status == 404 and b"no longer kept" in text
 
 
 def test_chosen_handles_come_back_in_the_models_order(server: Running, page: Page) -> None:
@@ -192,7 +192,7 @@ def test_errors_are_answers(page: Page) -> None:
     assert page.take("failed") == {
         "type": "failed",
         "request": 8,
-        "message": "model 3 is not kept any more; take the newest one",
+        "message": "model 3 is no longer kept; use the newest one",
     }
     page.socket.send('{"type": "evil", "request": 9}')
     refused = page.take("failed")

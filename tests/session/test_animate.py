@@ -83,7 +83,7 @@ def test_blends_are_animated_through_weights(blending_model: InterpolationModel)
 @pytest.mark.parametrize(
     ("keys", "options", "message"),
     [
-        ([], {}, "there are no keys"),
+        ([], {}, "no keys are given"),
         ([KEY], {"frames": 1}, "frames is 1, but at least two are needed"),
         ([KEY], {"easing": "bouncy"}, "unknown easing 'bouncy'; known are linear, smooth"),
         ([{"nose": KEY["head"]}], {}, "nose"),

@@ -131,7 +131,7 @@ export interface Polish {
  *
  * The next `Workspace` of the same id returns them, for example after the page is reloaded.
  *
- * Fields are as in `Choose`, handles in any order, and as in `Compute`; up is the axis upwards.
+ * Fields as in `Choose`, handles in any order, and as in `Compute`; up : axis that points up.
  */
 export interface Keep {
   readonly type: "keep";
