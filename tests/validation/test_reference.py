@@ -106,7 +106,7 @@ def test_samples_that_the_model_was_made_of_are_refused(
     posing_model: PosingModel, posing_snapshots: Snapshots, checked: Validation
 ) -> None:
     seen = checked.reference.joined(posing_snapshots.select(np.arange(60) == 7))
-    with pytest.raises(ValueError, match="1 of 6 reference samples, the first is 5, are at param"):
+    with pytest.raises(ValueError, match="1 of 6 reference samples, the first is 5, are at train"):
         validate(posing_model, reference=seen)
 
 
