@@ -63,7 +63,7 @@ def test_a_curve_is_a_validation_of_each_dimension_with_one_reference(
 def test_a_curve_has_dimensions_of_the_model(
     posing_model: PosingModel, checked: Validation, dimensions: list[int]
 ) -> None:
-    with pytest.raises(ValueError, match=r"error_curve: dimensions are .* each between 1 and 20"):
+    with pytest.raises(ValueError, match=r"error_curve: dimensions are .* and the model.s, 20"):
         error_curve(posing_model, dimensions=dimensions, reference=checked.reference)
 
 
