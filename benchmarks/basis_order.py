@@ -3,12 +3,12 @@
     python benchmarks/basis_order.py                  # problems of the meshes, generated ones
     python benchmarks/basis_order.py --problem bar tripod
 
-Every model is made once, with the largest d, and judged by `leading(d)`, in stable neo-Hookean, on
-held-out samples that are solved more tightly. The bases:
+Each model is made once, with the largest d, in stable neo-Hookean. Errors are those of `leading(d)`
+at held-out samples that are solved more tightly. The bases:
 
     default    `snapshot_pca`, a PCA in the mass with heavy handles
     mass       the same with the mass alone, as in the paper
-    responses  the linear responses to all parameters first, then PCA in the mass of what is left
+    responses  the linear responses to all parameters first, then a PCA in the mass of the rest
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from snapspace.validation import unseen_errors
 
 KIND = "stable-neo-hookean"
 DIMENSIONS = (5, 10, 20, 30, 40, 60, 80, 120)
-#: Share of a parameter's largest value that responses are taken at.
+#: Responses are computed at this share of a parameter's largest value.
 SMALL = 1e-3
-#: Tolerance of held-out samples, relative to the others'.
+#: Tolerance of held-out samples, relative to that of the others.
 JUDGING = 0.01
 
 
@@ -66,7 +66,7 @@ BASES: dict[str, Callable[[ss.Snapshots, int], ss.AffineSubspace]] = {
 
 
 def figures(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
-    """A row for each basis: medians and means by d."""
+    """One row per basis: medians and means by d."""
     problem = common.with_material(problems.read(name), KIND)
     parameters = ss.sample(problem.domain, args.samples + args.unseen, method="sobol", seed=0)
     snapshots = common.solved(problem, parameters[: args.samples])
@@ -103,7 +103,7 @@ def figures(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
 
 
 def table(rows: list[dict[str, Any]]) -> Table:
-    """Medians over means; a rise above 1 is an error that grows with d."""
+    """Medians / means; a rise above 1 is an error that grows with d."""
     shown = Table("problem", "basis", *(f"d = {d}" for d in DIMENSIONS), "largest rise")
     for row in rows:
         both = [f"{a:.2g} / {b:.2g}" for a, b in zip(row["median"], row["mean"], strict=True)]
@@ -113,7 +113,7 @@ def table(rows: list[dict[str, Any]]) -> Table:
 
 
 def ratios(rows: list[dict[str, Any]], half: str, basis: str) -> str:
-    """Medians over those of the mass, geometric mean and worst over the problems of a half."""
+    """Ratios of medians to those of the mass: geometric mean and worst of a half's problems."""
     chosen = [row for row in rows if row["half"] == half]
     plain = {row["problem"]: row["median"] for row in chosen if row["basis"] == "mass"}
     some = [row for row in chosen if row["basis"] == basis]

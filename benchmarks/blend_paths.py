@@ -1,11 +1,11 @@
-"""Paths between poses: are they smooth, the same forth and back, and where a jump ends?
+"""Paths between poses: are they smooth, the same there and back, and does a jump end on them?
 
     python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
-    python benchmarks/blend_paths.py --set lizard-8 lion   # some of them
+    python benchmarks/blend_paths.py --set lizard-4 lion   # some of them
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
-the largest of a vertex, relative to the diagonal of the first pose. Full solutions are those of
-some unseen blends from three starts each: where a material has one minimum they are the same.
+the largest of any vertex, relative to the diagonal of the first pose. Some unseen blends are solved
+in the full space from three starts each: if the minimum is unique, the solutions are the same.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from snapspace.generators import lizard_poses
 from snapspace.snapshots.fast_solve import solve_fast
 
 STEPS = 100
-#: Sets of the meshes' folder: the poses beside the first one.
+#: Sets of the meshes' folder: the base set, and the poses in addition to the first one.
 REAL = {
     "lion": ("lion", ("lion-02", "lion-05", "lion-08")),
     "dog": ("dog", ("dog1", "dog2")),
@@ -62,7 +62,7 @@ def walk(session: Any, ends: tuple[int, int], poses: int) -> tuple[np.ndarray, l
 
 
 def apart_from_other_starts(problem: ss.InterpolationProblem, blends: int) -> float:
-    """How far tight solutions from different starts are apart at most, for some uniform blends.
+    """Largest distance between tight solutions from different starts, for some uniform blends.
 
     Starts are the mean shape, the straight blend, and the pose with the largest weight.
     """
@@ -91,7 +91,7 @@ def apart_from_other_starts(problem: ss.InterpolationProblem, blends: int) -> fl
 def built(
     problem: ss.InterpolationProblem, args: argparse.Namespace
 ) -> tuple[ss.InterpolationModel, ss.Snapshots]:
-    """As the command does by default; St.Venant-Kirchhoff with the samples and d that are given."""
+    """A model as the command builds it; for St.Venant-Kirchhoff with the given samples and d."""
     if problem.material.exact_degree != 4:
         accurate = ss.accurate_model(problem, tell=lambda line: print(line, file=sys.stderr))
         return accurate.model, accurate.snapshots
@@ -110,35 +110,35 @@ def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str
     seconds = time.perf_counter() - begin
     validation = ss.validate(model, samples=args.validate, progress=common.progress)
     session, diagonal = model.session(), problem.mesh.diagonal
-    steps, forth_back, jump_drag, milliseconds = [], 0.0, 0.0, []
+    steps, there_back, jump_drag, milliseconds = [], 0.0, 0.0, []
     pairs = list(combinations(range(len(poses)), 2))
     for pair in [pairs[k] for k in np.linspace(0, len(pairs) - 1, args.pairs).astype(int)]:
-        forth, times = walk(session, pair, len(poses))
+        there, times = walk(session, pair, len(poses))
         back, _ = walk(session, pair[::-1], len(poses))
         milliseconds += times
-        moved = np.linalg.norm(np.diff(forth, axis=0), axis=2).max(axis=1)
+        moved = np.linalg.norm(np.diff(there, axis=0), axis=2).max(axis=1)
         steps.append(moved.max() / np.median(moved))
-        apart = np.linalg.norm(forth - back[::-1], axis=2).max() / diagonal
-        forth_back = max(forth_back, float(apart))
+        apart = np.linalg.norm(there - back[::-1], axis=2).max() / diagonal
+        there_back = max(there_back, float(apart))
         for k in range(10, STEPS, 20):
             weights = np.zeros(len(poses))
             weights[pair[0]], weights[pair[1]] = 1.0 - k / STEPS, k / STEPS
             session.reset()
             session.blend(weights)
-            apart = np.linalg.norm(session.vertices - forth[k], axis=1).max() / diagonal
+            apart = np.linalg.norm(session.vertices - there[k], axis=1).max() / diagonal
             jump_drag = max(jump_drag, float(apart))
     yield {
         "set": name,
         "material": kind,
         "poses": len(poses),
         "longest over median step": float(max(steps)),
-        "forth against back": forth_back,
+        "there against back": there_back,
         "jump against drag": jump_drag,
         "full solutions apart": apart_from_other_starts(problem, args.starts),
         "held-out error, mean": float(np.mean(validation.error)),
         "projection, mean": float(np.mean(validation.projection_error)),
         "inverted tets of a sample": max(r.inverted_tets for r in snapshots.reports),
-        "ms a solve": float(np.median(milliseconds)),
+        "ms per solve": float(np.median(milliseconds)),
         "ms after a jump": float(np.median(validation.solve_ms)),
         "samples": len(snapshots),
         "d": model.dimension,
@@ -152,12 +152,12 @@ def main() -> None:
     )
     parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
     parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
-    parser.add_argument("--samples", type=int, default=40, help="of stvk")
-    parser.add_argument("--dimension", type=int, default=30, help="of stvk")
-    parser.add_argument("--pairs", type=int, default=3, help="paths of a set")
-    parser.add_argument("--validate", type=int, default=12, help="unseen blends")
+    parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
+    parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")
+    parser.add_argument("--pairs", type=int, default=3, help="number of paths per set")
+    parser.add_argument("--validate", type=int, default=12, help="number of unseen blends")
     parser.add_argument("--starts", type=int, default=6, help="blends solved from three starts")
-    parser.add_argument("--json", action="store_true", help="one line per row, as they come")
+    parser.add_argument("--json", action="store_true", help="one line per row, once it is known")
     args = parser.parse_args()
     table = None
     for name in args.set:

@@ -1,10 +1,10 @@
-"""A picture of one path between two poses in several materials, through the longest step of one.
+"""A picture of one path between two poses in several materials, with the longest step of one.
 
     python benchmarks/blend_strip.py --set lion -o docs/pictures/path-lion.png
 
-Of all pairs of poses it takes the one on whose path the first material has its longest step, in
-steps of 1 % of the weight. Columns are weights: evenly spread ones, and those before and after that
-step. A row is a material. Models are those of `blend_paths.py`.
+A path has steps of 1 % of the weight. The pair of poses is the one with the longest step of the
+first material. Columns are weights: evenly spread ones, and those before and after that step. Each
+row is a material. The models are those of `blend_paths.py`.
 """
 
 from __future__ import annotations
@@ -43,8 +43,8 @@ def main() -> None:
     )
     parser.add_argument("--set", choices=blend_paths.SETS, default="lion")
     parser.add_argument("--material", nargs="+", default=MATERIALS)
-    parser.add_argument("--samples", type=int, default=40, help="of stvk")
-    parser.add_argument("--dimension", type=int, default=30, help="of stvk")
+    parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
+    parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")
     parser.add_argument("--up", choices=("x", "y", "z"), default="y")
     parser.add_argument("--azimuth", type=float, default=-50.0, help="degrees")
     parser.add_argument("-o", "--output", type=Path, required=True)
@@ -61,10 +61,10 @@ def main() -> None:
     frames = sorted({10, 40, 70, snap, snap + 1})
     shapes, labels = [], []
     for kind, model in models.items():
-        walked = path(model, pair)
-        longest = steps(walked).max() / np.median(steps(walked))
+        walk = path(model, pair)
+        longest = steps(walk).max() / np.median(steps(walk))
         print(f"{kind}: longest step over the median {longest:.3g}")
-        shapes += [walked[frame] for frame in frames]
+        shapes += [walk[frame] for frame in frames]
         title = model.problem.material.title
         labels += [f"{title} {frames[0]} %", *(f"{frame} %" for frame in frames[1:])]
     picture = render_row(

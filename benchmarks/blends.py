@@ -1,4 +1,4 @@
-"""Uniform samples and blends of few poses: projection errors on unseen blends of two, three, all.
+"""Uniform samples against blends of few poses: projection errors at unseen blends of 2, 3 and all.
 
 python benchmarks/blends.py --poses 12 --seed 13
 """
@@ -26,8 +26,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--poses", type=int, default=12)
     parser.add_argument("--tets", type=int, default=1_500)
-    parser.add_argument("--seed", type=int, default=13, help="of the poses")
-    parser.add_argument("--unseen", type=int, default=60, help="blends of each kind")
+    parser.add_argument("--seed", type=int, default=13, help="seed of the poses")
+    parser.add_argument("--unseen", type=int, default=60, help="number of blends of each kind")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
 
@@ -68,17 +68,17 @@ def main() -> None:
 
 
 def solved(
-    problem: ss.InterpolationProblem, gram: ss.SnapshotGram, weights: np.ndarray, **how: float
+    problem: ss.InterpolationProblem, gram: ss.SnapshotGram, weights: np.ndarray, **options: float
 ) -> np.ndarray:
-    """Adds the solutions to the products, and tells which rows they are."""
-    snapshots = common.solved(problem, weights, **how)
+    """Solves, adds the solutions to the Gram matrix, and returns the rows of converged ones."""
+    snapshots = common.solved(problem, weights, **options)
     first = len(gram)
     gram.add([*snapshots.displacements])
     return first + np.flatnonzero(snapshots.converged)
 
 
 def unseen(domain: ss.Simplex, count: int) -> dict[str, np.ndarray]:
-    """Random blends of two poses, of three and of all."""
+    """Random blends of two poses, of three poses and of all."""
     chance = np.random.default_rng(99)
     found = {}
     for few, name in ((2, "two"), (3, "three")):

@@ -1,11 +1,11 @@
-"""Certificates and polish: do estimates follow the true errors, and what do iterations remove?
+"""Certificates and polish: how well estimates follow true errors, and what iterations remove.
 
     python benchmarks/certificate.py --part estimates --problem dragon   # rank correlations, bounds
     python benchmarks/certificate.py --part polish --problem dragon      # error left, milliseconds
     python benchmarks/certificate.py --part estimates --problem helix --samples 30 --dimension 10
 
-Errors are true ones, on unseen parameters solved tightly. `--problem helix` blends the cylinder and
-the helix of the meshes' folder. Times of one run are compared with each other.
+Errors are true errors at unseen parameters, against tight solutions. `--problem helix` blends the
+cylinder and the helix of the meshes' folder. Times of one run are compared with each other.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ LEFT_AFTER = (1, 5, 10, 30)
 
 
 def read_problem(name: str) -> ss.PosingProblem | ss.InterpolationProblem:
-    """A problem of the meshes' folder, a creature, or the interpolation helix."""
+    """A problem of the meshes' folder, a creature, or the interpolation problem "helix"."""
     if name != "helix":
         return common.read_problem(name)
     folder = common.meshes_folder() / "poses" / "synthetic_helix"
@@ -115,7 +115,7 @@ def estimates(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 def judged(
     certificates: list[ss.Certificate], errors: np.ndarray, relative_errors: np.ndarray
 ) -> dict[str, float]:
-    """How certificates compare with the truth."""
+    """Comparison of certificates with true errors."""
     distance = np.array([c.distance for c in certificates])
     upper = np.array([c.upper_distance for c in certificates])
     relative = [c.relative for c in certificates]
@@ -134,7 +134,7 @@ def judged(
 
 
 def other_indicators(model: Model, session: Any, w: np.ndarray) -> tuple[float, ...]:
-    """Size of the displacement, and indicators relative to it that read the whole mesh."""
+    """Size of the displacement, and indicators from the whole mesh, relative to that size."""
     problem, subspace = model.problem, model.subspace
     size = float(np.linalg.norm(session.q))
     u = subspace.shape(session.q) - problem.base
@@ -147,7 +147,7 @@ def other_indicators(model: Model, session: Any, w: np.ndarray) -> tuple[float, 
 
 
 def polish(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """Error left after iterations, seeded on two levels and on one, and what they cost."""
+    """Error left after iterations with a seed of two levels and of one, and their cost."""
     model, reference = built(args)
     left: dict[str, list[list[float]]] = {"two levels": [], "one level": []}
     milliseconds = []
@@ -163,7 +163,7 @@ def polish(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         left["one level"].append(
             [miss(model, one_level(model, shape, w, k), full) / before for k in LEFT_AFTER]
         )
-    # as out of a file: nothing is computed yet
+    # as loaded from a file, with nothing computed yet
     loaded = replace(model, problem=read_problem(args.problem)).session()
     loaded.set_parameters(reference.parameters[0])
     result: dict[str, Any] = {
@@ -173,7 +173,7 @@ def polish(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     }
     rows: Rows = [
         ("unseen samples", len(milliseconds), ""),
-        ("ms an evaluation", result["ms_per_evaluation"], "one thread"),
+        ("ms per evaluation", result["ms_per_evaluation"], "one thread"),
         ("ten iterations, first time, ms", result["first_ms"], "with the factor"),
         ("ten iterations, later, ms", result["ten_ms"], ""),
     ]
@@ -186,7 +186,7 @@ def polish(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def one_level(model: Model, shape: np.ndarray, w: np.ndarray, iterations: int) -> np.ndarray:
-    """The snapshots' solver on the scalar factor alone, from a shape."""
+    """The snapshots' solver with the scalar factor alone, from a shape."""
     problem = model.problem
     batch = problem.system.solve_fast(
         problem.inputs(w[None]),
@@ -210,10 +210,10 @@ def main() -> None:
     )
     parser.add_argument("--part", choices=PARTS, default="estimates")
     parser.add_argument("--problem", default="dragon")
-    parser.add_argument("--samples", type=int, default=100, help="that the model is made of")
+    parser.add_argument("--samples", type=int, default=100, help="training samples of the model")
     parser.add_argument("--dimension", type=int, default=40)
     parser.add_argument("--calibration", type=int, default=50, help="samples of the calibration")
-    parser.add_argument("--unseen", type=int, default=60, help="samples to compare on")
+    parser.add_argument("--unseen", type=int, default=60, help="samples for the comparison")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -1,4 +1,4 @@
-"""What the benchmarks share: the meshes' folder, tables, JSON."""
+"""Shared functions of the benchmarks: the meshes' folder, solves, errors, tables, JSON."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def read_problem(name: str) -> ss.PosingProblem:
 
 
 def creature_problem(tets: int) -> ss.PosingProblem:
-    """The generated creature, feet fixed, head moving; St.Venant-Kirchhoff, as the shared ones."""
+    """The generated creature, feet fixed, head moving, St.Venant-Kirchhoff as in the folder."""
     mesh = generators.creature(tets)
     parts = generators.creature_handles(mesh)
     handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
@@ -47,7 +47,7 @@ def creature_problem(tets: int) -> ss.PosingProblem:
 
 
 def with_material(problem: ss.PosingProblem, kind: str) -> ss.PosingProblem:
-    """The problem with another material, all moduli 1."""
+    """The problem with another material, with all moduli 1."""
     return ss.PosingProblem(
         problem.mesh,
         problem.handles,
@@ -58,7 +58,7 @@ def with_material(problem: ss.PosingProblem, kind: str) -> ss.PosingProblem:
 
 
 def progress(state: ss.SolveProgress) -> None:
-    """Samples done, on standard error."""
+    """Shows the number of finished samples on standard error."""
     if sys.stderr.isatty():
         print(f"\r{state.done}/{state.total} samples ", end="", file=sys.stderr, flush=True)
 
@@ -68,16 +68,17 @@ def solved(
     parameters: np.ndarray,
     *,
     known: ss.Snapshots | None = None,
-    **how: Any,
+    **options: Any,
 ) -> ss.Snapshots:
-    """Snapshots with options; progress, which costs error estimates, where somebody sees it."""
+    """Snapshots with options of the solver; progress, which costs time, on a terminal only."""
     shown = progress if sys.stderr.isatty() else None
-    options = ss.SolverOptions(**how)
-    return ss.solve_snapshots(problem, parameters, options=options, progress=shown, known=known)
+    return ss.solve_snapshots(
+        problem, parameters, options=ss.SolverOptions(**options), progress=shown, known=known
+    )
 
 
 def references(problem: ss.PosingProblem, count: int) -> ss.Snapshots:
-    """Tight solutions at parameters that no sample has."""
+    """Tight solutions at unseen parameters."""
     parameters = unseen_parameters(problem.domain, count, seed=1)
     return solved(problem, parameters, tolerance=1e-9, max_iterations=5000)
 
@@ -121,10 +122,10 @@ def show(
 def drag(
     model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int, **options: Any
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Milliseconds of solve and of solve + all vertices along a smooth path through the domain.
+    """Milliseconds of solves, and of solves with all vertices, on a path through the domain.
 
-    The path joins random parameters of the domain by straight lines, 60 frames each: a hand that
-    moves from one end of the domain to another in a second. Options are those of the session.
+    The path joins random parameters of the domain by straight lines, 60 frames each: like a hand
+    that moves across the domain in a second. Options are those of the session.
     """
     corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
     session = model.session(**options)
@@ -142,7 +143,7 @@ def drag(
 
 
 def best_of(repeats: int, work: Callable[[], Any]) -> float:
-    """Shortest seconds of work()."""
+    """The shortest time of work(), in seconds."""
     seconds = []
     for _ in range(repeats):
         begin = time.perf_counter()

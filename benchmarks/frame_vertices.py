@@ -1,4 +1,4 @@
-"""The part `vertices` of benchmarks/online.py: tau + U q against what the memory delivers."""
+"""The part `vertices` of benchmarks/online.py: tau + U q against the memory's read rate."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Rows = list[tuple[str, Any, str]]
 
 
 def vertices(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """tau + U q for 32k vertices, in double and for the screen; bound: one thread reads U once."""
+    """tau + U q for 32k vertices, in double and for the screen; bound: one thread reading U."""
     rng = np.random.default_rng(args.seed)
     n, d = 32_000, args.dimension
     tau, modes = rng.normal(size=3 * n), rng.normal(size=(d, 3 * n))
-    q = rng.normal(size=d) / np.arange(1, d + 1)  # falls as coordinates of PCA do
+    q = rng.normal(size=d) / np.arange(1, d + 1)  # decreasing like coordinates of a PCA
     bound = modes.nbytes / core.read_bandwidth(modes.nbytes)
     compiled = core.time_reconstruct(tau, modes, q)
     called = common.best_of(30, lambda: core.reconstruct(tau, modes, q))
@@ -51,6 +51,6 @@ def vertices(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         ("for the screen, one thread, ms", 1e3 * shown[0], ""),
         ("for the screen, ms", 1e3 * shown[1], "<= 0.6"),
         ("share of the read rate", screen_bound / shown[1], ""),
-        ("off, share of the displacement", float(off), "<= 2e-5"),
+        ("error, share of the displacement", float(off), "<= 2e-5"),
     ]
     return result, rows

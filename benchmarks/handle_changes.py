@@ -1,4 +1,4 @@
-"""Problems before and after their handles were changed."""
+"""Pairs of problems, before and after a change of handles."""
 
 from __future__ import annotations
 
@@ -14,35 +14,35 @@ Pair = tuple[ss.PosingProblem, ss.PosingProblem]
 
 
 def changed(name: str, change: Callable[[ss.TetMesh, ss.Handles], ss.Handles]) -> Pair:
-    """A problem of `problems` in stable neo-Hookean, and with other handles."""
+    """A problem of `problems` in stable neo-Hookean, and the same with other handles."""
     given = problems.read(name)
     old = ss.PosingProblem(given.mesh, given.handles, domain=given.domain)
     return old, old.with_handles(change(old.mesh, old.handles))
 
 
 def with_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
-    """And the Dragon's tail."""
+    """Adds the Dragon's tail."""
     x, y, _ = mesh.vertices.T
     return handles.adding("tail", np.flatnonzero((x < -3.9) & (y > 0)))
 
 
 def with_spots_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
-    """And Spot's tail."""
+    """Adds Spot's tail."""
     _, y, z = mesh.vertices.T
     return handles.adding("tail", np.flatnonzero((z > 0.85) & (y > -0.4)))
 
 
 def with_creatures_tail(mesh: ss.TetMesh, handles: ss.Handles) -> ss.Handles:
-    """And the creature's tail."""
+    """Adds the creature's tail."""
     return handles.adding("tail", creature_handles(mesh)["tail"])
 
 
 def backwards(pair: Pair) -> Pair:
-    """The change undone."""
+    """The inverse change."""
     return pair[1], pair[0]
 
 
-#: Problems before and after, made anew by each call.
+#: Problems before and after; each call makes them again.
 CHANGES: dict[str, Callable[[], Pair]] = {
     "Dragon, and the tail": lambda: changed("dragon", with_tail),
     "creature, and the tail": lambda: changed("creature", with_creatures_tail),

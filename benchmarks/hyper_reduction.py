@@ -2,10 +2,10 @@
 
 python benchmarks/hyper_reduction.py --problem dragon elephant --samples 1000
 
-Errors are against tight full solutions, as `validate` makes them. Poses are reached in one jump
-from rest, and (drag) in a straight line of 20 frames. A call is `set_parameters` with what sets the
-handles, warm its solve alone. Only St.Venant-Kirchhoff has an exact quartic; materials.py has the
-errors of other materials.
+Errors are against tight full solutions, as in `validate`. Poses are reached in one jump from rest,
+and (drag) along a straight line of 20 frames. "Call" is all of `set_parameters` in a drag, "warm"
+its solve alone. Only St.Venant-Kirchhoff has an exact quartic; materials.py has the errors of other
+materials.
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ def main() -> None:
     parser.add_argument("--problem", nargs="+", default=["dragon", "elephant"])
     parser.add_argument("--material", default="stvk")
     parser.add_argument("--samples", type=int, default=1000)
-    parser.add_argument("--tolerance", type=float, default=1e-5, help="of the samples")
-    parser.add_argument("--settling", type=float, help="of the samples, instead of a tolerance")
+    parser.add_argument("--tolerance", type=float, default=1e-5, help="tolerance of the samples")
+    parser.add_argument("--settling", type=float, help="settling, instead of a tolerance")
     parser.add_argument("--dimensions", type=int, nargs="+", default=[20, 40, 60, 120, 250])
-    parser.add_argument("--tets", type=int, help="of each cubature; default: 8 d, at most 1000")
+    parser.add_argument("--tets", type=int, help="tets of a cubature; default: 8 d, at most 1000")
     parser.add_argument("--exact-up-to", type=int, default=40, help="largest d of the quartic")
-    parser.add_argument("--validate", type=int, default=30, help="held-out parameters")
+    parser.add_argument("--validate", type=int, default=30, help="number of held-out parameters")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
@@ -58,7 +58,7 @@ def main() -> None:
 
 
 def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
-    """A row per model."""
+    """One row per model."""
     problem = common.with_material(common.read_problem(name), args.material)
     parameters = ss.sample(problem.domain, args.samples, method="sobol", seed=args.seed)
     stop = {"tolerance": args.tolerance} if args.settling is None else {"settling": args.settling}
@@ -88,7 +88,7 @@ def solutions(
 ) -> tuple[np.ndarray, float]:
     """Displacements (k, 3n) of reduced solves from rest, and the median ms of their last frames.
 
-    With several frames the handles go there in a straight line.
+    With several frames the handles move along a straight line.
     """
     session, shapes, seconds = model.session(), [], []
     for w in reference.parameters:

@@ -1,4 +1,4 @@
-"""Shape interpolation on real poses: seconds per stage, errors, ms per frame, fits apart.
+"""Shape interpolation on real poses: seconds per stage, errors, ms per frame, and fits.
 
 python benchmarks/interpolation.py --set helix
 python benchmarks/interpolation.py --set centaur
@@ -21,7 +21,7 @@ from snapspace.fitting import fit_poses
 
 @dataclass(frozen=True)
 class Set:
-    """Poses of the meshes' folder, and the figures to reach."""
+    """Poses of the meshes' folder, and the target figures."""
 
     reference: str
     poses: tuple[str, ...]
@@ -78,7 +78,7 @@ SETS = {
 
 
 def read_poses(chosen: Set, names: tuple[str, ...]) -> tuple[ss.Poses, list[object], float]:
-    """The poses, the fits' reports, and the seconds that fitting took."""
+    """The poses, the reports of the fits, and the seconds of fitting."""
     folder = common.meshes_folder()
     reference = folder / chosen.reference
     if not reference.is_file():
@@ -101,9 +101,9 @@ def read_poses(chosen: Set, names: tuple[str, ...]) -> tuple[ss.Poses, list[obje
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--set", default="helix", choices=SETS)
-    parser.add_argument("--poses", help="names instead of the usual ones, with commas")
-    parser.add_argument("--material", default="stvk", help="default: the paper's")
-    parser.add_argument("--validate", type=int, default=20, help="held-out samples")
+    parser.add_argument("--poses", help="other poses, by name, separated by commas")
+    parser.add_argument("--material", default="stvk", help="default: that of the paper, stvk")
+    parser.add_argument("--validate", type=int, default=20, help="number of held-out samples")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     chosen = SETS[args.set]
@@ -151,7 +151,7 @@ def main() -> None:
     rows = [
         ("poses", ", ".join(poses.names), ""),
         ("vertices / tets", f"{result['vertices']} / {result['tets']}", ""),
-        ("fitting the poses, s", fitting, "apart"),
+        ("fitting the poses, s", fitting, "not in the sum"),
         ("mean shape, s", float(stages[0]), ""),
         ("snapshots, s", float(stages[1]), ""),
         ("basis + coefficients, s", float(stages[2]), ""),

@@ -1,8 +1,8 @@
-"""Factor or multigrid cycle in the seed of the solvers: on the same samples, in one run.
+"""Factor against multigrid cycle in the seed of the solvers, on the same samples in one run.
 
     python benchmarks/inverse.py --problem creature:250000 spot
 
-Both are made and used for every problem; the last row says which one a problem takes by itself.
+Both are used for every problem; the last row says which one the problem uses by default.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ Rows = list[tuple[str, Any, str]]
 
 
 def with_inverse(name: str, kind: core.InverseKind) -> ss.PosingProblem:
-    """The problem with a system whose inverse is of this kind."""
+    """The problem with a system that has an inverse of this kind."""
     problem = common.read_problem(name)
-    # the problem keeps its system under this name once it is made
+    # the cached property of the problem
     problem.__dict__["system"] = core.PosingSystem(
         problem.mesh.vertices,
         problem.mesh.tets,

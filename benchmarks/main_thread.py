@@ -1,11 +1,11 @@
-"""Work of a page's main thread per picture, by wall clock and by processor time, out of a trace.
+"""Work of a page's main thread per picture, in wall time and processor time, from a trace.
 
 The page's own work is what the thread does for it from one picture to the next: event handlers,
-timers, animation frames, style, layout, hit tests and garbage collection, apart from the call that
-draws the picture. Apart from it are told: what the tester's own listeners and callbacks take, which
-no user has; the browser's painting; and all that the thread did, with the browser's housekeeping
-and the tester's commands. Processor time is the thread's own: where software rendering keeps all
-cores busy the thread is often put aside, and only wall time grows by that.
+timers, animation frames, style, layout, hit tests and garbage collection, without the call that
+draws the picture. Three figures are separate: the work of the tester's listeners and callbacks,
+which users do not have; the browser's painting; and all work of the thread, including the browser's
+housekeeping and the tester's commands. Processor time counts only this thread. Where software
+rendering keeps all cores busy, the thread often has to wait, which adds only to wall time.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ COUNTED = {
 }
 PAINTING = {"PrePaint", "Paint", "Layerize"}
 TASK = "ThreadControllerImpl::RunTask"
-# An event of its own: the trace has its times, and marks would take longer than what they measure.
-TELL_DRAWING = """() => {
+# A separate event: the trace has its times. Marks would take longer than what they measure.
+MARK_DRAWING = """() => {
   const { stage } = snapspace, { renderer } = stage, drawing = document.createElement("i");
   const render = renderer.render.bind(renderer);
   drawing.addEventListener("draw", () => render(stage.scene, stage.camera));
@@ -41,14 +41,14 @@ Event = dict[str, Any]
 
 
 class Work(NamedTuple):
-    """Milliseconds by the wall clock, and of the processor."""
+    """Milliseconds of wall time and of processor time."""
 
     wall: float
     cpu: float
 
 
 class Picture(NamedTuple):
-    """Work from the picture before to this one, the calls that draw them left out."""
+    """Work from the previous picture to this one, without the calls that draw them."""
 
     own: Work
     tester: Work
@@ -57,13 +57,13 @@ class Picture(NamedTuple):
 
 
 class MainThread:
-    """Traces a page that shows a model, from its making to `pictures`."""
+    """Traces a page that shows a model, from construction until `pictures` is called."""
 
     def __init__(self, page: Any) -> None:
         self._page = page
         self._events: list[Event] = []
         self._is_complete = False
-        page.evaluate(TELL_DRAWING)
+        page.evaluate(MARK_DRAWING)
         self._devtools = page.context.new_cdp_session(page)
         self._devtools.on("Tracing.dataCollected", lambda part: self._events.extend(part["value"]))
         self._devtools.on("Tracing.tracingComplete", self._complete)
@@ -73,7 +73,7 @@ class MainThread:
         )
 
     def pictures(self) -> list[Picture]:
-        """Ends the trace."""
+        """Ends the trace, and returns the work for each picture."""
         self._devtools.send("Tracing.end")
         while not self._is_complete:
             self._page.wait_for_timeout(20)
@@ -84,7 +84,7 @@ class MainThread:
 
 
 def per_picture(events: list[Event], address: str) -> list[Picture]:
-    """Work of the thread that draws; functions of `address` are the page's, others the tester's."""
+    """Work of the drawing thread; functions from `address` are the page's, others the tester's."""
     events = [event for event in events if event["ph"] == "X" and "tdur" in event]
     drawings = sorted(filter(_is_drawing, events), key=lambda event: event["ts"])
     events = [event for event in events if event["tid"] == drawings[0]["tid"]]
@@ -92,7 +92,7 @@ def per_picture(events: list[Event], address: str) -> list[Picture]:
 
     def is_testers(part: Event) -> bool:
         inner = [call for call in calls if 0 <= call["ts"] - part["ts"] < part["dur"]]
-        if not inner:  # a promise that is kept by an animation frame calls nothing
+        if not inner:  # a promise resolved by an animation frame calls no function
             return part["name"] == "FireAnimationFrame"
         return all(call["args"]["data"].get("url") != address for call in inner)
 
@@ -112,13 +112,13 @@ def per_picture(events: list[Event], address: str) -> list[Picture]:
 
 
 class _Between:
-    """Sums of what began between two pictures."""
+    """Sums of the work that began between two pictures."""
 
     def __init__(self, drawings: list[Event]) -> None:
         self._pairs = list(pairwise(drawings))
 
     def works(self, parts: Iterable[Event], *, draws: bool = True) -> list[Work]:
-        """For each picture but the first. `draws` if one of the parts has the drawing in it."""
+        """Work for each picture except the first; `draws` if one of the parts contains drawing."""
         parts = list(parts)
         return [self._work(parts, *pair, draws) for pair in self._pairs]
 
@@ -137,7 +137,7 @@ def _is_drawing(event: Event) -> bool:
 
 
 def _outermost(events: Iterable[Event]) -> list[Event]:
-    """Those that are in no other one, by time."""
+    """The events that no other event contains, in order of time."""
     found: list[Event] = []
     for event in sorted(events, key=lambda event: (event["ts"], -event["dur"])):
         if not found or event["ts"] >= found[-1]["ts"] + found[-1]["dur"]:

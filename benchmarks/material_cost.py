@@ -1,4 +1,4 @@
-"""What solving samples costs, by material: parts `cost` and `newton` of materials.py."""
+"""Cost of solving samples, by material: parts `cost` and `newton` of materials.py."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ import problems
 import snapspace as ss
 from snapspace import _core as core
 
-#: Iterations of a timed call, and its samples: several packs of 16.
+#: Iterations and samples of a timed call; the samples fill several packs of 16.
 ITERATIONS, BATCH = 20, 32
-#: A tolerance that is never met in so few iterations.
+#: A tolerance that is never reached in so few iterations.
 NEVER = 1e-30
 
 
 def cost(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """Milliseconds an evaluation, and seconds of settled samples, both over St.VK's.
+    """Milliseconds per evaluation, and seconds of settled samples, both relative to St.VK.
 
-    An evaluation is that of the whole fast solver for one sample: single precision, soft modes, a
-    fixed number of iterations. The materials take turns, and the medians of the rounds count.
+    An evaluation is one of the whole fast solver for one sample: single precision, soft modes, a
+    fixed number of iterations. The materials take turns; results are medians over the rounds.
     """
     bodies = {kind: common.with_material(problems.read(name), kind) for kind in _with_stvk(args)}
     samples = ss.sample(bodies["stvk"].domain, args.samples or 300, method="sobol", seed=args.seed)
     for body in bodies.values():
-        body.solving.soft_modes()  # made before anything is timed
+        body.solving.soft_modes()  # made before timing
     starts = {kind: body.guesses(samples[:BATCH]) for kind, body in bodies.items()}
     each: dict[str, list[float]] = {kind: [] for kind in bodies}
     settled: dict[str, list[float]] = {kind: [] for kind in bodies}
@@ -56,17 +56,17 @@ def cost(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
 
 
 def newton(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """Seconds a sample of Newton's method over those of the fast solver, both settled or solved.
+    """Seconds per sample of Newton's method over those of the fast solver.
 
-    The fast solver takes all samples, as in a build, and Newton's method the first few of them. All
-    stop where the problem's snapshots do by default.
+    The fast solver solves all samples, as in a build, and Newton's method the first few of them.
+    All stop at the default criterion of the problem's snapshots.
     """
     kinds = [(kind, None) for kind in _with_stvk(args)]
     kinds += [(kind, "absolute") for kind in args.material if kind != "stvk"]
     fast: dict[str, float] = {}
     for kind, projection in kinds:
         body = common.with_material(problems.read(name), kind)
-        # the first of Sobol's are mild, and few of Newton's are solved
+        # random: the first points of a Sobol sequence are mild, and Newton's method solves few
         samples = ss.sample(body.domain, args.samples or 300, seed=args.seed)
         if kind not in fast:
             seconds, _ = cpu_seconds(lambda body=body, w=samples: common.solved(body, w))
@@ -87,7 +87,7 @@ def newton(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
 
 
 def ratio(values: list[float], others: list[float]) -> float:
-    """The median of the rounds' ratios: the machine is faster in some than in others."""
+    """The median of the rounds' ratios, since the machine's speed varies between rounds."""
     return float(np.median(np.divide(values, others)))
 
 

@@ -1,4 +1,4 @@
-"""How near frames are to the truth: part `live` of materials.py."""
+"""Errors of frames against full solutions: part `live` of materials.py."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ SAMPLES, DIMENSIONS = (800, 1600), (120, 180)
 def live(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
     """Errors of frames after one jump from rest, relative to the displacement, by material.
 
-    The truth are tight full solutions at unseen parameters. Cold is such a jump, warm a frame of a
-    drag; both are the solve alone, without the vertices.
+    They are measured against tight full solutions at unseen parameters. "Cold" is such a jump,
+    "warm" a frame of a drag; both are the solve alone, without the vertices.
     """
     for kind in args.material:
         body = common.with_material(problems.read(name), kind)

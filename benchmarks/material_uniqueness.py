@@ -1,4 +1,4 @@
-"""Are solutions unique? Part `uniqueness` of materials.py."""
+"""Whether solutions are unique: part `uniqueness` of materials.py."""
 
 from __future__ import annotations
 
@@ -17,19 +17,21 @@ from snapspace.mesh import mass_norms
 from snapspace.validation import unseen_parameters
 
 TOLERANCE, MOST_ITERATIONS = 1e-10, 5000
-#: Samples among which a pose has its nearest neighbour.
+#: Number of samples from which a pose takes its nearest neighbour.
 NEIGHBOURS = 48
-#: How far noise moves every vertex, in mean edge lengths. Strong noise has this standard deviation
-#: in every coordinate, which moves a vertex 0.48 edge lengths in the mean and up to about 1.3.
+#: Distance that noise moves every vertex, in mean edge lengths. Strong noise has this standard
+#: deviation in every coordinate, which moves a vertex by 0.48 edge lengths on average and up to
+#: about 1.3.
 NOISE = 0.3
 STRONG = "strong noise"
 
 
 def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    """Distances of tight solutions that start from different shapes, and their inverted tets.
+    """Distances between tight solutions from different starts, and their inverted tets.
 
-    Distances are relative to the displacement, in the norm of the masses. "distance" is the largest
-    between two solutions of a pose, strong noise left out; the others are those from rest.
+    Distances are relative to the displacement, in the mass norm. "distance" is the largest between
+    two solutions of a pose, without strong noise; the others are distances to the solution from
+    rest.
     """
     for kind in args.material:
         body = common.with_material(problems.read(name), kind)
@@ -68,7 +70,7 @@ def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
 
 
 def _starts(body: ss.PosingProblem, parameters: np.ndarray, seed: int) -> dict[str, np.ndarray]:
-    """Displacements (k, 3n) to start from, by name; "rest" is the first."""
+    """Starting displacements (k, 3n) by name; "rest" is the first."""
     rest = np.zeros((len(parameters), body.base.size))
     samples = ss.sample(body.domain, NEIGHBOURS, method="sobol", seed=seed)
     solved = common.solved(body, samples, tolerance=1e-5)

@@ -1,6 +1,6 @@
-"""The materials, compared with each other in the same run.
+"""Comparison of materials in one run.
 
-    python benchmarks/materials.py --part cost         # of the fast solver, over St.VK's
+    python benchmarks/materials.py --part cost         # the fast solver, relative to St.VK
     python benchmarks/materials.py --part newton       # Newton's method over the fast solver
     python benchmarks/materials.py --part uniqueness   # tight solutions from several starts
     python benchmarks/materials.py --part live         # frames against tight full solutions
@@ -48,7 +48,7 @@ GROUPS = {
 
 
 def named(names: list[str]) -> list[str]:
-    """Names of problems, with those of the groups in their place."""
+    """Names of problems, with groups replaced by their members."""
     return [problem for name in names for problem in GROUPS.get(name, (name,))]
 
 
@@ -59,15 +59,19 @@ def main() -> None:
     parser.add_argument("--part", choices=PARTS, required=True)
     parser.add_argument("--problem", nargs="+", help="default: those of the part's goals")
     parser.add_argument("--material", nargs="+", help="default: those of the part's goals")
-    parser.add_argument("--samples", type=int, help="default: cost and newton 300")
-    parser.add_argument("--rounds", type=int, default=5, help="cost: of all materials in turn")
-    parser.add_argument("--newton", type=int, default=6, help="newton: its samples")
-    parser.add_argument("--validate", type=int, help="unseen poses: uniqueness 8, live 30")
-    parser.add_argument("--tolerance", type=float, default=1e-7, help="live: of the samples")
-    parser.add_argument("--dimension", type=int, help="live; see material_live.py")
-    parser.add_argument("--tets", type=int, default=1000, help="live: of the cubature")
+    parser.add_argument(
+        "--samples", type=int, help="default: cost and newton 300; live: see material_live.py"
+    )
+    parser.add_argument("--rounds", type=int, default=5, help="cost: rounds of all materials")
+    parser.add_argument("--newton", type=int, default=6, help="newton: samples of Newton's method")
+    parser.add_argument("--validate", type=int, help="unseen poses; default: uniqueness 8, live 30")
+    parser.add_argument(
+        "--tolerance", type=float, default=1e-7, help="live: tolerance of the samples"
+    )
+    parser.add_argument("--dimension", type=int, help="live: d; default: see material_live.py")
+    parser.add_argument("--tets", type=int, default=1000, help="live: tets of the cubature")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--json", action="store_true", help="one line per row, as they come")
+    parser.add_argument("--json", action="store_true", help="one line per row, once it is known")
     args = parser.parse_args()
     args.material = args.material or MATERIALS[args.part]
     table = None
@@ -85,7 +89,7 @@ def main() -> None:
 
 
 def material_goals(part: str) -> str:
-    """What the figures of a part should be, in one line."""
+    """The goals of a part's figures, in one line."""
     goals: dict[str, str] = {
         "cost": "over stvk: stable-neo-hookean <= 1.05, others <= 1.5; its settled samples <= 1",
         "newton": "newton over fast: stvk >= 200",

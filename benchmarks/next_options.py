@@ -1,11 +1,11 @@
-"""Poor models, what `next_option` advises for them, and the errors after it was followed.
+"""Poor models, the advice of `next_option` for them, and the errors after following it.
 
 python benchmarks/next_options.py
 python benchmarks/next_options.py --problem creature:25000 --samples 60 --dimension 40 --tets 40
 
-Without options: problems of the meshes' folder (SNAPSPACE_MESHES) and generated ones, with few
-samples, few tets or few dimensions. Errors are those of 12 unseen samples, the same before and
-after. Material: stable neo-Hookean, but `exact` is St.Venant-Kirchhoff with its quartic.
+Without options it takes problems of the meshes' folder (SNAPSPACE_MESHES) and generated ones, with
+few samples, few tets or few dimensions. Errors are those of 12 unseen samples, the same before and
+after. The material is stable neo-Hookean; `exact` is St.Venant-Kirchhoff with its quartic.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ BLENDS = [("lizard of 4 poses", 20, 8, None), ("lizard of 4 poses", 40, 24, 24)]
 def poor_model(
     problem: ss.PosingProblem | ss.InterpolationProblem, samples: int, d: int, tets: int | None
 ) -> ss.ReducedModel:
-    """A model of the first Sobol samples."""
+    """A model from the first Sobol samples."""
     snapshots = ss.solve_snapshots(problem, ss.sample(problem.domain, samples))
     usable = snapshots.select(snapshots.usable)
     subspace = ss.snapshot_pca(snapshots, dimension=d)
@@ -53,7 +53,7 @@ def trial(
     d: int,
     tets: int | None,
 ) -> dict[str, Any]:
-    """Errors before and after, and what was advised."""
+    """Errors before and after, and the advice."""
     begin = time.perf_counter()
     reference = solved_reference(problem, samples=12)
     full_seconds = (time.perf_counter() - begin) / len(reference)
@@ -96,17 +96,17 @@ def main() -> None:
     parser.add_argument("--dimension", type=int, default=30)
     parser.add_argument("--tets", type=int)
     parser.add_argument("--json", action="store_true")
-    asked = parser.parse_args()
-    if asked.problem:
-        cases = [(asked.problem, asked.samples, asked.dimension, asked.tets)]
+    args = parser.parse_args()
+    if args.problem:
+        cases = [(args.problem, args.samples, args.dimension, args.tets)]
     else:
-        there = (meshes_folder() / "problems").is_dir()
-        cases = [case for case in POSING if there or case[0].startswith("creature")]
+        has_meshes = (meshes_folder() / "problems").is_dir()
+        cases = [case for case in POSING if has_meshes or case[0].startswith("creature")]
     rows = [trial(name, posing_problem(name), *sizes) for name, *sizes in cases]
-    if not asked.problem:
+    if not args.problem:
         poses = ss.InterpolationProblem(ss.Poses.of(lizard_poses(4, 4000, seed=1)))
         rows += [trial(name, poses, *sizes) for name, *sizes in BLENDS]
-    if asked.json:
+    if args.json:
         print(json.dumps(rows))
         return
     table = Table(

@@ -1,14 +1,14 @@
-"""The live solve: the exact quartic, a drag, ARAP beside it, vertices, large meshes, coefficients.
+"""The live solve: the exact quartic, a drag, ARAP, vertices, large meshes, coefficients.
 
-    python benchmarks/online.py --part quartic       # against what the caches deliver, and NumPy
-    python benchmarks/online.py --part drag          # Newton's method and BFGS on a hand's way
+    python benchmarks/online.py --part quartic       # against the caches' read rate, and NumPy
+    python benchmarks/online.py --part drag          # Newton's method and BFGS during a drag
     python benchmarks/online.py --part arap          # libigl's ARAP on the same mesh and handles
-    python benchmarks/online.py --part vertices      # against what the memory delivers
+    python benchmarks/online.py --part vertices      # against the memory's read rate
     python benchmarks/online.py --part mesh          # frame time at 25k and at 1M tets
     python benchmarks/online.py --part coefficients  # against the rate of a symmetric product
 
-Times of one run are compared with each other: ratios hold, seconds depend on the machine. A model
-file (--model) spares the snapshots.
+Times of one run are compared with each other: ratios are general, seconds depend on the machine. A
+model file (--model) saves solving snapshots.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def model_of(args: argparse.Namespace) -> ss.PosingModel:
 def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     """Energy, gradient and Hessian of random quartics, against two bounds.
 
-    Reading the coefficients once, and three multiply-adds for each of them.
+    The bounds are reading the coefficients once, and three multiply-adds per coefficient.
     """
     rng = np.random.default_rng(args.seed)
     peak = core.peak_flops(single=False)
@@ -61,7 +61,7 @@ def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         gram = rng.normal(size=(len(pairs[0]), len(pairs[0])))
 
         def dense(x: np.ndarray = x, pairs: Any = pairs, gram: np.ndarray = gram) -> Any:
-            """x_i x_j (A x x)_ij with its gradient: the form that a dense matrix has."""
+            """x_i x_j (A x x)_ij with its gradient, by a dense matrix A."""
             outer = x[pairs[0]] * x[pairs[1]]
             product = gram @ outer
             gradient = np.zeros(len(x))
@@ -107,7 +107,7 @@ def quartic(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def drag(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """A hand that moves through the domain, 60 frames from one end to another."""
+    """A drag through the domain, 60 frames from one random motion to the next."""
     model = model_of(args)
     result: dict[str, Any] = {"dimension": model.dimension}
     rows: Rows = []
@@ -135,7 +135,7 @@ def drag(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def arap(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """As-rigid-as-possible on the tets with the same handles, ten iterations a frame."""
+    """As-rigid-as-possible on the tets with the same handles, ten iterations per frame."""
     try:
         import igl
     except ImportError:
@@ -165,7 +165,7 @@ def arap(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         "frame": float(np.median(with_vertices)),
     }
     rows: Rows = [
-        ("ARAP of libigl, 10 iterations, ms a frame", 1e3 * result["arap"], ""),
+        ("ARAP of libigl, 10 iterations, ms per frame", 1e3 * result["arap"], ""),
         ("solve, ms", 1e3 * result["solve"], ""),
         ("solve and vertices, ms", 1e3 * result["frame"], ""),
         ("times faster, solve", result["arap"] / result["solve"], ""),
@@ -175,7 +175,7 @@ def arap(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """The same reduced problem beside a small and a large mesh, frames in turn."""
+    """The same reduced problem with a small and a large mesh, frames in turn."""
     problem = common.creature_problem(args.sizes[0])
     samples = ss.sample(problem.domain, 40, seed=args.seed)
     snapshots = common.solved(problem, samples)
@@ -183,7 +183,7 @@ def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     small = ss.reduce(problem, subspace, snapshots=snapshots)
     large_problem = common.creature_problem(args.sizes[1])
     size = (subspace.dimension, large_problem.tau.size)
-    basis = np.random.default_rng(args.seed).normal(size=size).T  # only its size matters here
+    basis = np.random.default_rng(args.seed).normal(size=size).T  # only its size matters
     large = replace(
         small,
         problem=large_problem,
@@ -211,7 +211,7 @@ def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def coefficients(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """The quartic's coefficients; bound: the symmetric product that they are, at BLAS's rate."""
+    """The quartic's coefficients; bound: as a symmetric product at the rate of BLAS."""
     problem = common.read_problem(args.problem)
     rng = np.random.default_rng(args.seed)
     d, n = args.dimension, len(problem.mesh.vertices)
@@ -248,7 +248,7 @@ def main() -> None:
     )
     parser.add_argument("--part", choices=PARTS, default="quartic")
     parser.add_argument("--problem", default="dragon")
-    parser.add_argument("--model", help="a .snapspace file: drag and arap take it as it is")
+    parser.add_argument("--model", help="a .snapspace file, for drag and arap")
     parser.add_argument("--samples", type=int, default=64)
     parser.add_argument("--dimension", type=int, default=40)
     parser.add_argument("--frames", type=int, default=600)

@@ -2,10 +2,10 @@
 
     python benchmarks/page.py dragon.snapspace dragon120.snapspace
 
-Solve times are of the same drag, a straight way between random motions of the handles, 60 frames
-each, in the page (WebAssembly) and in the native engine (one thread), in one run. Work per frame
-(main_thread.py) is what the main thread does besides drawing while a pointer moves over the shape,
-grabs a handle, drags it and lets go, several times.
+Solve times are those of the same drag in the page (WebAssembly) and in the native engine (one
+thread), in one run. The drag goes straight from one random motion of the handles to the next, 60
+frames each. Work per frame (main_thread.py) is what the main thread does besides drawing while a
+pointer moves over the shape, grabs a handle, drags it and releases it, several times.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ SOFTWARE_WEBGL = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-sw
 READY = "new Promise(function look(done) { snapspace.ready ? done() : setTimeout(look, 10, done) })"
 FRAME = "new Promise((done) => requestAnimationFrame(done))"
 DRAWN = "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-# Batches of ten solves: a page's clock may tick in tenths of milliseconds only.
+# Batches of ten solves, since a page's clock may have a resolution of only 0.1 ms.
 SOLVES = """(frames) => {
   const times = [];
   for (let first = 0; first < frames.length; first += 10) {
@@ -45,7 +45,7 @@ SOLVES = """(frames) => {
 Motions = list[tuple[int, dict[str, list[float]]]]
 
 
-def way(model: ss.PosingModel, frames: int, seed: int) -> np.ndarray:
+def drag_path(model: ss.PosingModel, frames: int, seed: int) -> np.ndarray:
     """Parameters of a drag from rest."""
     ends = ss.sample(model.problem.domain, frames // 60 + 1, seed=seed)
     ends = np.vstack([np.zeros_like(ends[:1]), ends])
@@ -57,7 +57,7 @@ def way(model: ss.PosingModel, frames: int, seed: int) -> np.ndarray:
 
 
 def motions(model: ss.PosingModel, parameters: np.ndarray) -> Motions:
-    """What the page's session takes for one parameter vector."""
+    """One parameter vector as motions for the page's session."""
     offsets = model.problem.offsets(parameters)
     return [
         (
@@ -72,7 +72,7 @@ def motions(model: ss.PosingModel, parameters: np.ndarray) -> Motions:
 
 
 def native(model: ss.PosingModel, path: np.ndarray) -> list[float]:
-    """Milliseconds of solves, mean of ten at a time as in the page."""
+    """Milliseconds of solves, as means of ten as in the page."""
     session = model.session()
     times = np.array([1e3 * session.pose(w).seconds for w in path])
     means: list[float] = times.reshape(-1, 10).mean(axis=1).tolist()
@@ -80,7 +80,7 @@ def native(model: ss.PosingModel, path: np.ndarray) -> list[float]:
 
 
 def pointer_drag(page: Any, handle: int, steps: int) -> None:
-    """Comes to a handle's centre, grabs it and moves on an ellipse, a frame for each step."""
+    """Moves to a handle's centre, grabs it and moves on an ellipse, one frame per step."""
     x, y = page.evaluate(f"snapspace.handle({handle})")
     for far in (60, 30, 0):
         page.mouse.move(x + far, y + far)
@@ -119,8 +119,8 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
             pointer_drag(page, moving[drag % len(moving)], args.steps)
         pictures = thread.pictures()
         page.evaluate("snapspace.session.reset()")
-        drag = way(model, args.frames, seed=7)
-        solves = page.evaluate(SOLVES, [motions(model, w) for w in drag])
+        path_of_drag = drag_path(model, args.frames, seed=7)
+        solves = page.evaluate(SOLVES, [motions(model, w) for w in path_of_drag])
         shown = page.evaluate("snapspace.session.model.space.vertices")
         page.close()
     return {
@@ -131,7 +131,7 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         "opened_ms": opened[0],
         "started_ms": opened[1],
         "solve": summary(solves),
-        "native_solve": summary(native(model, drag)),
+        "native_solve": summary(native(model, path_of_drag)),
         "work": summary([picture.own.wall for picture in pictures]),
         "cpu_work": summary([picture.own.cpu for picture in pictures]),
         "cpu_tester": summary([picture.tester.cpu for picture in pictures]),
@@ -160,9 +160,9 @@ def rows(figures: dict[str, Any]) -> list[tuple[str, Any, str]]:
         ("the same, its processor time, ms, median", cpu["median"], "<= 3 at 25k"),
         ("... 95 %", cpu["p95"], "<= 3 at 25k"),
         ("... worst", cpu["worst"], "<= 3 at 25k"),
-        ("not in it: the tester's listeners, median", figures["cpu_tester"]["median"], ""),
-        ("not in it: the browser's painting, median", figures["cpu_painting"]["median"], ""),
-        ("all that the thread does besides drawing, median", figures["cpu_thread"]["median"], ""),
+        ("not included: the tester's listeners, median", figures["cpu_tester"]["median"], ""),
+        ("not included: the browser's painting, median", figures["cpu_painting"]["median"], ""),
+        ("all work of the thread besides drawing, median", figures["cpu_thread"]["median"], ""),
     ]
 
 
@@ -171,10 +171,10 @@ def main() -> None:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("models", nargs="+", type=Path, help=".snapspace files of posing models")
-    parser.add_argument("--frames", type=int, default=300, help="of the simulated drag")
-    parser.add_argument("--drags", type=int, default=6, help="by the pointer")
-    parser.add_argument("--steps", type=int, default=30, help="of each of them")
-    parser.add_argument("--query", default="", help="such as ?deform=cpu")
+    parser.add_argument("--frames", type=int, default=300, help="frames of the simulated drag")
+    parser.add_argument("--drags", type=int, default=6, help="number of drags by the pointer")
+    parser.add_argument("--steps", type=int, default=30, help="steps of each of these drags")
+    parser.add_argument("--query", default="", help="query of the address, such as ?deform=cpu")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()
     program = shutil.which("chromium") or sys.exit("needs chromium on the path")

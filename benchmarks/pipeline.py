@@ -16,9 +16,9 @@ import numpy as np
 import snapspace as ss
 from snapspace.cli.memory import peak_memory_bytes
 
-PAPER = {  # table 1 and 2: samples, seconds for snapshots and coefficients, ms per frame, error
-    "dragon": "paper: 8121 s + 5162 s, 9.9 ms a frame, error 0.042",
-    "elephant": "paper: 3608 s + 5663 s, 21 ms a frame, error 0.009",
+PAPER = {  # tables 1 and 2: seconds for snapshots and coefficients, ms per frame, error
+    "dragon": "paper: 8121 s + 5162 s, 9.9 ms per frame, error 0.042",
+    "elephant": "paper: 3608 s + 5663 s, 21 ms per frame, error 0.009",
 }
 
 
@@ -27,7 +27,7 @@ def main() -> None:
     parser.add_argument("--problem", default="dragon")
     parser.add_argument("--samples", type=int, default=300)
     parser.add_argument("--dimension", type=int, default=40)
-    parser.add_argument("--validate", type=int, default=30, help="held-out samples")
+    parser.add_argument("--validate", type=int, default=30, help="number of held-out samples")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -1,7 +1,7 @@
 """Posing problems by name: those of the meshes' folder, and generated ones that need no files.
 
-Protocols and defaults are chosen on one half of them and judged on the other. What was tuned in the
-past, the Dragon, the Elephant and the creature, belongs to the first half.
+Protocols and defaults are chosen on one half of them and judged on the other. The problems that
+earlier tuning used, the Dragon, the Elephant and the creature, belong to the first half.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from snapspace.generators.implicit_shapes import bent_cone, smooth_union, sphere
 
 #: Names of the meshes' folder.
 SHARED = ("dragon", "elephant", "spot", "armadillo", "dog_head", "hand_five_fingers")
-#: Handles are as stiff as this over the squared diagonal, so that a problem has no unit of length.
+#: Stiffness of handles times the squared diagonal, so that results do not depend on the unit.
 STIFFNESS = 2e5
 
 
@@ -62,7 +62,7 @@ def bar() -> ss.PosingProblem:
 
 
 def bridge() -> ss.PosingProblem:
-    """A flat bar held at both ends, whose middle moves: 6 parameters."""
+    """A flat bar held at both ends, with a moving middle: 6 parameters."""
     mesh = generators.bar(48, 10, 4, length=6.0, width=1.2, height=0.5)
     x = mesh.vertices[:, 0]
     handles = ss.Handles(
@@ -73,7 +73,7 @@ def bridge() -> ss.PosingProblem:
 
 
 def helix() -> ss.PosingProblem:
-    """A rod wound up to a helix, moved at one end: 6 parameters."""
+    """A rod wound into a helix, moved at one end: 6 parameters."""
     radial, along = 3, 120
     mesh = generators.helix(radial, along)
     disc = len(mesh.vertices) // (along + 1)
@@ -115,8 +115,8 @@ GENERATED: dict[str, Callable[[], ss.PosingProblem]] = {
     "tripod": tripod,
 }
 NAMES = (*SHARED, *GENERATED)
-#: Of --problem.
-HELP = f"of {', '.join(NAMES)}, or creature:TETS"
+#: Help text of --problem.
+HELP = f"any of {', '.join(NAMES)}, or creature:TETS"
 #: Defaults are chosen on these, and judged on the others.
 CHOOSING = ("dragon", "elephant", "armadillo", "creature", "creature_with_tail")
 JUDGING = ("spot", "dog_head", "hand_five_fingers", "bar", "bridge", "helix", "tripod")

@@ -1,4 +1,4 @@
-"""Random, Sobol and greedy samples: errors on unseen parameters, by count and by time.
+"""Random, Sobol and greedy samples: errors at unseen parameters, by number and by time.
 
 python benchmarks/sampling.py --problem dragon --samples 200
 """
@@ -27,7 +27,7 @@ def main() -> None:
     parser.add_argument("--problem", default="dragon")
     parser.add_argument("--samples", type=int, default=200)
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=METHODS)
-    parser.add_argument("--unseen", type=int, default=32, help="held-out samples")
+    parser.add_argument("--unseen", type=int, default=32, help="number of held-out samples")
     parser.add_argument("--reduced", type=int, default=20, help="d of the reduced solves")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--threads", type=int)
@@ -53,7 +53,7 @@ def main() -> None:
 
 
 def unseen_snapshots(problem: ss.PosingProblem, count: int, *, threads: int | None) -> ss.Snapshots:
-    """Tight solutions at parameters that no sampling method takes."""
+    """Tight solutions at parameters that no sampling method uses."""
     points = np.random.default_rng([count, 77]).random((count, problem.domain.dimension))
     options = ss.SolverOptions(tolerance=10 * REFERENCE_TOLERANCE, max_iterations=5000)
     return ss.solve_snapshots(
@@ -62,7 +62,7 @@ def unseen_snapshots(problem: ss.PosingProblem, count: int, *, threads: int | No
 
 
 def solve(problem: ss.PosingProblem, method: str, args: argparse.Namespace) -> Any:
-    """The snapshots, and a function that gives the seconds until so many were there."""
+    """The snapshots, and a function that returns the seconds until so many were finished."""
     wall, cpu, done = [0.0], [0.0], [0]
     begin = time.perf_counter(), time.process_time()
 
@@ -91,7 +91,7 @@ def solve(problem: ss.PosingProblem, method: str, args: argparse.Namespace) -> A
 def errors(
     solved: ss.Snapshots, unseen: ss.Snapshots, count: int, reduced: int, *, threads: int | None
 ) -> dict[str, list[float]]:
-    """Of the first samples: projection errors of the unseen ones, and those of reduced solves."""
+    """Projection errors of unseen samples with the first samples, and errors of reduced solves."""
     problem = solved.problem
     gram = ss.SnapshotGram.of(problem)
     gram.add([*solved.displacements, *unseen.displacements])

@@ -1,12 +1,12 @@
-"""The snapshot engine: speed, hardware limits, growth with the mesh, all problems.
+"""The snapshot engine: speed, hardware limits, growth with the mesh, all problems, other handles.
 
     python benchmarks/snapshots.py --part speed      # against Newton's method, and the subspace
-    python benchmarks/snapshots.py --part limits     # of the processor, and how near the loops are
+    python benchmarks/snapshots.py --part limits     # loops against the limits of the processor
     python benchmarks/snapshots.py --part growth     # cost of a sample, 25k to 1M tets
     python benchmarks/snapshots.py --part problems   # every problem of the meshes' folder
     python benchmarks/snapshots.py --part handles    # other handles for a body that has a model
 
-Times of one run are compared with each other: ratios hold, seconds depend on the machine.
+Times of one run are compared with each other: ratios are general, seconds depend on the machine.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ Rows = list[tuple[str, Any, str]]
 
 
 def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """All samples by the fast solver, some of them by Newton's method, and the two subspaces.
+    """All samples by the fast solver, some by Newton's method, and the two subspaces.
 
-    In rounds: the machine is faster in some minutes than in others, and both get their share.
+    The solvers take turns in rounds, since the speed of the machine varies.
     """
     fast, fast_seconds, newton_seconds = fast_and_newton(args)
     newton_samples = args.newton * args.rounds
@@ -49,8 +49,8 @@ def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     }
     rows: Rows = [
         ("samples, all", len(fast), ""),
-        ("fast, s with all set-up: mean", fast_mean, "<= 30, then 15"),
-        ("fast, s with all set-up: longest", max(fast_seconds), ""),
+        ("fast, s including set-up: mean", fast_mean, "<= 30, then 15"),
+        ("fast, s including set-up: longest", max(fast_seconds), ""),
         ("fast, evaluations each", result["fast_evaluations"], ""),
         ("converged", f"{result['fast_converged']} of {len(fast)}", "all"),
         ("newton, s each", newton_each, f"{newton_samples} samples"),
@@ -73,8 +73,8 @@ def speed(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 def fast_and_newton(args: argparse.Namespace) -> tuple[ss.Snapshots, list[float], list[float]]:
     """The fast solver's samples, and the seconds of each round of both solvers.
 
-    Every round of the fast solver begins with nothing computed; Newton's samples of a round go on
-    where those of the one before have ended.
+    Every round of the fast solver starts without any results. Newton's method continues in each
+    round with the next samples.
     """
     fast_seconds, newton_seconds = [], []
     newton: ss.Snapshots | None = None
@@ -93,7 +93,7 @@ def fast_and_newton(args: argparse.Namespace) -> tuple[ss.Snapshots, list[float]
 
 
 def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """The element kernel and the solves against what a core can do."""
+    """The element kernel and the solves against the peak of a core."""
     problem = common.read_problem(args.problem)
     u = 0.01 * np.random.default_rng(args.seed).standard_normal(problem.base.size)
     result: dict[str, Any] = {
@@ -106,7 +106,7 @@ def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
     for single in (True, False):
         name = "single" if single else "double"
         peak = core.peak_flops(single=single)
-        # the preconditioner is in single precision always
+        # the preconditioner is always in single precision
         solve_peak = core.peak_flops(single=True)
         parts = core.time_parts(problem.system, u, single=single)
         kernel = parts.kernel_flops / parts.kernel_seconds
@@ -120,10 +120,10 @@ def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         }
         rows += [
             (f"{name}: multiply-adds in registers, GFLOP/s", peak / 1e9, ""),
-            (f"{name}: element kernel, ms a pack", 1e3 * parts.kernel_seconds, ""),
+            (f"{name}: element kernel, ms per pack", 1e3 * parts.kernel_seconds, ""),
             (f"{name}: element kernel, GFLOP/s", kernel / 1e9, ""),
             (f"{name}: element kernel, share of peak", kernel / peak, ">= 0.5"),
-            (f"{name}: {solves}, ms a pack", 1e3 * parts.solve_seconds, ""),
+            (f"{name}: {solves}, ms per pack", 1e3 * parts.solve_seconds, ""),
             (f"{name}: {solves}, GFLOP/s", solve / 1e9, ""),
             (f"{name}: {solves}, share of peak", solve / solve_peak, ">= 0.5"),
         ]
@@ -131,7 +131,7 @@ def limits(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """Seconds per sample for creatures of several sizes, and the exponent that fits them."""
+    """Seconds per sample for creatures of several sizes, and the fitted exponent."""
     sizes, seconds, entries = [], [], []
     rows: Rows = []
     for tets in args.sizes:
@@ -164,7 +164,7 @@ def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
             (f"{sizes[-1]} tets: {inverse}, s", inverse_seconds, f"{products / 1e6:.1f}M products")
         )
         rows.append(
-            (f"{sizes[-1]} tets: s a sample", seconds[-1], f"{evaluations:.0f} evaluations")
+            (f"{sizes[-1]} tets: s per sample", seconds[-1], f"{evaluations:.0f} evaluations")
         )
         rows.append((f"{sizes[-1]} tets: peak memory so far, GiB", memory / 2**30, "< 16"))
     exponent = float(np.polyfit(np.log(sizes), np.log(seconds), 1)[0])
@@ -173,7 +173,7 @@ def growth(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """Share of converged samples, iterations and inverted tets of all problems."""
+    """Converged samples, iterations and inverted tets of all problems."""
     folder = common.meshes_folder() / "problems"
     result: dict[str, Any] = {}
     rows: Rows = []
@@ -207,9 +207,9 @@ def problems(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
 
 
 def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
-    """Other handles for a body that has a model: starting over against beginning with that model.
+    """Other handles for a body that has a model: starting over against starting from that model.
 
-    In stable neo-Hookean, with defaults. Errors are those of 30 unseen motions.
+    The material is stable neo-Hookean, options are defaults. Errors are those of 30 unseen motions.
     """
     result: dict[str, Any] = {}
     rows: Rows = []
@@ -218,7 +218,7 @@ def handles(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         before = ss.accurate_model(old, seed=args.seed).model
         assert isinstance(before, ss.PosingModel)
         begin = time.perf_counter()
-        fresh = make()[1]  # nothing of it is computed yet
+        fresh = make()[1]  # with nothing computed yet
         over = ss.accurate_model(fresh, seed=args.seed)
         seconds = time.perf_counter() - begin
         first = next(ss.growing_models(make()[1], seed=args.seed, start=before))
@@ -253,8 +253,8 @@ def main() -> None:
     parser.add_argument("--part", choices=PARTS, default="speed")
     parser.add_argument("--problem", default="dragon")
     parser.add_argument("--samples", type=int, help="default: 300; growth 100; problems 64")
-    parser.add_argument("--rounds", type=int, default=3, help="speed: of both solvers in turn")
-    parser.add_argument("--newton", type=int, default=4, help="Newton's samples of each round")
+    parser.add_argument("--rounds", type=int, default=3, help="speed: rounds of both solvers")
+    parser.add_argument("--newton", type=int, default=4, help="Newton's samples per round")
     parser.add_argument("--tight", action="store_true", help="speed: also compare the subspaces")
     parser.add_argument(
         "--sizes", type=int, nargs="+", default=[25_000, 75_000, 250_000, 1_000_000]

@@ -2,10 +2,10 @@
 
     python benchmarks/solvers.py --problem dragon --samples 10
 
-Each solves as it would in a build: "newton" starts from the nearest finished sample (paper,
-sec. 4.2), "fast" from an interpolation of the finished ones. Newton's linear systems are solved by
-conjugate gradients on the scalar factor; --direct also times one sparse factorisation of its first
-matrix, the alternative.
+Each solves as in a build: "newton" starts from the nearest finished sample (paper, sec. 4.2),
+"fast" from an interpolation of finished samples. Newton's linear systems are solved by conjugate
+gradients, preconditioned by the scalar factor. --direct also times the alternative, one sparse
+factorisation of the first matrix.
 """
 
 from __future__ import annotations
@@ -52,14 +52,14 @@ def main() -> None:
     args = parser.parse_args()
 
     problem = common.read_problem(args.problem)
-    _ = problem.system  # one factor serves both
+    _ = problem.system  # both share one factor
     parameters = ss.sample(problem.domain, args.samples, seed=args.seed)
     fast_seconds, fast = timed(problem, parameters, ss.SolverOptions(tolerance=args.tolerance))
     newton_options = ss.SolverOptions(solver="newton", tolerance=args.tolerance, clamp=args.clamp)
     newton_seconds, newton = timed(problem, parameters, newton_options)
 
     values = np.array([[r.value for r in s.reports] for s in (fast, newton)])
-    excess = values[0] / values[1] - 1.0  # negative: the fast solution has less energy
+    excess = values[0] / values[1] - 1.0  # negative: the fast solution has a lower energy
     result = {
         "problem": args.problem,
         "samples": args.samples,

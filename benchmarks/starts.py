@@ -1,8 +1,8 @@
-"""Starts of samples: how near they are, and what solves from them take; all in one run.
+"""Starts of samples: their errors, and the cost of solves from them, in one run.
 
     python benchmarks/starts.py --problem dragon --known 0 16 36 100
 
-The solutions that starts are compared with are tight ones.
+Starts are compared with tight solutions.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from snapspace.snapshots.starts import interpolated_start
 
 Rows = list[tuple[str, Any, str]]
 
-#: Samples that each start is tried on.
+#: Number of samples on which each kind of start is tested.
 WANTED = 32
 
 
 def starts(
     problem: ss.PosingProblem, samples: np.ndarray, rows: np.ndarray
 ) -> dict[str, np.ndarray]:
-    """Starts of the last samples: from the rest shape, and from those of which rows are known."""
+    """Starts of the last samples: the rest shape, and guesses from the samples with known rows."""
     known, wanted = range(len(rows)), range(len(rows), len(samples))
     found = {
         "rest": np.zeros((WANTED, problem.base.size)),
@@ -49,11 +49,11 @@ def starts(
 def measured(
     problem: ss.PosingProblem, samples: np.ndarray, start: np.ndarray, exact: np.ndarray
 ) -> dict[str, float]:
-    """The start's error, and the evaluations of a loose solve and of one until it settles."""
+    """The start's error, and the evaluations of a loose solve and of a settled one."""
     mass, size = problem.mass(), mass_norms(problem.mass(), exact.T)
     error = mass_norms(mass, (start - exact).T) / size
     result = {"error": float(np.median(error))}
-    for name, how in (
+    for name, options in (
         ("loose", {"tolerance": 1e3 * problem.solving.tolerance}),
         ("settled", {"tolerance": problem.solving.tolerance, "settling": 0.01}),
     ):
@@ -65,7 +65,7 @@ def measured(
             control=core.SolveControl(),
             single=True,
             modes=problem.solving.soft_modes(),
-            **how,
+            **options,
         )
         result[name] = float(np.mean([report.evaluations for report in batch.reports]))
     return result

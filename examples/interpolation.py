@@ -1,4 +1,4 @@
-"""A cylinder that becomes a helix: from two poses to blends of any weights."""
+"""A cylinder that becomes a helix: from two poses to blends with any weights."""
 
 import numpy as np
 

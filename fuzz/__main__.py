@@ -1,4 +1,4 @@
-"""Runs the fuzzers for a time that they share, and prints how many files each has read."""
+"""Runs the fuzzers, which share the given time, and prints how many files each has read."""
 
 from __future__ import annotations
 
@@ -18,12 +18,19 @@ FAILURES = ROOT / "build" / "fuzz" / "failures"
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m fuzz", description=__doc__)
-    parser.add_argument("targets", nargs="*", metavar="TARGET", help=f"of {', '.join(TARGETS)}")
-    parser.add_argument("--seconds", type=float, default=120.0, help="in all (default: 120)")
     parser.add_argument(
-        "--executions", type=int, default=10**9, help="at most, of each target; the same every time"
+        "targets", nargs="*", metavar="TARGET", help=f"any of {', '.join(TARGETS)} (default: all)"
     )
-    parser.add_argument("--seed", type=int, default=0, help="of the mutations (default: 0)")
+    parser.add_argument(
+        "--seconds", type=float, default=120.0, help="time of all fuzzers together (default: 120)"
+    )
+    parser.add_argument(
+        "--executions",
+        type=int,
+        default=10**9,
+        help="largest number of files per target; the files are the same in every run",
+    )
+    parser.add_argument("--seed", type=int, default=0, help="seed of the mutations (default: 0)")
     options = parser.parse_args()
     names = options.targets or list(TARGETS)
     unknown = [name for name in names if name not in TARGETS]
@@ -47,8 +54,8 @@ def fuzz(name: str, corpus: Path, seed: int, seconds: float, executions: int) ->
         list(map(str, command)), cwd=ROOT, capture_output=True, text=True, encoding="utf-8"
     )
     lines = finished.stdout.splitlines() or ["0 0"]
-    count, taken, reason = [*lines[-1].split(" ", 2), ""][:3]
-    about = f"{name}: {count} executions, {taken} files taken"
+    count, accepted, reason = [*lines[-1].split(" ", 2), ""][:3]
+    about = f"{name}: {count} executions, {accepted} files accepted"
     if finished.returncode == 0:
         print(f"{about}, no fault", flush=True)
         return False

@@ -1,4 +1,4 @@
-"""Mutations of model and sample files that readers do not refuse for their checksum at once."""
+"""Mutations of model and sample files with valid checksums, so that readers look further."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Header = dict[str, Any]
 
 
 def changed_container(data: bytes, random: Random) -> bytes:
-    """The container with other entries, numbers or shapes, and the checksum that these have."""
+    """The container with changed entries, numbers or shapes, and a matching checksum."""
     header, arrays = _parsed(data)
     metadata: Header = dict(header["__metadata__"])
     for _ in range(random.choice((1, 1, 2, 3))):

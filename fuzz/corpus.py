@@ -1,4 +1,4 @@
-"""The files that mutations begin with: small ones of every kind, written by the project itself."""
+"""The corpus: small files of every kind, written by the project itself, to be mutated."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def mesh() -> TetMesh:
 
 @cache
 def posing_problem(material: ss.Material | None = None) -> ss.PosingProblem:
-    """The bar between its ends, of St.Venant-Kirchhoff unless another material is given."""
+    """The bar with handles at its ends; St.Venant-Kirchhoff unless a material is given."""
     x = mesh().vertices[:, 0]
     handles = ss.Handles([x < x.min() + 0.1, x > x.max() - 0.1], names=["foot", "head"])
     domain = ss.HandleBox(translation=0.2, angle=0.3)
@@ -36,7 +36,7 @@ def posing_problem(material: ss.Material | None = None) -> ss.PosingProblem:
 
 @cache
 def snapshots() -> ss.Snapshots:
-    """Twelve solutions of it."""
+    """Twelve solutions of the posing problem."""
     problem = posing_problem()
     return ss.solve_snapshots(problem, ss.sample(problem.domain, 12, seed=1), threads=1)
 
@@ -62,7 +62,7 @@ def models() -> Iterator[tuple[str, ss.ReducedModel]]:
 
 
 def write_corpus(folder: Path) -> None:
-    """Writes the files of all targets, each into the folder of its kind."""
+    """Writes the files for all targets, each into the folder of its kind."""
     for kind in ("model", "page", "samples", "checkpoint", "problem", "surface", "tets"):
         (folder / kind).mkdir(parents=True, exist_ok=True)
     for name, model in models():
@@ -85,7 +85,7 @@ def write_corpus(folder: Path) -> None:
 
 
 def posing_model(material: ss.Material | None = None, *, energy: str) -> ss.PosingModel:
-    """A model of the bar in three dimensions."""
+    """A model of the bar with three modes."""
     problem = posing_problem(material)
     solved = ss.solve_snapshots(problem, ss.sample(problem.domain, 12, seed=1), threads=1)
     subspace = ss.snapshot_pca(solved, dimension=3)
@@ -126,7 +126,7 @@ def _write_tets(folder: Path) -> None:
 
 
 def _rows(table: np.ndarray, header: str) -> str:
-    """A table as TetGen and VegaFEM write it: counted, and each row with its number."""
+    """A table as TetGen and VegaFEM write it: with a count, and each row with its number."""
     rows = [" ".join(map(str, [i, *row])) for i, row in enumerate(table.tolist(), start=1)]
     return "\n".join([f"{len(table)} {header}", *rows]) + "\n"
 

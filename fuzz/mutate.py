@@ -1,11 +1,11 @@
-"""Mutations of files: bytes, words of numbers, tokens of text, and the entries of containers."""
+"""Mutations of files: changed bytes, binary numbers and tokens of text."""
 
 from __future__ import annotations
 
 import re
 from random import Random
 
-#: Tokens that readers of text find hard.
+#: Tokens that are hard for readers of text.
 TOKENS = [
     b"nan", b"inf", b"-inf", b"1e400", b"-1e308", b"1e-320", b"-0", b"0", b"1", b"-1", b"3", b"255",
     b"256", b"65536", b"2147483647", b"2147483648", b"-2147483649", b"4294967296",
@@ -14,7 +14,7 @@ TOKENS = [
     b'""', b"/", b"#", b"\\", b"\n", b"\r", b"\0", b"\xff\xfe", b"\xc2\xb2", "٣".encode(),
     b"x" * 300,
 ]  # fmt: skip
-#: Words of 1, 2, 4 and 8 bytes, as counts, indices and numbers: signs, ends of ranges, NaN.
+#: Binary words of 1, 2, 4 and 8 bytes, for counts, indices and numbers: signs, limits, NaN.
 WORDS = [
     value.to_bytes(size, order, signed=True)
     for size in (1, 2, 4, 8)
@@ -25,7 +25,7 @@ _NUMBER = re.compile(rb"[-+.\w]+")
 
 
 def mutated(data: bytes, random: Random, others: list[bytes]) -> bytes:
-    """A few changes of a file; `others` are files of its kind, of which it may get a piece."""
+    """The content with a few changes, which may include pieces of `others`, files of its kind."""
     for _ in range(random.choice((1, 1, 1, 2, 3, 8))):
         change = random.choice((_flip, _word, _token, _token, _cut, _remove, _repeat, _insert))
         data = _splice(data, random, others) if random.random() < 0.05 else change(data, random)
@@ -33,7 +33,7 @@ def mutated(data: bytes, random: Random, others: list[bytes]) -> bytes:
 
 
 def _place(data: bytes, random: Random) -> int:
-    # the beginning of a file says most about the rest
+    # often in the beginning, since headers determine how the rest is read
     end = min(len(data), 400) if random.random() < 0.4 else len(data)
     return random.randint(0, end)
 
@@ -53,7 +53,7 @@ def _word(data: bytes, random: Random) -> bytes:
 
 
 def _token(data: bytes, random: Random) -> bytes:
-    """Another word in the place of the next one."""
+    """Replaces the next token by another one."""
     found = _NUMBER.search(data, _place(data, random))
     if not found:
         return _insert(data, random)

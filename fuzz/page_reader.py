@@ -11,7 +11,7 @@ ROOT = Path(__file__).parent.parent
 
 
 class PageReader:
-    """A node process that reads one file after the other."""
+    """A node process that reads files one by one."""
 
     def __init__(self) -> None:
         program = runpy.run_path(str(ROOT / "tools" / "node.py"))["node"]()
@@ -28,11 +28,11 @@ class PageReader:
     @staticmethod
     @cache
     def running() -> PageReader:
-        """The one of this process."""
+        """The reader of this process, started by the first call."""
         return PageReader()
 
     def read(self, path: Path) -> str:
-        """Either `read`, or `refused: ` and the message, or what else happened."""
+        """Either `read`, or `refused: ` and the message, or a description of the fault."""
         assert self._process.stdin and self._process.stdout
         self._process.stdin.write(f"{path}\n")
         self._process.stdin.flush()

@@ -1,4 +1,4 @@
-/** Reads the files whose paths come line by line, and says what became of each. */
+/** Reads files, whose paths come line by line on the standard input, and prints the outcome of each. */
 import { readFileSync } from "node:fs";
 import { createInterface } from "node:readline";
 

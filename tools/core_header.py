@@ -30,9 +30,9 @@ class Field:
 
 @dataclass(frozen=True)
 class Struct:
-    """A struct as a 32-bit WebAssembly module has it; fields of inner structs are its own.
+    """A struct in the layout of a 32-bit WebAssembly module.
 
-    They are called OUTER_INNER.
+    Fields of inner structs are its own fields, named OUTER_INNER.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Struct:
 
     @property
     def alignment(self) -> int:
-        """8 with a double, else 4."""
+        """In bytes: 8 if there is a double, else 4."""
         return 8 if any(field.type == "double" for field in self.fields) else 4
 
 
@@ -56,7 +56,7 @@ def functions() -> tuple[Function, ...]:
 
 
 def enums() -> dict[str, dict[str, int]]:
-    """Values by name, by the enum's name without prefix."""
+    """For each enum, by its name without prefix, its values by name."""
     found = re.findall(rf"\benum {PREFIX}(\w+) \{{([^}}]*)\}};", _code())
     return {
         name: {
@@ -81,7 +81,7 @@ def _struct(name: str, body: str, known: dict[str, Struct]) -> Struct:
     for line in filter(None, (part.strip() for part in body.split(";"))):
         match = re.fullmatch(r"(?:const )?((?:enum )?\w+)\s*(\*?)\s*(\w+)", line)
         if match is None:
-            raise ValueError(f"{HEADER.name}: one field a line is read, got '{line}'")
+            raise ValueError(f"{HEADER.name}: each line must have one field, got '{line}'")
         kind, pointer, field = match.groups()
         inner = known.get(kind.removeprefix(PREFIX))
         if inner is not None and not pointer:
@@ -95,7 +95,7 @@ def _struct(name: str, body: str, known: dict[str, Struct]) -> Struct:
             size = 4
             own = [Field(field, "int", end)]
         else:
-            raise ValueError(f"{HEADER.name}: the type of '{line}' is not known here")
+            raise ValueError(f"{HEADER.name}: the type of '{line}' is not supported")
         fields += own
         end += size
         alignment = max(alignment, *(8 if f.type == "double" else 4 for f in own))

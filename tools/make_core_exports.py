@@ -1,7 +1,7 @@
 """Writes web/engine/core_exports.ts: functions, codes and structs of core/online for the page.
 
-They come from core/online/snapspace_online.h. Run after a change of it; a test compares the file
-with what this script would write.
+They come from core/online/snapspace_online.h. Run this after a change of the header; a test
+compares the file with the output of this script.
 
     python tools/make_core_exports.py [--check]
 """
@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 import core_header
 
 PATH = Path(__file__).parent.parent / "web" / "engine" / "core_exports.ts"
-WIDEST = 110  # characters of a line, as prettier has them
+WIDEST = 110  # characters per line, as for prettier
 
 HEAD = """\
 // Written by tools/make_core_exports.py from core/online/snapspace_online.h.
@@ -83,7 +83,7 @@ def _camel(name: str) -> str:
 
 
 def main() -> int:
-    """Writes the file; with --check says whether it is up to date."""
+    """Writes the file; with --check only checks whether it is up to date."""
     if "--check" not in sys.argv[1:]:
         PATH.write_text(exports_text(), encoding="utf-8")
         print(f"wrote {PATH}")

@@ -1,6 +1,6 @@
 """Writes web/engine/messages.ts, the messages of snapspace/server/messages.py for the page.
 
-Run after a change of the messages; a test compares the file with what this script would write.
+Run this after a change of the messages; a test compares the file with the output of this script.
 
     python tools/make_messages.py [--check]
 """
@@ -74,7 +74,7 @@ def _comment(message: type) -> str:
 
 
 def _union(name: str, members: tuple[type, ...]) -> str:
-    # one a line if they are longer than a line, as prettier breaks them
+    # one per line if they do not fit into a line, as prettier formats them
     names = [member.__name__ for member in members]
     line = f"export type {name} = {' | '.join(names)};"
     if len(line) <= 110:
@@ -83,7 +83,7 @@ def _union(name: str, members: tuple[type, ...]) -> str:
 
 
 def main() -> int:
-    """Writes the file; with --check says whether it is up to date."""
+    """Writes the file; with --check only checks whether it is up to date."""
     if "--check" not in sys.argv[1:]:
         PATH.write_text(messages_text(), encoding="utf-8")
         print(f"wrote {PATH}")

@@ -1,6 +1,6 @@
-"""Writes snapspace/_core.pyi, the types of the compiled core, from the module that is installed.
+"""Writes snapspace/_core.pyi, the types of the compiled core, from the installed module.
 
-Run after a change of core/bindings; a test compares the file with what this script would write.
+Run this after a change of core/bindings; a test compares the file with the output of this script.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def stub_text() -> str:
     generator = StubGen(_core.core)
     generator.put(_core.core)
     text: str = generator.get()
-    # layouts are checked at the call; in the types they would only hide what is an array
+    # layouts are checked at each call; in the stub they would only make types hard to read
     text = re.sub(r"Annotated\[(NDArray\[[\w.]+\]), dict\(.*?\)\]", r"\1", text)
     text = text.replace("from typing import Annotated\n", "")
     # the number of lanes differs from build to build

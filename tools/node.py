@@ -25,7 +25,7 @@ def node() -> Path | None:
     if found is None or found.origin is None:
         return _system_node()
     folder = Path(found.origin).parent
-    # on Windows the programs lie beside the package
+    # on Windows the program is in the package's folder itself
     return next((p for p in (folder / "bin" / "node", folder / "node.exe") if p.is_file()), None)
 
 
@@ -39,7 +39,7 @@ def _system_node() -> Path | None:
 
 
 def npm() -> Path | None:
-    """npm's program for node; the package's own wrapper of it is broken."""
+    """npm's script for node; the package's own wrapper is broken."""
     program = node()
     if program is None:
         return None
@@ -50,10 +50,10 @@ def npm() -> Path | None:
 def run(
     arguments: Sequence[str | Path], *, env: Mapping[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
-    """Runs node with arguments in web/; its output is kept, nothing is raised if it fails."""
+    """Runs node with arguments in web/; captures its output, and raises nothing if it fails."""
     program = node()
     assert program is not None, "there is no Node.js"
-    # scripts that npm starts look for `node` on the path
+    # scripts started by npm look for `node` on the path
     path = os.pathsep.join([str(program.parent), os.environ.get("PATH", "")])
     return subprocess.run(
         [str(program), *map(str, arguments)],

@@ -1,12 +1,12 @@
 """Builds the core with ASan and UBSan (build/sanitize) and runs the tests of the core with it.
 
     python tools/sanitize.py                    # the widest level that this processor can run
-    python tools/sanitize.py --level baseline   # another one
-    python tools/sanitize.py tests/online -x    # other tests, options of pytest
-    python tools/sanitize.py --fuzz 60          # mutated model files
+    python tools/sanitize.py --level baseline   # another level
+    python tools/sanitize.py tests/online -x    # other tests, with options of pytest
+    python tools/sanitize.py --fuzz 60          # mutated model files, for 60 s
 
-A fault ends the tests with the sanitizer's report. Needs GCC, and an environment that
-`make setup` made.
+A fault ends the tests with the sanitizer's report. It needs GCC and the environment of
+`make setup`.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ ROOT = Path(__file__).parent.parent
 BUILD = ROOT / "build" / "sanitize"
 SUPPRESSIONS = Path(__file__).parent / "sanitizer_suppressions"
 
-#: Packages whose tests run C++ code. Tests of other processes, pages and servers are left out:
-#: the runtimes are for this process.
+#: Packages with tests that run C++ code. Tests of other processes, pages and servers are left out,
+#: since the sanitizers work in this process only.
 TESTS = (
     "certificate", "cholesky", "cubature", "displacements", "energy", "fitting", "greedy",
     "material", "multigrid", "online", "reduction", "session", "snapshots", "subspace",
 )  # fmt: skip
-#: They measure seconds, start processes, or compare with builds that are not here.
+#: These measure times, start processes, or compare with builds that do not exist here.
 LEFT_OUT = (
     "tests/snapshots/test_dask.py",
     "tests/snapshots/test_levels.py",
@@ -48,15 +48,15 @@ def main() -> int:
     options, pytest_options = parser.parse_known_args()
     compiler = build(options.level)
     folder, python = environment(options.level)
-    environment_of_runs = runtime(compiler, options.level)
+    variables = runtime(compiler, options.level)
     if options.fuzz:
         command = [python, "-m", "fuzz", "load", "load_snapshots", "--seconds", str(options.fuzz)]
-        return subprocess.call(command, cwd=folder, env=environment_of_runs)
+        return subprocess.call(command, cwd=folder, env=variables)
     chosen = [option for option in pytest_options if option.startswith("tests")]
     tests = [] if chosen else [f"tests/{name}" for name in TESTS]
     ignored = [f"--deselect={path}" for path in LEFT_OUT]
     command = [python, "-m", "pytest", *ignored, *tests, *pytest_options]
-    return subprocess.call(command, cwd=folder, env=environment_of_runs)
+    return subprocess.call(command, cwd=folder, env=variables)
 
 
 def build(level: str) -> str:
@@ -78,9 +78,9 @@ def build(level: str) -> str:
 
 
 def environment(level: str) -> tuple[Path, str]:
-    """A copy of this folder in links, with these modules in it, and a Python to run there."""
+    """A copy of this folder by links, with the sanitized modules, and a Python to run there."""
     folder = BUILD / level
-    shutil.rmtree(folder, ignore_errors=True)  # links, which are not followed
+    shutil.rmtree(folder, ignore_errors=True)  # does not follow links
     package = folder / "snapspace"
     package.mkdir(parents=True)
     left_out = {"snapspace", "build", ".venv", ".git", "__pycache__"}
@@ -95,8 +95,8 @@ def environment(level: str) -> tuple[Path, str]:
     python = venv / "bin" / "python"
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(venv)], check=True)
-    # Paths in such a file are searched, but .pth files there are not read: not that of the editable
-    # installation, which would find the usual modules first.
+    # Paths in such a file are searched, but .pth files in them are not read. So the one of the
+    # editable installation, which would find the usual modules first, has no effect.
     paths = {sysconfig.get_path("purelib"), sysconfig.get_path("platlib")}
     found = next(venv.glob("lib/python*/site-packages"))
     (found / "sanitize.pth").write_text("\n".join(paths) + "\n", encoding="utf-8")
@@ -106,8 +106,8 @@ def environment(level: str) -> tuple[Path, str]:
 def runtime(compiler: str, level: str) -> dict[str, str]:
     """The environment of a process that runs the sanitized modules."""
     libraries = []
-    # Python is not linked with the runtime, which must come first; it looks for the library that
-    # throws exceptions when it starts, and Python has not loaded that yet.
+    # Python is not linked with the runtime, which must be loaded first. When it starts, the runtime
+    # looks for the library that throws exceptions, which Python has not loaded yet.
     for name in ("libasan.so", "libstdc++.so.6"):
         command = [compiler, f"-print-file-name={name}"]
         found = subprocess.check_output(command, text=True).strip()
@@ -118,7 +118,7 @@ def runtime(compiler: str, level: str) -> dict[str, str]:
         **os.environ,
         "LD_PRELOAD": ":".join(libraries),
         "SNAPSPACE_LEVEL": level,
-        # Python keeps objects until the process ends, and reports of them would bury others.
+        # Python keeps objects until the process ends; reports of them would hide others.
         "ASAN_OPTIONS": "detect_leaks=0:strict_string_checks=1:detect_stack_use_after_return=1",
         "UBSAN_OPTIONS": f"print_stacktrace=1:suppressions={SUPPRESSIONS}",
     }

@@ -1,4 +1,4 @@
-"""Writes the arrays of a posing model for pose.c: one file of plain numbers.
+"""Writes the arrays of a posing model for pose.c, as one file of plain numbers.
 
 python examples/c/export_arrays.py creature.snapspace creature.arrays
 """
@@ -22,7 +22,7 @@ def export_arrays(model_path: str, path: str) -> None:
         model.handles.L,
         model.handles.S,
         model.subspace.tau,
-        model.subspace.basis.T,  # one mode after the other
+        model.subspace.basis.T,  # mode after mode
     ]
     with open(path, "wb") as file:
         file.write(np.array(sizes, np.int32).tobytes())

@@ -1,4 +1,4 @@
-/* Poses a model of snapspace without Python: moves its last handle and prints the vertices.
+/* Poses a Snapspace model without Python: moves its last handle and prints the vertices.
  *
  *   pose creature.arrays 0.1 0 0.2
  */
@@ -10,7 +10,7 @@
 static double* read_doubles(FILE* file, size_t count) {
   double* values = malloc(count * sizeof *values);
   if (!values || fread(values, sizeof *values, count, file) != count) {
-    fprintf(stderr, "pose: the file of arrays is not complete\n");
+    fprintf(stderr, "pose: the file of arrays is incomplete\n");
     exit(2);
   }
   return values;
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   snapspace_session* session =
       snapspace_create_posing(sizes[0], sizes[1], quartic, K, L, S, &basis, &error);
   if (!session) {
-    fprintf(stderr, "pose: the model is refused with error %d\n", error);
+    fprintf(stderr, "pose: the model was rejected with error %d\n", error);
     return 2;
   }
 

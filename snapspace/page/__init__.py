@@ -1,4 +1,4 @@
-"""The page: models that are posed and blended in the browser."""
+"""The page: poses and blends models in the browser."""
 
 from .export import export_html, page_with_model
 from .pack import packed

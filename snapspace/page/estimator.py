@@ -1,4 +1,4 @@
-"""What the page needs for certificates, small enough to travel inside of it."""
+"""The arrays that the page needs for certificates, small enough to be embedded in it."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from ..reduction import InterpolationModel, PosingModel
 
 
 def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
-    """The tets around the sampled vertices with their modes, and the calibration; none without one.
+    """The tets around the sampled vertices with their modes, and the calibration.
 
-    Modes are in single precision: 16-bit integers would drown small residuals in their rounding.
+    Empty if the model is not calibrated. Modes are in single precision: the rounding of 16-bit
+    integers would hide small residuals.
     """
     estimator = model.error_estimator
     if estimator is None:

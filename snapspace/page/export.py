@@ -1,4 +1,4 @@
-"""One HTML file with the page and a model inside: no network, opens from a disk."""
+"""Export: one HTML file with the page and a model, which opens from disk without a network."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ _TITLE = "<title>Snapspace</title>"
 
 
 def page_with_model(model: ReducedModel, *, title: str, up: str | None = None) -> str:
-    """The page as text, with a model inside.
+    """The page as HTML text, with a model embedded.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
     title : str
-        Shown as the heading and as the window's title.
+        Heading of the page, and title of the window.
     up : "x", "y" or "z", default the model's own
         Axis that points up at first.
 
     Raises
     ------
     ValueError
-        For another axis, or if the package was made without its page.
+        For an unknown axis, or if the package was built without its page.
     """
     packed_model = packed(model, name=title, up=up)
     content = base64.b64encode(packed_model).decode("ascii")
-    # the page compares it before it shows the model
+    # the page checks it before it shows the model
     checksum = f"{zlib.crc32(packed_model):08x}"
     element = (
         f'<script id="model" data-crc32="{checksum}" type="application/octet-stream">'
@@ -67,16 +67,16 @@ def export_html(
     Returns
     -------
     Path
-        The file: complete, or not there.
+        The file. If writing fails, no incomplete file is left behind.
 
     Raises
     ------
     ValueError
-        For another extension, or if the file cannot be written.
+        For an unknown extension, or if the file cannot be written.
     """
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
-        raise ValueError(f"{path}: a page ends in {' or '.join(SUFFIXES)}")
+        raise ValueError(f"{path}: the name of a page must end in {' or '.join(SUFFIXES)}")
     content = page_with_model(model, title=path.stem if title is None else title, up=up)
     with atomic_file(path) as temporary:
         temporary.write_text(content, encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The part of a model that the page needs, small enough to travel inside of it."""
+"""Packing: the part of a model that the page needs, small enough to be embedded in it."""
 
 from __future__ import annotations
 
@@ -41,44 +41,46 @@ def packed(
     before: PosingModel | None = None,
     owners: NDArray[np.int32] | None = None,
 ) -> bytes:
-    """The model as the page reads it: surface only, modes in 16 bits, coefficients in single.
+    """The model as the page reads it.
+
+    It has the surface only, modes as 16-bit integers and coefficients in single precision.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
     name : str
-        Shown as the title.
+        Title on the page.
     up : "x", "y" or "z", default the model's own
         Axis that points up at first.
     before : PosingModel, optional
-        Of the same body and handles: its shapes go over into those of a posing model.
+        An earlier model of the same body and handles, whose shapes are carried over to this one.
     owners : ndarray of int, (s,), optional
-        The handle of each vertex of the surface, -1 for none, of a posing model. By default that of
+        For a posing model, the handle of each surface vertex, -1 for none. Default: the handle of
         the nearest tet vertex.
 
     Returns
     -------
     bytes
-        safetensors layout; the same bytes for the same model and name. On the surface, shapes
-        differ from the model's by some 1e-5 of the displacement.
+        safetensors layout; the same bytes for the same model and name. Shapes of the surface
+        differ from the model's by about 1e-5 of the displacement.
 
     Raises
     ------
     TypeError
-        For another model.
+        For a model of an unknown type.
     ValueError
-        For another axis.
+        For an unknown axis.
     """
     if up is None:
         up = getattr(model, "up", "z")
     if up not in AXES:
         raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
-        kind, arrays, about = "posing", _posing_arrays(model), _posing_about(model)
+        kind, arrays, about = "posing", _posing_arrays(model), _posing_metadata(model)
         if owners is not None:
             arrays["handle_of_vertex"] = owners.astype(np.int32)
         if before is not None:
-            arrays["from_before"] = _carrying_over(before, model)
+            arrays["from_before"] = _modes_in_other(before, model)
     elif isinstance(model, InterpolationModel):
         kind, arrays = "interpolation", _interpolation_arrays(model)
         about = {
@@ -86,7 +88,7 @@ def packed(
             "lowest_weight": model.problem.domain.lowest,
         }
     else:
-        raise TypeError(f"packed: the page does not know {type(model).__name__}")
+        raise TypeError(f"packed: the page cannot show a {type(model).__name__}")
     about |= {
         "name": name,
         "up": up,
@@ -104,14 +106,14 @@ def packed(
     return safetensors_bytes(arrays | estimator_arrays(model), header)
 
 
-def _carrying_over(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
-    """What d' modes of a model are in those of another, (d, d'): the nearest in the M-norm."""
+def _modes_in_other(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
+    """The d' modes of one model in those of another, (d, d'): the closest ones in the M-norm."""
     subspace = model.subspace
     shapes = before.subspace.basis + subspace.tau[:, None]
     return np.ascontiguousarray(subspace.coordinates(shapes), np.float32)
 
 
-def _posing_about(model: PosingModel) -> dict[str, Any]:
+def _posing_metadata(model: PosingModel) -> dict[str, Any]:
     problem = model.problem
     bounds = np.vstack([np.zeros(6), problem.domain.bounds]).tolist()
     return {
@@ -179,7 +181,7 @@ def _blend_arrays(blends: PoseQuartics | BlendedCubature | FullBlends) -> Arrays
 
 
 def _on_surface(surface: EmbeddedSurface, rows: FloatArray) -> FloatArray:
-    """Of each row (3n,) what the surface's vertices follow, (k, 3s)."""
+    """Values (3n,) of each row at the vertices of the surface, (k, 3s)."""
     return np.array([surface.vertices(row).reshape(-1) for row in rows])
 
 

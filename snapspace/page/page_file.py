@@ -1,11 +1,11 @@
-"""The built page (web/), one file, as it lies in the package."""
+"""The built page (web/): one file inside the package."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
 
-#: Where a model, or the address of one, is put into the page.
+#: Placeholder in the page for a model or its address.
 PLACE = "<!-- model -->"
 
 # beside this file, also in editable installs: tools/build_page.py writes it there
@@ -19,7 +19,7 @@ def page_html() -> str:
     Raises
     ------
     ValueError
-        If the package was made without it: then tools/build_page.py has not run.
+        If the package was built without it because tools/build_page.py had not run.
     """
     try:
         return _FILE.read_text(encoding="utf-8")

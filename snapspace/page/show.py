@@ -1,4 +1,4 @@
-"""The page inside of a notebook."""
+"""NotebookPage: the page inside a notebook."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ import warnings
 from ..reduction import ReducedModel
 from .export import page_with_model
 
-#: Jupyter's gateway clients end a connection at a longer message (10 MiB, with its headers).
+#: Jupyter's gateway clients close the connection at longer messages (10 MiB, headers included).
 MOST_BYTES = 10_000_000
 
-# A block: names would outlive document.open, and with them the packed bytes.
+# The script is a block: global names, and the packed bytes with them, would outlive document.open.
 _OPENER = """<!doctype html><meta charset="utf-8"><body><script>{{
 const unpacked = async () => {{
   const packed = Uint8Array.from(atob("{content}"), (c) => c.charCodeAt(0));
@@ -30,8 +30,8 @@ unpacked().then(
 class NotebookPage:
     """A page that notebooks display: the value of `model.show()` at the end of a cell.
 
-    The page is part of the cell's output, compressed, and asks for nothing: it works on remote
-    kernels, and in notebooks that are saved and opened elsewhere. It cannot reach the notebook.
+    The page is part of the cell's output, compressed, and loads nothing else: it works on remote
+    kernels, and in notebooks that are saved and opened elsewhere. It cannot access the notebook.
 
     Parameters
     ----------
@@ -41,17 +41,17 @@ class NotebookPage:
     up : "x", "y", "z" or None
         Axis that points up at first; None: the model's own.
     height : int
-        In pixels, 100 or more.
+        Height of the frame in pixels, 100 or more.
 
     Raises
     ------
     ValueError
-        For a lower height, another axis, or if the package was made without its page.
+        For a smaller height, an unknown axis, or if the package was built without its page.
 
     Warns
     -----
     UserWarning
-        If the output has more than 10 MB: not every way to a remote kernel carries it.
+        If the output has more than 10 MB: some connections to remote kernels refuse it.
     """
 
     def __init__(self, model: ReducedModel, *, title: str, up: str | None, height: int) -> None:
@@ -62,14 +62,15 @@ class NotebookPage:
         if len(self._output) > MOST_BYTES:
             warnings.warn(
                 f"show: the output has {len(self._output) / 1e6:.1f} MB, and Jupyter's gateways "
-                f"to remote kernels carry {MOST_BYTES / 1e6:.0f} MB; where nothing appears, show "
-                f"fewer of {model.dimension} dimensions, `model.leading(d).show()`, or export_html",
+                f"to remote kernels carry {MOST_BYTES / 1e6:.0f} MB; if nothing appears, show "
+                f"fewer than {model.dimension} dimensions with `model.leading(d).show()`, or use "
+                "export_html",
                 stacklevel=3,
             )
 
     def _framed(self, page: str) -> str:
-        """The page in a frame; text inside of it is what notebooks leave that are not trusted."""
-        # mtime: the same output for the same model
+        """The page in a frame; untrusted notebooks show only the text inside the frame."""
+        # fixed mtime: the same output for the same model
         packed = gzip.compress(page.encode(), compresslevel=6, mtime=0)
         opener = html.escape(_OPENER.format(content=base64.b64encode(packed).decode("ascii")))
         title = html.escape(self._title)

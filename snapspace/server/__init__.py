@@ -1,4 +1,4 @@
-"""A local server for the page: models to pose, and meshes to choose handles on."""
+"""A local server for the page: it poses models, and chooses handles on meshes."""
 
 from .body import MESH_SUFFIXES, PROBLEM_SUFFIX, mesh_body, problem_body
 from .serve import serve

@@ -1,4 +1,4 @@
-"""The page, and what it works with, as an ASGI application."""
+"""page_app: the page, its meshes and its models as an ASGI application."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ Handler = Callable[[Request], Awaitable[Response]]
 def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Starlette:
     """Serves requests that `Guard` lets through.
 
-    GET / is the page, /model the model of the settings, /mesh/ID/NUMBER and /model/ID/NUMBER what a
-    workspace has; POST /mesh takes uploads, and /live is the websocket, see `messages`.
+    GET / is the page, /model the model of the settings, and /mesh/ID/NUMBER and /model/ID/NUMBER
+    are those of a workspace. POST /mesh takes uploads, and /live is the websocket, see `messages`.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
     Raises
     ------
     ValueError
-        If the package was made without its page, or for a model that pages do not solve.
+        If the package was built without its page, or for a model that the page cannot solve.
     """
     workspaces = Workspaces(settings)
     routes = [
@@ -60,16 +60,16 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
 
 
 def _page(settings: ServerSettings) -> Handler:
-    """The page, told where its server is, and its model if there is one."""
+    """The page with the addresses of its server and of its model, if there is one."""
     query = f"?token={settings.token}"
     places = {"snapspace-server": f"live{query}"}
     if settings.model is not None:
         places["snapspace-model"] = f"model{query}"
-    told = "".join(
+    tags = "".join(
         f'<meta name="{name}" content="{html.escape(address)}" />'
         for name, address in places.items()
     )
-    page = page_html().replace(PLACE, told)
+    page = page_html().replace(PLACE, tags)
 
     async def show_page(_: Request) -> Response:
         return HTMLResponse(page)
@@ -91,7 +91,7 @@ def _content(workspaces: Workspaces, get: Callable[[Workspace, int], bytes | Non
         if workspace is not None:
             content = await run_in_threadpool(get, workspace, request.path_params["number"])
         if content is None:
-            return PlainTextResponse("snapspace: this is not kept any more", status_code=404)
+            return PlainTextResponse("snapspace: this is no longer kept", status_code=404)
         return Response(content, media_type="application/octet-stream")
 
     return send

@@ -11,19 +11,19 @@ from starlette.types import ASGIApp
 from .live import LARGEST_MESSAGE
 from .slow_headers import PromptHeaders
 
-#: How long the end of connections is waited for at Ctrl-C.
+#: How long Ctrl-C waits for connections to end.
 GRACE_SECONDS = 1
-#: A page that is silent for longer is gone. Tunnels and sleepy machines take their time.
+#: A page that is silent for longer is gone. Tunnels and machines that wake up may be slow.
 SILENCE_SECONDS = 90
 
 
 def run(app: ASGIApp, listener: socket.socket, *, started: Callable[[], None]) -> None:
-    """Answers requests at a listening socket until Ctrl-C, which is raised again.
+    """Answers requests on a listening socket until Ctrl-C, which is raised again.
 
     Parameters
     ----------
-    app : application of starlette
-    listener : socket that listens
+    app : ASGI application
+    listener : listening socket
     started : callable without arguments
         Called once connections are accepted.
     """
@@ -44,12 +44,12 @@ def run(app: ASGIApp, listener: socket.socket, *, started: Callable[[], None]) -
 
 
 class _Server(uvicorn.Server):
-    """A server that tells when it accepts connections."""
+    """A server that calls `started` when it accepts connections."""
 
     def __init__(self, config: uvicorn.Config, started: Callable[[], None]) -> None:
         super().__init__(config)
-        self._tell = started
+        self._started = started
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets=sockets)
-        self._tell()
+        self._started()

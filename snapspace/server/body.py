@@ -1,4 +1,4 @@
-"""Body: the tets that a page chooses handles on."""
+"""Body: the tets on which a page chooses handles."""
 
 from __future__ import annotations
 
@@ -30,17 +30,17 @@ MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
 
 @dataclass(frozen=True, kw_only=True)
 class Body:
-    """A mesh and what is known of it.
+    """A mesh, with its files and, where there is one, its problem.
 
-    name : shown, and the name of files
+    name : name that is shown and given to files
     mesh : TetMesh
-    file : Path of the tets, or None if they are in no file of the user
-    folder : Path where files are saved
-    problem : PosingProblem with the handles to begin with, or None
-    surface : EmbeddedSurface that was filled, which is shown in place of the tets'; or None
-    surface_file : Path of the surface, or None if it is in no file of the user
-    up : axis that points up, or None if no file tells it
-    painted : vertices of the surface that handles of the problem were chosen by, by name
+    file : Path of the tets, or None if no file of the user has them
+    folder : Path of the folder where files are saved
+    problem : PosingProblem with the initial handles, or None
+    surface : EmbeddedSurface that was filled, shown in place of the tets' surface; or None
+    surface_file : Path of the surface, or None if no file of the user has it
+    up : axis that points up, or None if no file says it
+    painted : by the name of a handle, the vertices of the surface where it was painted
     """
 
     name: str
@@ -55,7 +55,7 @@ class Body:
 
 
 def problem_body(path: Path) -> Body:
-    """Mesh, handles and surface of a problem file; ValueError if something cannot be read."""
+    """Mesh, handles and surface of a problem file; ValueError if one of them cannot be read."""
     problem = read_problem(path)
     surface = read_problem_surface(path, problem.mesh)
     files = json.loads(path.read_text(encoding="utf-8"))
@@ -79,15 +79,16 @@ def problem_body(path: Path) -> Body:
 def mesh_body(
     path: Path, *, stage: Callable[[str], None], filling: SurfaceFilling | None = None
 ) -> Body:
-    """Tets out of a file, or made inside of its surface.
+    """Tets from a file, or made inside the surface in a file.
 
     Parameters
     ----------
     path : Path
     stage : callable
-        Gets "reading" and, for a surface, what `SurfaceFilling.fill` tells, before these parts of
-        the work.
+        Called with "reading" before the file is read and, for a surface, with the stages of
+        `SurfaceFilling.fill`.
     filling : SurfaceFilling, default quick tets
+        How to fill a surface.
 
     Raises
     ------
@@ -117,13 +118,15 @@ def mesh_body(
 
 
 def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
-    """What a model was made of, to choose other handles on.
+    """The body of a model, to choose other handles on.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel
-        With its handles to begin with, or the first one of its poses without handles.
+        A posing model gives its mesh and initial handles, an interpolation model its first pose
+        without handles.
     name : str
+        Name of the body.
     folder : Path
         Where files are saved.
     """

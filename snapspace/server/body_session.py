@@ -1,4 +1,4 @@
-"""BodySession: handles, parts, models and files of one body, as a page makes them."""
+"""BodySession: handles, parts, models and files that a page makes of one body."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ from .surface_regions import SurfaceRegions
 
 
 class BodySession:
-    """What a page does with one body.
+    """Chooses handles, computes models and saves files of one body.
 
     Parameters
     ----------
     body : Body
     models : Models
-        Of the page.
+        The page's models.
     """
 
     def __init__(self, body: Body, models: Models) -> None:
@@ -48,17 +48,17 @@ class BodySession:
         self._saved = SavedFiles()
         self._problem = body.problem
         self._given = DEFAULT_MATERIAL() if body.problem is None else body.problem.material
-        self._material = self._given  # of the last computation, without parts
-        self._factors: FloatArray | None = None  # of the parts, by tet
+        self._material = self._given  # that of the last computation, without parts
+        self._factors: FloatArray | None = None  # by tet, from the parts
         self._selection: Selection | None = None
-        self._painted: tuple[messages.HandleChoice, ...] = ()  # of a body with its own surface
+        self._painted: tuple[messages.HandleChoice, ...] = ()  # if the body has its own surface
         surface = body.surface
         self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
         if body.problem is not None:
             self._selection = Selection(body.problem.handles, body.problem.domain)
 
     def begin(self, empty: messages.Workspace, *, mesh: str) -> messages.Workspace:
-        """What the page begins with, out of the message of an empty workspace and an address."""
+        """The workspace at first, from that of an empty one and the address `mesh`."""
         shape, problem = self.body.mesh, self.body.problem
         length = TRANSLATION_SHARE * shape.diagonal
         known = replace(
@@ -89,14 +89,15 @@ class BodySession:
         )
 
     def choose(self, choice: messages.Choose) -> messages.Chosen:
-        """Takes handles and parts of a message; ValueError if no problem can have them."""
+        """Takes the handles and parts of a message; ValueError if they make no valid problem."""
         selection = selection_of(choice)
         painted: tuple[messages.HandleChoice, ...] = ()
         if self._regions is not None:
             painted = choice.handles
             selection = replace(selection, handles=self._regions.in_tets(selection.handles))
         factors = part_factors(choice.parts, self.body.mesh, self._regions)
-        problem = self._of(selection, self._stiffness, with_factors(self._material, factors))
+        material = with_factors(self._material, factors)
+        problem = self._make_problem(selection, self._stiffness, material)
         self._selection, self._factors, self._painted = selection, factors, painted
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
 
@@ -108,14 +109,16 @@ class BodySession:
         report: Reporter,
         publish: Publish,
     ) -> Computation:
-        """What `Compute` asks for, of handles and parts chosen last.
+        """The computation that `Compute` asks for, with the handles and parts chosen last.
 
         ValueError if it cannot be done.
         """
         if self._selection is None:
             raise ValueError("no handles are chosen; choose at least two, one of them fixed")
         material = chosen_material(self._given, kind=order.material, poisson=order.poisson)
-        problem = self._of(self._selection, order.stiffness, with_factors(material, self._factors))
+        problem = self._make_problem(
+            self._selection, order.stiffness, with_factors(material, self._factors)
+        )
         computation = Computation(
             problem,
             order,
@@ -130,9 +133,9 @@ class BodySession:
         return computation
 
     def painted_owners(self, model: PosingModel) -> NDArray[np.int32] | None:
-        """The handle of each surface vertex as it was painted, (s,), -1 for none.
+        """The handle painted at each surface vertex, (s,), -1 for none.
 
-        None where nothing was painted on a surface of its own, or other handles are chosen by now.
+        None if the body has no surface of its own, or if other handles have been chosen since.
         """
         names = list(model.problem.handles.names)
         if self._regions is None or sorted(h.name for h in self._painted) != sorted(names):
@@ -143,14 +146,14 @@ class BodySession:
         return owners
 
     def save(self, order: messages.Save) -> messages.Saved:
-        """Writes the problem of handles and parts chosen last, and the newest model.
+        """Writes the problem with the handles and parts chosen last, and the newest model.
 
         ValueError if there are no handles, and as for `SavedFiles.save`.
         """
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
         material = with_factors(self._material, self._factors)
-        problem = self._of(self._selection, self._stiffness, material)
+        problem = self._make_problem(self._selection, self._stiffness, material)
         newest = self._models.newest
         model = None if newest is None else newest.model
         if model is not None and order.up is not None:
@@ -167,14 +170,16 @@ class BodySession:
 
     @property
     def _stiffness(self) -> float:
-        """Of the last computation, else of the problem file, else one that suits the mesh."""
+        """That of the last computation or problem file, else the usual one for the mesh."""
         return (
             usual_stiffness(self.body.mesh, self._given)
             if self._problem is None
             else (self._problem.stiffness)
         )
 
-    def _of(self, selection: Selection, stiffness: float, material: Material) -> PosingProblem:
+    def _make_problem(
+        self, selection: Selection, stiffness: float, material: Material
+    ) -> PosingProblem:
         return selection.problem(
             self.body.mesh, material=material, stiffness=stiffness, known=self._problem
         )

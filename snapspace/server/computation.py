@@ -1,4 +1,4 @@
-"""Computation: models of a problem, better and better, for one page."""
+"""Computation: a sequence of better and better models of a problem, for one page."""
 
 from __future__ import annotations
 
@@ -16,33 +16,34 @@ from .solved_samples import SolvedSamples
 
 Publish = Callable[[Growth, float], None]
 
-#: Beyond them a computation would take hours, or more memory than there is.
+#: With more samples a computation would take hours, or more memory than there is.
 MOST_SAMPLES = 20_000
 
 
 class Computation:
-    """One answer to `Compute`.
+    """The work for one `Compute` message.
 
     Parameters
     ----------
     problem : PosingProblem
     order : Compute
     queue : ComputationQueue
-        Of the machine.
+        The queue of the machine.
     solved : SolvedSamples
-        What is known, and where finished samples are kept, also when this is stopped.
+        Known samples; finished samples are added, even if the computation is stopped.
     report : Reporter
+        Sends the progress.
     start : PosingModel or None
-        Of other handles, see `growing_models`.
+        A model with other handles to start from, see `growing_models`.
     surface : EmbeddedSurface or None
-        That the models show, in place of the tets'.
+        The surface that the models show in place of the tets' surface.
     publish : callable
-        Gets each model, and the seconds.
+        Called with each model and the seconds since the computation began.
 
     Raises
     ------
     ValueError
-        For a target, a number of samples or a seed that cannot be computed with.
+        For an invalid target, number of samples or seed.
     """
 
     def __init__(
@@ -62,23 +63,23 @@ class Computation:
         self._queue, self._solved = queue, solved
         self._report, self._publish = report, publish
         self._start, self._surface = start, surface
-        self._error: float | None = None  # of the newest model
+        self._error: float | None = None  # error of the newest model
 
     def run(self) -> None:
-        """Computes to the last model; ValueError of the numerics."""
+        """Computes all models; raises the ValueErrors of the numerics."""
         order = self._order
-        with self._queue.turn(self._waiting):
+        with self._queue.turn(self._report_waiting):
             self._report.restart()
-            self._report.tell("snapshots")
+            self._report.send("snapshots")
             try:
                 for growth in growing_models(
                     self._problem,
                     target_error=order.target_error,
                     most_samples=order.most_samples,
                     seed=order.seed,
-                    progress=self._solving,
+                    progress=self._report_solving,
                     known=self._solved.starts(self._problem),
-                    begins=self._begins,
+                    begins=self._report_stage,
                     start=self._start,
                     surface=self._surface,
                 ):
@@ -97,16 +98,16 @@ class Computation:
         if growth.step is not None:
             self._error = growth.step.error
 
-    def _waiting(self, before: int) -> None:
-        self._report.tell("waiting", 0, before)
+    def _report_waiting(self, before: int) -> None:
+        self._report.send("waiting", 0, before)
 
-    def _begins(self, part: str) -> None:
-        if part != "snapshots":
-            self._report.tell(part, error=self._error)
+    def _report_stage(self, stage: str) -> None:
+        if stage != "snapshots":
+            self._report.send(stage, error=self._error)
 
-    def _solving(self, progress: SolveProgress) -> None:
+    def _report_solving(self, progress: SolveProgress) -> None:
         done, total, eta = progress.done, progress.total, progress.eta
-        self._report.tell("snapshots", done, total, eta=eta, error=self._error)
+        self._report.send("snapshots", done, total, eta=eta, error=self._error)
 
 
 def _check(order: Compute) -> None:
@@ -115,7 +116,7 @@ def _check(order: Compute) -> None:
         check_most(order.most_samples)
         if order.most_samples > MOST_SAMPLES:
             raise ValueError(
-                f"most_samples is {order.most_samples}, but the page takes {MOST_SAMPLES} at most"
+                f"most_samples is {order.most_samples}, but the page takes at most {MOST_SAMPLES}"
             )
     if order.seed < 0:
         raise ValueError(f"seed is {order.seed}, but it must not be negative")

@@ -1,4 +1,4 @@
-"""ComputationQueue: one computation at a time, in the order they came."""
+"""ComputationQueue: runs one computation at a time, in order of arrival."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ..stopping import check_stop
 
 
 class ComputationQueue:
-    """A queue for what uses all of the machine.
+    """A queue for computations that use the whole machine.
 
-    Two computations at once would both take twice the time, and twice the memory.
+    Two computations at once would each take twice the time, and together twice the memory.
     """
 
     def __init__(self) -> None:
@@ -23,29 +23,29 @@ class ComputationQueue:
 
     @property
     def waiting(self) -> int:
-        """How many computations wait for another one."""
+        """How many computations are waiting for another one."""
         with self._changed:
             return max(len(self._queue) - 1, 0)
 
     @contextmanager
     def turn(self, waiting: Callable[[int], None]) -> Iterator[None]:
-        """Waits until those before are done, and runs the block.
+        """Waits until all earlier computations are done, then runs the block.
 
         Parameters
         ----------
         waiting : callable
-            Gets how many are before, some ten times a second while there are any.
+            Called about ten times a second while waiting, with the number of earlier computations.
 
         Raises
         ------
         Stopped
-            If this thread was told to stop while it waited.
+            If this thread was asked to stop while it waited.
         """
         ticket = object()
         with self._changed:
             self._queue.append(ticket)
         try:
-            while before := self._before(ticket):
+            while before := self._wait_for_earlier(ticket):
                 waiting(before)
                 check_stop()
             yield
@@ -54,8 +54,8 @@ class ComputationQueue:
                 self._queue.remove(ticket)
                 self._changed.notify_all()
 
-    def _before(self, ticket: object) -> int:
-        """How many come first; if there are any, after a while or a change."""
+    def _wait_for_earlier(self, ticket: object) -> int:
+        """How many come first; if there are any, waits for a change or `POLL_SECONDS`."""
         with self._changed:
             if self._queue[0] is not ticket:
                 self._changed.wait(POLL_SECONDS)

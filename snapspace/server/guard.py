@@ -1,4 +1,4 @@
-"""Which requests a local server answers."""
+"""Guard: decides which requests a local server answers."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ HEADERS = {
 }
 
 LAST_PORT = 65535
-#: A name or an address in digits, or one of IPv6 in brackets; and a port.
+#: A name, a numeric address or an IPv6 address in brackets; and a port.
 _HOST = re.compile(
     r"(?:\[(?P<address>[0-9A-Fa-f:.]+)\]|(?P<name>[0-9A-Za-z_.-]+))(?::(?P<port>[0-9]{1,5}))?",
     re.ASCII,
@@ -30,21 +30,22 @@ _HOST = re.compile(
 
 
 class Guard:
-    """Answers requests only that name this host, come from its own page, and carry the token.
+    """Answers only requests that name this host, come from its own page, and carry the token.
 
-    Websockets as well as others: browsers let any page open one to any server.
+    This includes websockets, since browsers let any page open one to any server.
 
-    Another page in the same browser could reach a local port: by its name in the Host header
-    (DNS rebinding), or with an Origin of its own. Other users of the machine do not know the token.
-    The port may be another one, as of a tunnel.
+    Another page in the same browser could reach a local port, either by its own name in the Host
+    header (DNS rebinding), or with its own Origin. Other users of the machine do not know the
+    token. The port may differ, for example behind a tunnel.
 
     Parameters
     ----------
     app : ASGIApp
+        The guarded application.
     token : str
-        In the query as token=...
-    hosts : container of str, default the names of this machine for itself
-        Names that a request may call the server by.
+        The token that the query must have as token=...
+    hosts : container of str, default this machine's local names
+        Host names that a request may use for the server.
     """
 
     def __init__(self, app: ASGIApp, *, token: str, hosts: Container[str] = LOCAL) -> None:
@@ -53,12 +54,12 @@ class Guard:
         self._hosts = hosts
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] not in ("http", "websocket"):  # lifespan: from the server itself
+        if scope["type"] not in ("http", "websocket"):  # lifespan events, from the server itself
             await self._app(scope, receive, send)
             return
         refusal = self._refusal(Headers(scope=scope), scope["query_string"])
         if scope["type"] == "websocket":
-            # closed before it is accepted, the handshake is answered with 403
+            # closing before accepting answers the handshake with 403
             answer = self._app if refusal is None else WebSocketClose(1008, refusal)
             await answer(scope, receive, send)
             return
@@ -76,7 +77,7 @@ class Guard:
         hosts, origins = headers.getlist("host"), headers.getlist("origin")
         if len(hosts) != 1 or _name(hosts[0]) not in self._hosts:
             return "snapspace: this server does not go by that name; use the address it printed"
-        # two of them: browsers send one, and whoever reads the other one would be deceived
+        # browsers send one Origin; with two, another reader of the request might use the other one
         if len(origins) > 1 or any(origin != f"http://{hosts[0]}" for origin in origins):
             return "snapspace: requests from other pages are refused"
         given = [part[6:] for part in query.split(b"&") if part.startswith(b"token=")]
@@ -88,7 +89,7 @@ class Guard:
 def _name(host: str) -> str | None:
     """The name in a Host header, in lower case and without its port; None if it is malformed.
 
-    Strictly: what readers of addresses make of user@name, name/path or spaces differs.
+    The check is strict because parsers disagree about user@name, name/path or spaces.
     """
     found = _HOST.fullmatch(host)
     if found is None or int(found["port"] or 0) > LAST_PORT:

@@ -1,4 +1,4 @@
-"""Names that requests may call a server by, in their Host header."""
+"""Host names that requests may use for a server, in their Host header."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import ipaddress
 import socket
 from collections.abc import Container
 
-#: This machine, for itself.
+#: This machine's local names.
 LOCAL: Container[str] = frozenset({"127.0.0.1", "localhost", "::1"})
 
 _EVERYWHERE = ("0.0.0.0", "::")
 
 
 class TrustedHosts:
-    """All addresses, and the names that this machine gives itself.
+    """All numeric addresses, and this machine's own names.
 
-    Another page in a browser can reach a server under a name of its own whose address it changes
-    (DNS rebinding). Nobody can do so with an address written in digits, or with a name that does
-    not come from them: for a server that listens everywhere these are as safe as its own address,
-    which it does not know.
+    Another page in a browser can reach a server under the page's own name by changing the address
+    of that name (DNS rebinding). Nobody can do so with a numeric address, or with a name that they
+    do not control. A server that listens on all addresses does not know its own, so it trusts
+    these.
     """
 
     def __init__(self) -> None:
@@ -32,14 +32,14 @@ class TrustedHosts:
 
 
 def hosts_for(host: str) -> Container[str]:
-    """The names for a server that listens at `host`."""
+    """The trusted host names of a server that listens on `host`."""
     if host in _EVERYWHERE:
         return TrustedHosts()
     return frozenset({"127.0.0.1", "localhost", "::1", host.lower()})
 
 
 def shown_host(host: str) -> str:
-    """The host in the address that is printed: one that a browser can open."""
+    """The host in the printed address: one that a browser can open."""
     if host in _EVERYWHERE:
         return socket.gethostname()
     return f"[{host}]" if ":" in host else host

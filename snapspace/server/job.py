@@ -1,4 +1,4 @@
-"""Job: long work on a thread of its own, which can be told to stop."""
+"""Job: long work on its own thread, which can be stopped."""
 
 from __future__ import annotations
 
@@ -17,27 +17,27 @@ class Job:
     work : callable
         Ends as at Ctrl-C once `stop` was called, see `stoppable`.
     failed : callable
-        Gets the error if the work raises one; not if it was told to stop.
+        Called with the error if the work raises one, unless the job was stopped.
     """
 
     def __init__(self, work: Callable[[], None], *, failed: Callable[[Exception], None]) -> None:
         self._stop = threading.Event()
         self._work, self._failed = work, failed
-        # a daemon: compiled work that cannot be stopped must not hold up the end of the program
+        # a daemon: compiled work that cannot be stopped must not delay the end of the program
         self._thread = threading.Thread(target=self._run, name=ABANDONABLE, daemon=True)
         self._thread.start()
 
     @property
     def running(self) -> bool:
-        """Whether the work has not ended yet."""
+        """Whether the work is still running."""
         return self._thread.is_alive()
 
     def stop(self) -> None:
-        """Tells the work to stop; returns at once."""
+        """Asks the work to stop, and returns at once."""
         self._stop.set()
 
     def wait(self, seconds: float) -> bool:
-        """Waits until the work has ended; whether it has."""
+        """Waits for the work to end, at most so many seconds; returns whether it has ended."""
         self._thread.join(seconds)
         return not self.running
 

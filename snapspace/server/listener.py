@@ -1,4 +1,4 @@
-"""The socket that a server listens at."""
+"""The socket on which a server listens."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import socket
 
 
 def listening(host: str, port: int) -> socket.socket:
-    """A socket at an address, port 0 for any that is free; ValueError with the cure if it fails."""
+    """A listening socket; port 0 takes any free one. ValueError with the cure if it fails."""
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     listener = socket.socket(family, socket.SOCK_STREAM)
     try:
@@ -19,9 +19,9 @@ def listening(host: str, port: int) -> socket.socket:
         taken = error.errno == errno.EADDRINUSE
         cure = "give another --port" if taken else "give another --host or --port"
         raise ValueError(
-            f"cannot listen at {host}:{port}: {error.strerror or error}; {cure}"
+            f"cannot listen on {host}:{port}: {error.strerror or error}; {cure}"
         ) from None
     except OverflowError:
         listener.close()
-        raise ValueError(f"port is {port}, but ports go from 0 to 65535") from None
+        raise ValueError(f"port is {port}, but it must be from 0 to 65535") from None
     return listener

@@ -15,17 +15,17 @@ from .wire import decoded, encoded, request_of
 from .workspace import Workspace
 from .workspaces import Workspaces
 
-#: Bytes of a message: all vertices of a mesh with a million of them are 8 MB.
+#: In bytes. A message with all vertices of a mesh of a million vertices has 8 MB.
 LARGEST_MESSAGE = 16 * 2**20
-#: Why a connection was closed: another page has its workspace now. The page reads this number.
+#: Close code when another page takes over the workspace. The page reads this number.
 TAKEN_OVER = 4001
 
 
 def live_endpoint(workspaces: Workspaces) -> Callable[[WebSocket], Awaitable[None]]:
     """Answers connections of pages.
 
-    Each has its workspace: a new one, or with workspace=ID in the query that of a page which was
-    connected before.
+    Each page has its workspace: a new one or, with workspace=ID in the query, that of a page that
+    was connected before.
     """
 
     async def live(socket: WebSocket) -> None:
@@ -79,4 +79,4 @@ async def _send(socket: WebSocket, outbox: Outbox) -> None:
             else:
                 await socket.send_text(await run_in_threadpool(encoded, item))
     except (WebSocketDisconnect, RuntimeError, OSError):
-        return  # the page is gone; the receiving side sees it too
+        return  # the page is gone; _receive sees it too

@@ -1,4 +1,4 @@
-"""Materials as a page offers and chooses them."""
+"""Materials: those that a page offers, and the one that it chooses."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from ..material import MATERIALS, Material, material_class
 from .messages import MaterialChoice
 
-#: Linear tets lock beyond.
+#: Beyond this ratio linear tets lock.
 MOST_POISSON = 0.49
 
 
@@ -24,7 +24,7 @@ def material_choices() -> tuple[MaterialChoice, ...]:
 
 
 def chosen_material(given: Material, *, kind: str | None, poisson: float | None) -> Material:
-    """The material of a message.
+    """The material that a message chooses.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
     kind : str or None
         The kind of another material with the same Lame parameters; None: that of `given`.
     poisson : float or None
-        Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: as `given`.
+        Poisson's ratio, from 0 to 0.49, with the shear modulus of `given`; None: that of `given`.
 
     Raises
     ------
@@ -42,8 +42,8 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
     """
     if poisson is not None and not 0.0 <= poisson <= MOST_POISSON:
         raise ValueError(
-            f"Poisson's ratio is {poisson:g}, but it must be from 0 to {MOST_POISSON}: tets lock "
-            "beyond"
+            f"Poisson's ratio is {poisson:g}, but it must be from 0 to {MOST_POISSON}, since tets "
+            "lock beyond that"
         )
     made = type(given) if kind is None else material_class(kind)
     if poisson is not None:
@@ -53,7 +53,7 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
 
 
 def shown_poisson(material: Material) -> float | None:
-    """Poisson's ratio in all tets; None where it differs, or is beyond 0.49."""
+    """Poisson's ratio of all tets; None if they differ, or if it is above 0.49."""
     ratios = np.atleast_1d(material.lam / (2.0 * (np.asarray(material.lam) + material.mu)))
     if np.ptp(ratios) > 1e-12 or ratios[0] > MOST_POISSON:
         return None

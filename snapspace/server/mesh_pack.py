@@ -1,4 +1,4 @@
-"""A mesh as the page reads it, to choose handles on."""
+"""packed_mesh: a mesh in the format of the page, to choose handles on."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .body import Body
 
 
 def packed_mesh(body: Body, *, up: str) -> bytes:
-    """The vertices that handles are chosen of, and the faces of the surface.
+    """The vertices that a page can choose, and the faces of the surface.
 
     Parameters
     ----------
     body : Body
-        Of a surface all vertices and its own faces. Else all vertices of the tets, also those
-        inside, and the faces of their surface.
+        If it has its own surface, all vertices and faces of that are packed. Otherwise all
+        vertices of the tets, also those inside, and the faces of their surface.
     up : "x", "y" or "z"
         Axis that points up at first.
 

@@ -1,4 +1,4 @@
-"""What messages between a page and its server are made of."""
+"""The parts of messages between a page and its server."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ Matrix = tuple[float, float, float, float, float, float, float, float, float]
 
 @dataclass(frozen=True, kw_only=True)
 class HandleChoice:
-    """A handle as the page chose it, or as a problem file has it.
+    """A handle that the page chose, or that a problem file has.
 
     name : unique among the handles
     vertices : indices among all vertices of the packed mesh, also those inside
-    moving : whether it moves while sampling; one handle at least does not
+    moving : whether it moves while sampling; at least one handle does not
     translation, angle : its own bounds of the sampled motions; null: the common ones
     """
 
@@ -30,8 +30,8 @@ class PartChoice:
     """A part of the body that is stiffer or softer.
 
     name : unique among the parts
-    vertices : as those of a handle; tets with three of their corners among them are in the part
-    factor : of all moduli there, 0.0001 to 10000; of parts that overlap the later one counts
+    vertices : as for a handle; tets with at least three corners among them are in the part
+    factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the later one counts
     """
 
     name: str
@@ -43,7 +43,7 @@ class PartChoice:
 class MaterialChoice:
     """A material that can be computed with.
 
-    kind, title : its name in files and messages, and for the reader
+    kind, title : its name in files and messages, and its name for the reader
     has_poisson : whether Poisson's ratio changes anything
     """
 
@@ -56,7 +56,7 @@ class MaterialChoice:
 class HandleMotion:
     """Where a handle is: a rigid motion about its centre at rest.
 
-    rotation : row by row
+    rotation : matrix, row by row
     """
 
     rotation: Matrix

@@ -23,11 +23,11 @@ __all__ = ["HandleChoice", "HandleMotion", "MaterialChoice", "Matrix", "PartChoi
 
 @dataclass(frozen=True, kw_only=True)
 class Choose:
-    """Page: these are the handles and parts. Answered by `Chosen`, or `Failed`.
+    """Page: choose these handles and parts. Answered by `Chosen`, or `Failed`.
 
-    request : any number of 32 bits, repeated in the answers
+    request : any 32-bit integer, repeated in the answers
     translation, angle : common bounds of the sampled motions, half widths per axis
-    parts : stiffer and softer ones; the rest is as the material says
+    parts : stiffer and softer parts; the rest has the material's moduli
     """
 
     request: int
@@ -39,14 +39,14 @@ class Choose:
 
 @dataclass(frozen=True, kw_only=True)
 class Compute:
-    """Page: compute models for the handles chosen last. A computation that runs is replaced.
+    """Page: compute models for the handles chosen last. A running computation is replaced.
 
     Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
 
-    target_error, most_samples, seed : as for `growing_models`; null: as many samples as usual
-    stiffness : of the handles, as in a problem file
+    target_error, most_samples, seed : as for `growing_models`; null: the usual number of samples
+    stiffness : stiffness of the handles, as in a problem file
     material : kind of the material; null: that of the problem file, or the default one
-    poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or of lam = mu
+    poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or that of lam = mu
     """
 
     request: int
@@ -60,9 +60,9 @@ class Compute:
 
 @dataclass(frozen=True, kw_only=True)
 class Cancel:
-    """Page: end what runs, filling or computing. Models and solved samples stay.
+    """Page: stop filling or computing. Models and solved samples are kept.
 
-    Answered by `Cancelled`, also if nothing runs.
+    Answered by `Cancelled`, even if nothing is running.
     """
 
     request: int
@@ -70,9 +70,9 @@ class Cancel:
 
 @dataclass(frozen=True, kw_only=True)
 class Save:
-    """Page: save the problem, the newest model, and what is in no file yet. Answered by `Saved`.
+    """Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
 
-    name : of the files, without folder or ending; null: the mesh's
+    name : name of the files, without folder or extension; null: the mesh's
     up : axis that points up, saved with problem and model; null: the server's
     """
 
@@ -83,11 +83,11 @@ class Save:
 
 @dataclass(frozen=True, kw_only=True)
 class Keep:
-    """Page: what is chosen so far, also what cannot be computed yet. There is no answer.
+    """Page: keep the choices made so far, even if they cannot be computed yet. Not answered.
 
-    The next `Workspace` of the same id returns it, as after the page was loaded again.
+    The next `Workspace` of the same id returns them, for example after the page is reloaded.
 
-    As in `Choose`, in any order, and as in `Compute`; and the axis that points up.
+    Fields as in `Choose`, handles in any order, and as in `Compute`; up : axis that points up.
     """
 
     request: int
@@ -105,23 +105,23 @@ class Keep:
 
 @dataclass(frozen=True, kw_only=True)
 class Edit:
-    """Page: choose handles on the body of the server's own model. Answered by `Workspace`."""
+    """Page: choose other handles on the body of the server's model. Answered by `Workspace`."""
 
     request: int
 
 
 @dataclass(frozen=True, kw_only=True)
 class Polish:
-    """Page: improve a shape in the full space. A polish that runs is replaced, without an answer.
+    """Page: improve a shape in the full space. A running polish is replaced and not answered.
 
-    Answered by a binary frame, `request` as a 32-bit integer and the positions of the surface's
+    Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
     vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
 
     model : number of the model
-    handles : where the handles of the model are, all of them and in its order; of posing models
-    weights : of blending models, one per pose
-    q : coordinates of the shape, or fewer, the leading ones
-    iterations : at most
+    handles : for posing models, the motions of all handles, in the model's order
+    weights : for blending models, one per pose
+    q : coordinates of the shape, all or the leading ones
+    iterations : largest number of iterations
     """
 
     request: int
@@ -134,26 +134,26 @@ class Polish:
 
 @dataclass(frozen=True, kw_only=True)
 class Workspace:
-    """Server: what the page works with. The first message, and again after an upload.
+    """Server: the workspace of the page. The first message, sent again after an upload.
 
-    A page that comes back gets what it had chosen; newest `Model` and last `Progress` follow.
+    A page that reconnects gets its choices back; the newest `Model` and last `Progress` follow.
 
-    id : in the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and in that of the
-        websocket, live?workspace=ID&token=..., of a page that comes back
-    kind : "empty": the page asks for a mesh; "reading": progress follows, and another workspace;
+    id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and of the
+        websocket of a page that reconnects, live?workspace=ID&token=...
+    kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
         "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
-    name : of the mesh or model
+    name : name of the mesh or model
     mesh : address of the packed mesh; null unless the kind is mesh
     up : axis that points up at first, x, y or z
-    handles, parts, translation, angle : chosen at first
-    diagonal : of the mesh; 0 if there is none
-    target_error, most_samples, seed, stiffness, material, poisson : computed with at first
-    materials : that can be chosen
-    folder : where `Save` writes, for the reader
-    upload_limit : bytes
+    handles, parts, translation, angle : initial choices
+    diagonal : diagonal of the mesh; 0 if there is none
+    target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
+    materials : materials that can be chosen
+    folder : folder where `Save` writes, to show to the reader
+    upload_limit : largest upload, in bytes
     own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
     job : request of the last `Compute` for this mesh; 0 if there was none
-    is_running : whether it still computes
+    is_running : whether that is still running
     """
 
     id: str
@@ -182,7 +182,7 @@ class Workspace:
 
 @dataclass(frozen=True, kw_only=True)
 class Chosen:
-    """Server: the handles are taken, in this order, the one that holds the shape first."""
+    """Server: the handles are accepted, in this order; the first one holds the shape."""
 
     request: int
     handles: tuple[str, ...]
@@ -190,14 +190,14 @@ class Chosen:
 
 @dataclass(frozen=True, kw_only=True)
 class Progress:
-    """Server: how far the work is; up to ten a second.
+    """Server: progress of the work, at most ten times a second.
 
-    request : of the `Compute`; 0 while a mesh is read or filled
+    request : that of the `Compute`; 0 while a mesh is read or filled
     stage : waiting (for another computation), reading, filling, snapshots, subspace, energy
-    done, total : samples; 0 of 0 where nothing is counted
-    seconds : since the work began
-    eta : until the stage ends; null if not known
-    error : of the newest model, as there; null if not known yet
+    done, total : numbers of samples; 0 of 0 where nothing is counted
+    seconds : time since the work began
+    eta : expected time until the stage ends; null if not known
+    error : `error` of the newest model; null if not known yet
     """
 
     request: int
@@ -213,11 +213,11 @@ class Progress:
 class Model:
     """Server: a model that can be posed. Better ones follow until one is final.
 
-    number : increases; that of the newest model is in its address
-    address : of the packed model; it stays until two newer ones are there
-    dimension, samples : of this model
-    error : relative error of motions that it is not made of, the median; null if not known yet
-    seconds : since the computation began
+    number : increases from model to model; it is part of the address
+    address : address of the packed model, valid until there are two newer ones
+    dimension, samples : dimension and number of samples of this model
+    error : median relative error at motions not used for training; null if not known yet
+    seconds : time since the computation began
     """
 
     request: int
@@ -232,9 +232,9 @@ class Model:
 
 @dataclass(frozen=True, kw_only=True)
 class Cancelled:
-    """Server: nothing runs any more.
+    """Server: nothing is running any more.
 
-    request : of the `Cancel`
+    request : that of the `Cancel`
     """
 
     request: int
@@ -242,10 +242,10 @@ class Cancelled:
 
 @dataclass(frozen=True, kw_only=True)
 class Failed:
-    """Server: a request was refused, or its work came to an error.
+    """Server: a request was refused, or its work failed.
 
-    request : 0 where the message could not be read, and for meshes
-    message : what is wrong and what helps, one line for the reader
+    request : 0 if the message could not be read, and for meshes
+    message : the fault and its cure, one line for the reader
     """
 
     request: int
@@ -254,9 +254,9 @@ class Failed:
 
 @dataclass(frozen=True, kw_only=True)
 class Saved:
-    """Server: what was written.
+    """Server: the files that were written.
 
-    problem, model, mesh, surface : paths; null for what there is not
+    problem, model, mesh, surface : paths; null where nothing was written
     """
 
     request: int
@@ -268,9 +268,9 @@ class Saved:
 
 @dataclass(frozen=True, kw_only=True)
 class Polished:
-    """Server: the shape of the binary frame before this message.
+    """Server: a report on the shape in the preceding binary frame.
 
-    moved : root mean square over the body, relative to the displacement from rest; null without one
+    moved : root mean square over the body, relative to the displacement from rest; null if at rest
     status : converged, max_iterations, line_search_failed or not_finite
     """
 

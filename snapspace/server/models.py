@@ -1,4 +1,4 @@
-"""Models: the newest models of a page, by number."""
+"""Models: the newest models of a page, with their numbers."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from ..problem import PosingProblem, Problem
 from ..reduction import PosingModel, ReducedModel
 
-#: A page fetches a model while the next one may come.
+#: A page may still be fetching a model when the next one is added.
 KEPT = 2
 
 
 @dataclass(frozen=True)
 class KeptModel:
-    """A model and what the page reads of it."""
+    """A model, and the packed content that the page reads."""
 
     number: int
     model: ReducedModel
@@ -21,14 +21,17 @@ class KeptModel:
 
 
 class Models:
-    """Numbers count from 1, also after `clear`: an address never means another model."""
+    """The last `KEPT` models.
+
+    Numbers count from 1 and continue after `clear`, so that an address never means another model.
+    """
 
     def __init__(self) -> None:
         self._kept: tuple[KeptModel, ...] = ()
         self._count = 0
 
     def add(self, model: ReducedModel, content: bytes) -> int:
-        """Keeps a model, and lets go of the oldest one; its number."""
+        """Keeps a model, drops the oldest one, and returns the number."""
         self._count += 1
         self._kept = (*self._kept[1 - KEPT :], KeptModel(self._count, model, content))
         return self._count
@@ -43,9 +46,9 @@ class Models:
         return self.newest is not None and self.newest.model.problem is problem
 
     def start(self, problem: PosingProblem) -> PosingModel | None:
-        """The newest model where it is of other handles, which `growing_models` can begin with.
+        """The newest model if it has other handles and `growing_models` can start from it.
 
-        None where solutions are not unique, as those of St.Venant-Kirchhoff.
+        None for materials whose solutions are not unique, such as St.Venant-Kirchhoff.
         """
         model = None if self.newest is None else self.newest.model
         if not isinstance(model, PosingModel) or problem.material.exact_degree == 4:
@@ -54,9 +57,9 @@ class Models:
         return model if other and len(model.training_parameters) else None
 
     def find(self, number: int) -> KeptModel | None:
-        """A model by number; None if it is not there any more."""
+        """The model of a number; None if it is no longer kept."""
         return next((kept for kept in self._kept if kept.number == number), None)
 
     def clear(self) -> None:
-        """Lets go of all."""
+        """Drops all models."""
         self._kept = ()

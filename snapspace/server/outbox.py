@@ -1,4 +1,4 @@
-"""Outbox: messages on their way to a page."""
+"""Outbox: messages waiting to be sent to a page."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Item = ServerMessage | bytes
 class Outbox:
     """A queue that any thread fills and the event loop empties.
 
-    Of a stage's progress that a slow connection has not taken yet only the newest is kept.
+    If a connection is slow, only the newest of a stage's waiting progress messages is kept.
 
     Parameters
     ----------
     loop : asyncio.AbstractEventLoop
-        The one that empties it.
+        The loop that empties the queue.
     """
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -50,7 +50,7 @@ class Outbox:
 
 
 def _replaces(newer: Item, older: Item) -> bool:
-    """Whether nobody needs the older one any more: both tell of the same stage of the same work."""
+    """Whether the newer item makes the older one useless: same stage of the same work."""
     if not isinstance(newer, Progress) or not isinstance(older, Progress):
         return False
     return (newer.request, newer.stage) == (older.request, older.stage)

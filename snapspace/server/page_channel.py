@@ -1,4 +1,4 @@
-"""PageChannel: what a workspace tells its page, and what a page that comes back must hear again."""
+"""PageChannel: messages from a workspace to its page, with the state for a page that reconnects."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ Put = Callable[..., Any]
 
 
 class PageChannel:
-    """Passes messages on to the page that is connected; from any thread.
+    """Sends messages to the connected page; from any thread.
 
-    While no page is connected they are dropped, except the state that they leave behind: the
-    workspace, its newest model, and how far the work is.
+    While no page is connected, messages are dropped, but the state is remembered: the workspace,
+    its newest model, and the progress of the work.
 
     Parameters
     ----------
     put : callable
-        Gets messages and bytes; those of one call stay together.
+        Called with messages and bytes; those of one call stay together.
     """
 
     def __init__(self, put: Put) -> None:
@@ -28,10 +28,10 @@ class PageChannel:
         self._lock = threading.Lock()
         self._workspace: Workspace | None = None
         self._model: Model | None = None
-        self._news: Progress | Failed | None = None
+        self._progress: Progress | Failed | None = None
 
     def __call__(self, *items: ServerMessage | bytes) -> None:
-        """Tells the page."""
+        """Sends items to the page."""
         with self._lock:
             for item in items:
                 self._remember(item)
@@ -39,37 +39,38 @@ class PageChannel:
                 self._put(*items)
 
     def disconnect(self) -> None:
-        """The page is gone."""
+        """Stops sending: the page is gone."""
         with self._lock:
             self._put = None
 
     def connect(self, put: Put, present: Callable[[Workspace], Workspace]) -> None:
-        """A page is back: it hears the state first, and then what comes.
+        """Connects a page that is back: sends the state first, and then new messages.
 
         Parameters
         ----------
         put : callable
             As above.
         present : callable
-            Gets the workspace as it was told at first, and returns it as it is now.
+            Takes the workspace as it was first sent, and returns it as it is now.
         """
         with self._lock:
             self._put = put
             if self._workspace is not None:
                 put(present(self._workspace))
-            for item in (self._model, self._news):
+            for item in (self._model, self._progress):
                 if item is not None:
                     put(item)
 
     def _remember(self, item: ServerMessage | bytes) -> None:
         if isinstance(item, Workspace):
-            self._workspace, self._model, self._news = item, None, None
+            self._workspace, self._model, self._progress = item, None, None
         elif isinstance(item, Model):
             self._model = item
-            self._news = None if item.final else self._news
+            self._progress = None if item.final else self._progress
         elif isinstance(item, Progress):
-            self._news = item
+            self._progress = item
         elif isinstance(item, Cancelled):
-            self._news = None
-        elif isinstance(item, Failed) and self._news and self._news.request == item.request:
-            self._news = item  # the work has ended with it
+            self._progress = None
+        elif isinstance(item, Failed) and self._progress:
+            if self._progress.request == item.request:
+                self._progress = item  # the work has ended with it

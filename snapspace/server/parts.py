@@ -1,4 +1,4 @@
-"""Parts: stiffer and softer parts of a body, as a page paints them."""
+"""Parts: stiffer and softer parts of a body that a page has painted."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from .surface_regions import SurfaceRegions
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-#: Beyond them solvers lose the soft side in the rounding of the stiff one.
+#: Beyond these the rounding errors of stiff parts hide the forces of soft ones from the solvers.
 LEAST_FACTOR, MOST_FACTOR = 1e-4, 1e4
-#: Corners in a part that make a tet belong to it.
+#: A tet belongs to a part if at least so many of its corners do.
 CORNERS = 3
 
 
 def part_factors(
     parts: Sequence[PartChoice], mesh: TetMesh, regions: SurfaceRegions | None
 ) -> FloatArray | None:
-    """How many times as stiff each tet is, (m,); of overlapping parts the later one wins.
+    """The stiffness factor of each tet, (m,); where parts overlap, the later one counts.
 
     Parameters
     ----------
     parts : sequence of PartChoice
     mesh : TetMesh
     regions : SurfaceRegions or None
-        The surface of a body that has one of its own, whose vertices the parts then have.
+        If the body has its own surface, the regions of that; the parts then have its vertices.
 
     Returns
     -------
@@ -41,7 +41,7 @@ def part_factors(
     Raises
     ------
     ValueError
-        For a factor out of range, a name that is empty or used twice, a vertex that is not there,
+        For a factor out of range, a name that is empty or used twice, a vertex index out of range,
         or a part without tets. The message names the part.
     """
     if not parts:
@@ -56,7 +56,7 @@ def part_factors(
 
 
 def with_factors(material: Material, factors: FloatArray | None) -> Material:
-    """The material with all moduli of each tet times its factor; densities are linear in them."""
+    """The material with the moduli of each tet times its factor; densities are linear in them."""
     if factors is None:
         return material
     moduli = {name: getattr(material, name) * factors for name in material.names()}

@@ -1,4 +1,4 @@
-"""PolishJobs: one polish at a time for a page, the newest one."""
+"""PolishJobs: runs one polish at a time for a page, the newest one."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from .job import Job
 from .messages import Polish
 from .polishing import Polishing
 
-#: A polish that was told to stop ends with its iteration.
-PATIENCE = 10.0
+#: Longest wait for a stopped polish, which ends with its current iteration.
+STOP_SECONDS = 10.0
 
 
 class PolishJobs:
-    """Runs polishes in the background; a new one replaces the one that runs.
+    """Runs polishes in the background; a new one replaces the running one.
 
     Parameters
     ----------
     emit : callable
-        Gets the binary frame and the message of each polish that is done.
+        Called with the binary frame and the message of each finished polish.
     failed : callable
-        Gets the request and the error of one that fails.
+        Called with the request and the error of a polish that fails.
     """
 
     def __init__(self, emit: Callable[..., Any], failed: Callable[[int, Exception], None]) -> None:
         self._emit, self._failed = emit, failed
         self._job: Job | None = None
-        self._polishing: Polishing | None = None  # of the job that runs
+        self._polishing: Polishing | None = None  # that of the newest job
 
     def begin(self, order: Polish, model: ReducedModel) -> None:
         """Starts a polish of a frame of a model."""
@@ -39,7 +39,7 @@ class PolishJobs:
 
         def work() -> None:
             if before is not None:
-                before.wait(PATIENCE)  # they share a session
+                before.wait(STOP_SECONDS)  # they share a session
             check_stop()
             if self._polishing is None or self._polishing.model is not model:
                 self._polishing = Polishing(model)
@@ -50,7 +50,7 @@ class PolishJobs:
         self._job = Job(work, failed=lambda error: self._failed(order.request, error))
 
     def stop(self) -> Job | None:
-        """Tells the polish that runs to stop; its job, if there is one."""
+        """Asks the running polish to stop, and returns its job, if there is one."""
         if self._job is not None:
             self._job.stop()
         return self._job

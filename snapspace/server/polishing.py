@@ -1,4 +1,4 @@
-"""Polishing: shapes that the page solved, improved in the full space."""
+"""Polishing: improves shapes that the page solved, in the full space."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from ..reduction import ReducedModel
 from ..session import BlendingSession, PosingSession
 from .messages import Polish, Polished
 
-#: A page that asks for more could keep this machine busy.
+#: More would let a page keep this machine busy.
 MOST_ITERATIONS = 1000
 
 
 @dataclass
 class Polishing:
-    """Polishes frames of one model; what they share is made with the first."""
+    """Polishes frames of one model; shared preparations are made with the first."""
 
     model: ReducedModel
 
@@ -29,9 +29,9 @@ class Polishing:
         Raises
         ------
         ValueError
-            For a frame that the model does not have, or iterations out of range.
+            For a frame that does not fit the model, or iterations out of range.
         Stopped
-            If this thread is told to stop.
+            If this thread is asked to stop.
         """
         if not 0 <= order.iterations <= MOST_ITERATIONS:
             raise ValueError(

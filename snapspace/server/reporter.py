@@ -1,4 +1,4 @@
-"""Reporter: progress of one work, not more often than a page can show."""
+"""Reporter: sends the progress of one computation, no more often than a page can show."""
 
 from __future__ import annotations
 
@@ -12,32 +12,32 @@ INTERVAL = 0.1
 
 
 class Reporter:
-    """Tells a page how far its work is.
+    """Sends a page the progress of its work.
 
     Parameters
     ----------
     emit : callable
-        Gets the messages.
+        Called with each message.
     request : int
-        Repeated in them.
+        Number of the request, repeated in the messages.
     """
 
     def __init__(self, emit: Callable[[Progress], None], request: int) -> None:
         self._emit, self._request = emit, request
         self._begin = time.perf_counter()
-        self._stage, self._told = "", 0.0
+        self._stage, self._last = "", 0.0
 
     @property
     def seconds(self) -> float:
-        """Since the work began."""
+        """Time since the work began."""
         return time.perf_counter() - self._begin
 
     def restart(self) -> None:
-        """The work begins now: it had to wait before."""
+        """Starts the time again: the work begins now, after waiting."""
         self._begin = time.perf_counter()
-        self._told = 0.0
+        self._last = 0.0
 
-    def tell(
+    def send(
         self,
         stage: str,
         done: int = 0,
@@ -46,11 +46,14 @@ class Reporter:
         eta: float | None = None,
         error: float | None = None,
     ) -> None:
-        """Sends a message, unless one of the same stage was sent just before and this is no end."""
+        """Sends a message, unless one of the same stage was sent within `INTERVAL`.
+
+        The last message of a stage, with done == total, is always sent.
+        """
         now = self.seconds
-        if stage == self._stage and now - self._told < INTERVAL and not 0 < total == done:
+        if stage == self._stage and now - self._last < INTERVAL and not 0 < total == done:
             return
-        self._stage, self._told = stage, now
+        self._stage, self._last = stage, now
         self._emit(
             Progress(
                 request=self._request,

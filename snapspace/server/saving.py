@@ -1,4 +1,4 @@
-"""Saving what a page has made, beside its mesh and never over another file."""
+"""SavedFiles: saves what a page has made beside its mesh, and never overwrites other files."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ LONGEST = 100
 
 @dataclass
 class SavedFiles:
-    """Writes files of one page, and knows which are its own: only those are replaced.
+    """Writes files of one page, and replaces only its own files.
 
-    A file counts as its own while nobody else has changed it since.
+    A file is its own if the page wrote it and nobody has changed it since.
     """
 
     _own: dict[Path, tuple[int, int]] = field(default_factory=dict)
@@ -44,7 +44,7 @@ class SavedFiles:
         up: str | None = None,
         painted: Sequence[HandleChoice] = (),
     ) -> Saved:
-        """Writes problem file, model, and mesh and surface if they are in no file yet.
+        """Writes problem file and model, and mesh and surface if they are in no file yet.
 
         Parameters
         ----------
@@ -52,24 +52,24 @@ class SavedFiles:
         problem : PosingProblem
         model : ReducedModel or None
         name : str or None
-            Of the files, without an extension; None: the body's. Where other files have it they
-            become NAME-2, NAME-3 and so on, all alike.
+            Name of the files, without an extension; None: the body's. If other files have that
+            name, all become NAME-2, or NAME-3 and so on.
         request : int
-            Repeated in the answer.
+            Number of the request, repeated in the answer.
         up : "x", "y" or "z", optional
             Axis that points up, for the problem file.
         painted : sequence of HandleChoice, optional
-            Handles by vertices of the body's own surface, so that they look as they were painted.
+            Handles as vertices of the body's own surface, so that they look as they were painted.
 
         Returns
         -------
         Saved
-            Each file is complete, or not there.
+            The paths. If writing fails, no incomplete file is left behind.
 
         Raises
         ------
         ValueError
-            For a name that is no file name, or a folder that cannot be written to.
+            For an invalid file name, or a folder that cannot be written to.
         """
         folder = body.folder
         suffixes = [PROBLEM_SUFFIX]
@@ -78,7 +78,7 @@ class SavedFiles:
         surface = None if body.surface_file is not None else body.surface
         suffixes += [] if surface is None else [SURFACE_SUFFIX]
         named = body.name if name is None else checked_name(name)
-        with self._held(folder, named, suffixes) as stem:
+        with self._reserved(folder, named, suffixes) as stem:
             mesh = folder / f"{stem}{MESH_SUFFIX}" if body.file is None else body.file
             if body.file is None:
                 self._write(mesh, lambda path: write_tets(path, body.mesh))
@@ -110,24 +110,24 @@ class SavedFiles:
         )
 
     @contextlib.contextmanager
-    def _held(self, folder: Path, name: str, suffixes: list[str]) -> Iterator[str]:
-        """The name, or the first with a number, that no other file has, while files get it."""
+    def _reserved(self, folder: Path, name: str, suffixes: list[str]) -> Iterator[str]:
+        """Reserves the name, or the first numbered one that no other file has, for the block."""
         for number in itertools.count(1):
             stem = name if number == 1 else f"{name}-{number}"
             paths = [folder / f"{stem}{suffix}" for suffix in suffixes]
-            if self._hold(paths):
+            if self._reserve(paths):
                 break
         try:
             yield stem
         finally:
             self._drop_empty(paths)
 
-    def _hold(self, paths: list[Path]) -> bool:
-        """Makes empty files of these names; False, and none of them, if one is another's."""
+    def _reserve(self, paths: list[Path]) -> bool:
+        """Makes empty files of these names; False, and none of them, if one is not its own."""
         try:
             for path in paths:
                 if not self._is_own(path):
-                    path.open("x").close()  # fails if it is there, even as a link to nowhere
+                    path.open("x").close()  # fails if it exists, even as a dangling link
                     self._own[path] = _stamp(path)
         except FileExistsError:
             self._drop_empty(paths)
@@ -141,7 +141,7 @@ class SavedFiles:
         return True
 
     def _drop_empty(self, paths: list[Path]) -> None:
-        """Removes one's own files that only hold a name."""
+        """Removes its own files that only reserve a name."""
         for path in paths:
             if self._is_own(path) and not path.stat().st_size:
                 path.unlink()
@@ -158,18 +158,18 @@ class SavedFiles:
 
 
 def checked_name(name: str) -> str:
-    """A name that is safe in any folder; ValueError for another one."""
+    """A name that is safe in any folder; ValueError for an unsafe one."""
     reserved = re.fullmatch(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", name, re.IGNORECASE)
     if not re.fullmatch(r"[\w][\w .+()-]*", name) or len(name) > LONGEST or reserved:
         raise ValueError(
-            f"save: the name {name[:LONGEST]!r} is no plain file name; take letters, digits, "
+            f"save: the name {name[:LONGEST]!r} is not a plain file name; use letters, digits, "
             f"spaces, . - _ + ( ), at most {LONGEST}"
         )
     return name.rstrip(" .")
 
 
 def plain_name(name: str) -> str:
-    """A file name made safe: what comes after folders, other characters replaced."""
+    """A file name made safe: without folders, and with other characters replaced."""
     last = re.split(r"[/\\]", name)[-1]
     cleaned = re.sub(r"[^\w .+()-]", "_", last).strip(" .-")
     return cleaned[-LONGEST:].lstrip(" .-") or "mesh"
@@ -185,6 +185,6 @@ def _write_text(path: Path, text: str) -> None:
 
 
 def _stamp(path: Path) -> tuple[int, int]:
-    """What changes when a file is written: inode and time."""
+    """Inode and modification time, which change when a file is written."""
     state = path.stat()
     return state.st_ino, state.st_mtime_ns

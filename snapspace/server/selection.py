@@ -1,4 +1,4 @@
-"""Selection: the handles that a page has chosen, as a problem takes them."""
+"""Selection: the handles that a page has chosen, in the form that a problem takes."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..mesh import TetMesh
 from ..problem import HandleBox, Handles, PosingProblem
 from .messages import Choose, HandleChoice, Vector
 
-#: Bounds that a page begins with: about those of problems that were made by hand, whose handles
-#: are some tenth of the body.
+#: Initial bounds of a page, about those of problems made by hand, whose handles are about a tenth
+#: of the body.
 TRANSLATION_SHARE, ANGLE = 0.1, float(np.deg2rad(45))
 
 
 @dataclass(frozen=True)
 class Selection:
-    """Handles, those at rest first, and the bounds of the others' motions."""
+    """Handles, the fixed ones first, and the bounds of the moving handles' motions."""
 
     handles: Handles
     box: HandleBox
@@ -34,8 +34,8 @@ class Selection:
         material : Material
         stiffness : float
         known : PosingProblem or None
-            On the same mesh: it is returned if it is the same problem, and if it is of the same
-            material and stiffness the new one shares what both can use.
+            A problem on the same mesh. It is returned if it is the same problem. If it has the same
+            material and stiffness, the new problem shares its data.
 
         Raises
         ------
@@ -56,7 +56,7 @@ def selection_of(choice: Choose) -> Selection:
     Raises
     ------
     ValueError
-        Unless one handle at least is at rest and one moves, and as for `Handles` and `HandleBox`.
+        Unless at least one handle is fixed and one moves, and as for `Handles` and `HandleBox`.
     """
     ordered = sorted(choice.handles, key=lambda handle: handle.moving)  # stable
     if not ordered:
@@ -82,7 +82,7 @@ def selection_of(choice: Choose) -> Selection:
 
 
 def choices_of(problem: PosingProblem) -> tuple[HandleChoice, ...]:
-    """The handles of a problem as the page shows them."""
+    """The handles of a problem, in the form that the page takes."""
     common = problem.domain.common.bounds[0]
     first, *others = (
         HandleChoice(name=handle.name, vertices=tuple(handle.vertices.tolist()), moving=False)
@@ -92,8 +92,8 @@ def choices_of(problem: PosingProblem) -> tuple[HandleChoice, ...]:
         replace(
             choice,
             moving=True,
-            translation=_own(bounds[:3], common[:3]),
-            angle=_own(bounds[3:], common[3:]),
+            translation=_unless_common(bounds[:3], common[:3]),
+            angle=_unless_common(bounds[3:], common[3:]),
         )
         if bounds.any()
         else choice
@@ -103,7 +103,7 @@ def choices_of(problem: PosingProblem) -> tuple[HandleChoice, ...]:
 
 
 def as_vector(values: np.ndarray) -> Vector:
-    """Three numbers of an array."""
+    """The three numbers of an array."""
     x, y, z = values.tolist()
     return x, y, z
 
@@ -114,5 +114,5 @@ def _bounds(handle: HandleChoice, own: Vector | None, common: Vector) -> Vector:
     return common if own is None else own
 
 
-def _own(bounds: np.ndarray, common: np.ndarray) -> Vector | None:
+def _unless_common(bounds: np.ndarray, common: np.ndarray) -> Vector | None:
     return as_vector(bounds) if (bounds != common).any() else None

@@ -1,4 +1,4 @@
-"""Serving the page until Ctrl-C."""
+"""serve: serves the page until Ctrl-C."""
 
 from __future__ import annotations
 
@@ -36,39 +36,39 @@ def serve(
 ) -> None:
     """Serves the page, to any number of browsers, until Ctrl-C.
 
-    With a model it is posed or blended, and all is solved in the page. Else handles are chosen on a
-    mesh, and models are computed here.
+    With a model, the page poses or blends it and does all solving. Otherwise the user chooses
+    handles on a mesh, and the server computes models.
 
     Parameters
     ----------
     model : PosingModel or InterpolationModel, optional
     body : SharedBody, optional
-        The mesh that pages begin with. With neither they ask for one.
+        The mesh that pages begin with. Without a model and a body, pages ask for a mesh.
     title : str
         Heading of the page, until a mesh has a name.
     up : "x", "y" or "z", default that of the model or problem, or z
         Axis that points up at first.
     folder : Path, default the current one
-        Where what is made of uploaded meshes, and of a model, is saved.
+        Where files made from uploaded meshes, or from the model, are saved.
     upload_limit : int, default 256 MB
-        Bytes of a mesh that is dropped on the page.
+        Largest size in bytes of a mesh that is dropped on the page.
     filling : SurfaceFilling, default quick tets
-        Of surfaces that are dropped on the page.
+        How to fill surfaces that are dropped on the page.
     host : str, default "127.0.0.1"
-        Address to listen at. Another one than this machine's own lets other machines in, who need
-        the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then name any
-        address in digits, or this machine's own name.
+        Address to listen on. Any other address than 127.0.0.1 lets other machines connect, with
+        the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then use any
+        numeric address, or this machine's own name.
     port : int, default 0
-        0 takes any that is free.
+        0 takes any free port.
     ready : callable, default print
-        Gets the address with its token once connections are accepted.
+        Called with the address and its token once connections are accepted.
 
     Raises
     ------
     MissingExtraError
-        A ValueError, without the extra `snapspace[view]`.
+        A ValueError, if the extra `snapspace[view]` is not installed.
     ValueError
-        If the address cannot be listened at, or for a model that pages do not solve.
+        If the server cannot listen on the address, or for a model that the page cannot solve.
     """
     need_extra("view", who="the server of the page")
     from .app import page_app
@@ -77,7 +77,7 @@ def serve(
     listener = listening(host, port)
     token = secrets.token_urlsafe(18)
     try:
-        with _terminated_alike(), _scratch_folder() as scratch:
+        with _interrupted_by_sigterm(), _scratch_folder() as scratch:
             settings = ServerSettings(
                 title=title,
                 up=up,
@@ -104,7 +104,7 @@ def _scratch_folder() -> Iterator[Path]:
 
 
 @contextmanager
-def _terminated_alike() -> Iterator[None]:
+def _interrupted_by_sigterm() -> Iterator[None]:
     """SIGTERM ends the block as Ctrl-C does, so that temporary files are removed."""
     if threading.current_thread() is not threading.main_thread():
         yield  # only the main thread gets signals

@@ -1,4 +1,4 @@
-"""ServerSettings: what all pages of a server share."""
+"""ServerSettings: the settings that all pages of a server share."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ UPLOAD_LIMIT = 256 * 2**20
 class PageTimeouts:
     """How long the workspace of a page that is gone is kept, in seconds.
 
-    alone : a page that is loaded again is back in a second, a machine that wakes up in some more
-    waited_for : while other pages wait for its computation
+    alone : usually; a reloaded page is back in a second, a machine that wakes up takes longer
+    waited_for : if other pages wait for its computation
     """
 
     alone: float = 60.0
@@ -28,18 +28,19 @@ class PageTimeouts:
 
 @dataclass(frozen=True, kw_only=True)
 class ServerSettings:
-    """What a server was started with.
+    """The settings that a server was started with.
 
-    title : shown until a mesh has a name
+    title : heading that is shown until a mesh has a name
     up : axis that points up at first; None: that of the model or problem, or z
-    token : letters, digits, - and _ only: it becomes part of addresses
-    folder : Path where files of uploaded meshes are saved
-    scratch : Path for temporary files, which the server removes in the end
+    token : secret in addresses; only letters, digits, - and _
+    folder : Path of the folder where files of uploaded meshes are saved
+    scratch : Path of the folder for temporary files, which the server removes at the end
     body : SharedBody that pages begin with; None if they ask for a mesh
-    model : to pose or blend, instead of a body; or None
-    upload_limit : bytes
-    filling : of surfaces that are dropped on a page
-    timeouts : with pages that are gone
+    model : model to pose or blend, instead of a body; or None
+    upload_limit : largest upload, in bytes
+    timeouts : how long workspaces outlive their pages
+    filling : how to fill surfaces that are dropped on a page
+    queue : the queue of all computations
     """
 
     title: str

@@ -1,4 +1,4 @@
-"""SharedBody: the body that all pages begin with, made when the first one asks for it."""
+"""SharedBody: the body that all pages begin with, made when the first page asks for it."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ Stage = Callable[[str], None]
 
 
 class SharedBody:
-    """What `make` returns, made once.
+    """Calls `make` once and keeps its body.
 
-    If the page that makes it is closed, or it fails, the next one that asks makes it anew.
+    If making it fails, or the page that makes it is closed, the next page that asks makes it again.
 
     Parameters
     ----------
     make : callable(Stage) -> Body
-        It may take minutes: filling does.
+        Makes the body; filling may take minutes.
     """
 
     def __init__(self, make: Callable[[Stage], Body]) -> None:
@@ -34,13 +34,13 @@ class SharedBody:
         Parameters
         ----------
         stage : callable
-            Gets what `make` tells, or "waiting" some ten times a second while another page makes
-            it.
+            Called with the stages of `make`, or with "waiting" about ten times a second while
+            another page makes the body.
 
         Raises
         ------
         Stopped
-            If this thread is told to stop; otherwise what `make` raises.
+            If this thread is asked to stop; otherwise what `make` raises.
         """
         while not self._lock.acquire(timeout=POLL_SECONDS):
             stage("waiting")

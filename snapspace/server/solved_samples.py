@@ -1,4 +1,4 @@
-"""SolvedSamples: what computations of a page have solved, for the next one to start from."""
+"""SolvedSamples: samples that a page's computations have solved, for the next one to start from."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from ..snapshots import Snapshots
 
 
 class SolvedSamples:
-    """The samples of the last computation; and those before, if it was interrupted."""
+    """The samples of the last computation and, if it was interrupted, those before."""
 
     def __init__(self) -> None:
         self._snapshots: Snapshots | None = None
 
     def starts(self, problem: PosingProblem) -> Snapshots | None:
-        """What a computation for this problem can start from; None if there is nothing."""
+        """Samples that a computation for this problem can start from; None if there are none."""
         known = self._snapshots
         if known is None or known.problem.fingerprint != problem.fingerprint:
             return None
         return known if known.usable.any() else None
 
     def replace(self, snapshots: Snapshots) -> None:
-        """These are all that is kept."""
+        """Keeps only these samples."""
         self._snapshots = snapshots
 
     def add(self, snapshots: Snapshots) -> None:

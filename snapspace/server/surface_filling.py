@@ -1,4 +1,4 @@
-"""SurfaceFilling: how surfaces become tets, as the server was asked to do it."""
+"""SurfaceFilling: how the server fills surfaces with tets."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ..mesh import TetMesh
 class SurfaceFilling:
     """Quick tets of one size in seconds, or those of fTetWild in minutes.
 
-    edge_length : of the tets, as a share of the diagonal; None for the default of each way: 0.025,
-        and 0.02 if exact
-    exact : whether fTetWild is taken at once, and not only for surfaces that quick tets lose
+    edge_length : edge length of the tets, as a share of the diagonal; None for the default of each
+        method: 0.025, and 0.02 for fTetWild
+    exact : whether to use fTetWild at once, and not only for surfaces where quick tets fail
     """
 
     edge_length: float | None = None
@@ -26,17 +26,17 @@ class SurfaceFilling:
     def fill(
         self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[[str], None]
     ) -> TetMesh:
-        """Tets inside of a closed surface.
+        """Tets inside a closed surface.
 
-        `stage` gets "filling", and "filling exactly" before what takes minutes. ValueError as of
-        `fill_surface`.
+        `stage` is called with "filling", and with "filling exactly" before fTetWild, which takes
+        minutes. ValueError as for `fill_surface`.
         """
         sized = {} if self.edge_length is None else {"edge_length": self.edge_length}
         if not self.exact:
             stage("filling")
             try:
                 return stuff_surface(vertices, faces, **sized)
-            except ValueError:  # the page tells by the stage that it goes on in another way
+            except ValueError:  # the next stage shows on the page that the method has changed
                 pass
         stage("filling exactly")
         return fill_surface(vertices, faces, **sized)

@@ -1,4 +1,4 @@
-"""SurfaceRegions: handles chosen on a surface, as handles of the tets inside of it."""
+"""SurfaceRegions: handles chosen on a surface, as handles of the tets inside it."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from .messages import HandleChoice
 Indices = NDArray[np.int32]
 Owners = NDArray[np.intp]
 
-#: Fewer vertices hold no part of a body in its place.
+#: Fewer vertices cannot hold a part of a body in place.
 FEWEST = 3
 
 
 class SurfaceRegions:
-    """Tet vertices for the vertices of a surface that a page chooses, and back.
+    """Converts chosen surface vertices to tet vertices, and back.
 
-    A tet vertex of the boundary belongs to the surface vertex that is closest to it, so handles
-    have no gaps where the surface is coarser than the tets. The one that a chosen surface vertex
-    follows most belongs to it too: there are others where the surface is finer.
+    A tet vertex of the boundary belongs to the closest surface vertex, so handles have no gaps
+    where the surface is coarser than the tets. The tet vertex that a chosen surface vertex follows
+    most belongs to it too, for places where the surface is finer.
 
     Parameters
     ----------
     mesh : TetMesh
     surface : EmbeddedSurface
-        In the mesh.
+        A surface embedded in the mesh.
     """
 
     def __init__(self, mesh: TetMesh, surface: EmbeddedSurface) -> None:
@@ -44,16 +44,16 @@ class SurfaceRegions:
 
     @property
     def surface_vertices(self) -> int:
-        """How many vertices the surface has."""
+        """Number of the surface's vertices."""
         return len(self._surface.corners)
 
     def through(self, chosen: NDArray[np.bool_]) -> NDArray[np.bool_]:
-        """Which tet vertices are in a part of the surface, (n,), with those below it.
+        """Mask (n,) of the tet vertices in a part of the surface, including those below it.
 
         Parameters
         ----------
         chosen : ndarray of bool, (s,)
-            Which vertices of the surface are.
+            Mask of the surface vertices in the part.
         """
         inside: NDArray[np.bool_] = chosen[self._closest_of_all]
         inside[self._surface.nearest[chosen]] = True
@@ -75,10 +75,10 @@ class SurfaceRegions:
     def shown(
         self, choices: Sequence[HandleChoice], painted: Mapping[str, Sequence[int]] | None = None
     ) -> tuple[HandleChoice, ...]:
-        """Handles of the tets with the vertices of the surface that follow them most.
+        """The handles of the tets, with the surface vertices that follow them most.
 
-        `painted` has the vertices of the surface for handles, by name, that were chosen there.
-        Indices that the surface does not have are left out.
+        `painted` has, by name, the surface vertices of handles that were painted on the surface.
+        Indices out of range are left out.
         """
         regions = [np.array(choice.vertices, np.int32) for choice in choices]
         count = self.surface_vertices
@@ -88,7 +88,7 @@ class SurfaceRegions:
             own = own[(own >= 0) & (own < count)]
             chosen.append(own if own.size else self._surface.following(region))
         for one, region in enumerate(regions):
-            if not chosen[one].size:  # no surface vertex is near: those around it
+            if not chosen[one].size:  # no surface vertex follows it: take those around it
                 around = self._closest[np.isin(self._mesh.surface_vertices, region)]
                 others = np.concatenate([*chosen[:one], *chosen[one + 1 :]])
                 chosen[one] = np.setdiff1d(around, others)
@@ -104,12 +104,12 @@ class SurfaceRegions:
     def in_tets(self, handles: Handles) -> Handles:
         """Handles of tet vertices for handles of surface vertices.
 
-        Those that were shown, or taken the last time, are the same again.
+        Handles from the last `shown` or `in_tets` get the same tet vertices again.
 
         Raises
         ------
         ValueError
-            For an index that the surface does not have, or a handle too small for the tets.
+            For an index out of range, or a handle too small for the tets.
         """
         of_surface = self._owners_on_surface(handles)
         of_tets = self._owners_in_tets(of_surface, len(handles))
@@ -123,13 +123,13 @@ class SurfaceRegions:
         regions = []
         for one, handle in enumerate(handles):
             if np.count_nonzero(of_tets == one) < FEWEST:
-                _give(of_tets, self._surface.corners[handle.vertices], one)
+                _assign_free(of_tets, self._surface.corners[handle.vertices], one)
             regions.append(np.flatnonzero(of_tets == one).astype(np.int32))
             if regions[-1].size < FEWEST:
                 raise ValueError(
                     f"handle '{handle.name}' has {len(handle.vertices)} of the surface's vertices, "
-                    f"which hold {regions[-1].size} of the tets'; at least {FEWEST} are needed: "
-                    "choose a larger part, or fill the surface with shorter tets (--edge-length)"
+                    f"but only {regions[-1].size} of the tets'; at least {FEWEST} are needed: "
+                    "choose a larger part, or fill the surface with smaller tets (--edge-length)"
                 )
         self._known = {
             handle.vertices.tobytes(): region
@@ -138,7 +138,7 @@ class SurfaceRegions:
         return Handles(regions, names=handles.names)
 
     def _owners_on_surface(self, handles: Handles) -> Owners:
-        """Which handle each surface vertex is of, or -1."""
+        """The index of each surface vertex's handle, (s,), or -1."""
         count = len(self._surface.corners)
         owners = np.full(count, -1)
         for one, handle in enumerate(handles):
@@ -151,14 +151,14 @@ class SurfaceRegions:
         return owners
 
     def _owners_in_tets(self, of_surface: Owners, count: int) -> Owners:
-        """Which handle each tet vertex is of, or -1."""
+        """The index of each tet vertex's handle, (n,), or -1."""
         owners = np.full(len(self._mesh.vertices), -1)
         owners[self._mesh.surface_vertices] = of_surface[self._closest]
         for one in range(count):
-            _give(owners, self._surface.nearest[of_surface == one], one)
+            _assign_free(owners, self._surface.nearest[of_surface == one], one)
         return owners
 
 
-def _give(owners: Owners, vertices: Indices, one: int) -> None:
-    """Those of the vertices that are free get an owner."""
+def _assign_free(owners: Owners, vertices: Indices, one: int) -> None:
+    """Assigns an owner to those of the vertices that have none."""
     owners[vertices[owners[vertices] < 0]] = one

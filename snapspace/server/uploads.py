@@ -24,9 +24,9 @@ def upload_endpoint(
 ) -> Callable[[Request], Awaitable[Response]]:
     """Takes POST requests: the body is the file, and the query has workspace=ID and name=FILE.
 
-    The answer is 202 once the file is here, the rest comes by the websocket. Else it is one line of
-    text: 404 for a page that is not connected, 413 beyond the limit, 415 for a file that is
-    neither a mesh nor a model.
+    The answer is 202 once the file has arrived; the websocket sends the rest. Errors are one line
+    of text: 400 for an interrupted upload, 404 for a page that is not connected, 413 beyond the
+    limit, 415 for a file that is neither a mesh nor a model.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def upload_endpoint(
     async def upload(request: Request) -> Response:
         body = request.stream()
         answer = await taken(request, body)
-        # the rest of what is refused: who is still sending would miss the answer
+        # read the rest of a refused upload: a client that is still sending would miss the answer
         with suppress(ClientDisconnect):
             async for _ in body:
                 pass

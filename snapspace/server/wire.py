@@ -1,4 +1,4 @@
-"""Messages as they travel: JSON text."""
+"""encoded, decoded: messages as JSON text."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _CLASSES = {type_name(each): each for each in FROM_PAGE}
 
 
 def encoded(message: ServerMessage) -> str:
-    """The JSON text of a message. Numbers that JSON does not have become null."""
+    """The JSON text of a message. Numbers that are not finite become null."""
     content = {"type": type_name(type(message)), **dataclasses.asdict(message)}
     finite = {k: None if _is_not_finite(v) else v for k, v in content.items()}
     return json.dumps(finite, allow_nan=False)
@@ -27,8 +27,8 @@ def decoded(text: str) -> PageMessage:
     Raises
     ------
     ValueError
-        For text that is not JSON, an unknown type, an entry that is unknown, missing or mistyped;
-        the message names the entry.
+        For text that is not JSON, an unknown type, or an entry that is unknown, missing or of the
+        wrong type; the message names the entry.
     """
     try:
         content = json.loads(text)
@@ -81,7 +81,7 @@ def _value(value: Any, hint: Any, where: str) -> Any:
     if hint is float:
         return _number(value, where)
     if hint is int and type(value) is int and not _fits(value):
-        raise ValueError(f"{where} is {_shown(value)}, but must fit 32 bits")
+        raise ValueError(f"{where} is {_shown(value)}, but it must fit in 32 bits")
     if type(value) is not hint:
         what = {int: "an integer", str: "a string", bool: "true or false"}[hint]
         raise ValueError(f"{where} must be {what}, got {_shown(value)}")
@@ -115,7 +115,7 @@ def _number(value: Any, where: str) -> float:
 
 
 def _fits(value: int) -> bool:
-    """In 32 bits, as in binary frames and in meshes."""
+    """Whether a number fits in 32 bits, as binary frames and meshes need."""
     return -(2**31) <= value < 2**31
 
 

@@ -1,4 +1,4 @@
-"""Workspace: what one page works with, and its work in the background."""
+"""Workspace: the state of one page, and its work in the background."""
 
 from __future__ import annotations
 
@@ -30,36 +30,36 @@ from .reporter import Reporter
 from .settings import ServerSettings
 from .shared_body import Stage
 
-#: How long the end of stopped work is waited for: solvers ask between the parts of an iteration.
+#: How long to wait for stopped work to end: solvers check between the parts of an iteration.
 STOP_SECONDS = 0.4
 
 
 class Workspace:
-    """Answers one page. Calls may come from any thread; what takes long runs in jobs.
+    """Answers one page. Calls may come from any thread; long work runs in jobs.
 
     Parameters
     ----------
     settings : ServerSettings
     emit : callable
-        Gets messages, and bytes for binary frames; those of one call stay together. From any
-        thread.
+        Called with messages, and bytes for binary frames, from any thread; those of one call stay
+        together.
     """
 
     def __init__(self, settings: ServerSettings, emit: Callable[..., None]) -> None:
         self.id = secrets.token_urlsafe(9)
         self._settings, self._emit = settings, PageChannel(emit)
-        self._lock = threading.Lock()  # of the calls; jobs do not take it
+        self._lock = threading.Lock()  # for the calls; jobs do not take it
         self._work: Job | None = None
         self._polishes = PolishJobs(self._emit, self._fail)
         self._session: BodySession | None = None
-        self._meshes = 0  # that were opened; the last one counts
+        self._meshes = 0  # number of meshes opened so far; the last one is current
         self._models = Models()
         self._draft: messages.Keep | None = None
         self._job = 0  # request of the last `Compute`
         self._closed = False
 
     def open(self) -> None:
-        """Sends the first message, and begins to read or fill where the server has a mesh."""
+        """Sends the first message, and begins to read or fill the server's mesh, if any."""
         shared = self._settings.body
         if self._settings.model is not None:
             self._emit(replace(self._empty(), kind="model"))
@@ -70,16 +70,16 @@ class Workspace:
                 self._open(shared.get, self._settings.title)
 
     def pause(self) -> None:
-        """The page is gone, perhaps for a moment: what is made stays, and work goes on."""
+        """Disconnects the page, perhaps for a moment: the state is kept, and work continues."""
         self._emit.disconnect()
 
     def resume(self, emit: Callable[..., None]) -> None:
-        """A page is back: it hears what there is, and from now on what comes."""
+        """Connects a page that is back: sends it the state, and then new messages."""
         with self._lock:
             self._emit.connect(emit, self._present)
 
     def _present(self, begun: messages.Workspace) -> messages.Workspace:
-        """The workspace with what its page has chosen since."""
+        """The workspace with the page's choices since."""
         if begun.kind != "mesh":
             return begun
         job = self._work is not None and self._work.running
@@ -93,9 +93,9 @@ class Workspace:
         return replace(now, **chosen)
 
     def upload(self, path: Path) -> None:
-        """Opens a mesh or model file in place of what there was.
+        """Opens a mesh or model file in place of the current one.
 
-        Its folder is removed once it is read.
+        Its folder is removed once the file is read.
         """
 
         def make(stage: Stage) -> Body:
@@ -111,13 +111,13 @@ class Workspace:
             return replace(body, file=None, surface_file=None, folder=self._settings.folder)
 
         with self._lock:
-            if self._closed:  # the page went while its file came
+            if self._closed:  # the page closed during the upload
                 shutil.rmtree(path.parent, ignore_errors=True)
             else:
                 self._open(make, path.stem)
 
     def receive(self, message: messages.PageMessage) -> None:
-        """Answers a message, at once or by a job."""
+        """Answers a message, at once or in a job."""
         with self._lock:
             try:
                 self._answer(message)
@@ -125,19 +125,19 @@ class Workspace:
                 self._fail(message.request, error)
 
     def mesh_content(self, number: int) -> bytes | None:
-        """The packed mesh of an address; None if there is another one by now."""
+        """The packed mesh of an address; None if it has been replaced."""
         session = self._session
         if session is None or number != self._meshes:
             return None
         return packed_mesh(session.body, up=self._up)
 
     def model_content(self, number: int) -> bytes | None:
-        """The packed model of an address; None if it is not kept any more."""
+        """The packed model of an address; None if it is no longer kept."""
         kept = self._models.find(number)
         return None if kept is None else kept.content
 
     def close(self) -> None:
-        """Ends all work, and lets go of what it made."""
+        """Stops all work, and drops its results."""
         with self._lock:
             self._closed = True
             jobs = [job for job in (self._work, self._polishes.stop()) if job is not None]
@@ -145,7 +145,7 @@ class Workspace:
                 job.stop()
             for job in jobs:
                 job.wait(STOP_SECONDS)
-            # by hand: jobs refer to this, and a collector of cycles does not see their size
+            # explicitly: jobs refer to this, and the garbage collector does not see their size
             self._work = self._session = None
             self._polishes = PolishJobs(self._emit, self._fail)
             self._models.clear()
@@ -177,7 +177,7 @@ class Workspace:
             return self._settings.model
         kept = self._models.find(number)
         if kept is None:
-            raise ValueError(f"model {number} is not kept any more; take the newest one")
+            raise ValueError(f"model {number} is no longer kept; use the newest one")
         return kept.model
 
     def _edit(self) -> None:
@@ -191,7 +191,7 @@ class Workspace:
 
         def publish(growth: Growth, seconds: float) -> None:
             if growth.step is None and self._models.is_of(growth.model.problem):
-                return  # computed again: what the page has is better than an impression
+                return  # computed again: the page's model is better than a first one
             newest = self._models.newest
             before = newest.model if newest and self._models.is_of(growth.model.problem) else None
             assert before is None or isinstance(before, PosingModel)
@@ -201,7 +201,7 @@ class Workspace:
             content = packed(growth.model, name=name, up=up, before=before, owners=owners)
             check_stop()
             number = self._models.add(growth.model, content)
-            self._tell(
+            self._send(
                 messages.Model(
                     request=request,
                     number=number,
@@ -214,7 +214,7 @@ class Workspace:
                 )
             )
 
-        report = Reporter(self._tell, request)
+        report = Reporter(self._send, request)
         computation = session.computation(
             order, queue=self._settings.queue, report=report, publish=publish
         )
@@ -223,7 +223,7 @@ class Workspace:
         self._work = Job(computation.run, failed=lambda error: self._fail(request, error))
 
     def _open(self, make: Callable[[Stage], Body], name: str) -> None:
-        """Begins to make a body of a name; the page gets it when it is there."""
+        """Begins to make a body; the page is sent a workspace once it is ready."""
         self._end_work()
         self._session = None
         self._models.clear()
@@ -231,17 +231,17 @@ class Workspace:
         self._meshes += 1
         number, empty = self._meshes, self._empty()
         self._emit(replace(empty, kind="reading", name=name))
-        report = Reporter(self._tell, 0)
+        report = Reporter(self._send, 0)
 
         def work() -> None:
             try:
-                body = make(report.tell)
+                body = make(report.send)
                 check_stop()
                 session = BodySession(body, self._models)
                 self._session = session
                 self._emit(session.begin(empty, mesh=self._address("mesh", number)))
             except BaseException:
-                if number == self._meshes:  # else the page reads another one by now
+                if number == self._meshes:  # otherwise another mesh has replaced this one
                     self._emit(empty)
                 raise
 
@@ -252,8 +252,8 @@ class Workspace:
             self._work.stop()
             self._work.wait(STOP_SECONDS)
 
-    def _tell(self, message: messages.ServerMessage) -> None:
-        """Of a job: sends a message, unless it was told to stop."""
+    def _send(self, message: messages.ServerMessage) -> None:
+        """Sends a message of a job, unless the job was stopped."""
         check_stop()
         self._emit(message)
 
@@ -265,7 +265,7 @@ class Workspace:
 
     @property
     def _up(self) -> str:
-        """As the page has it, else as the server was told, else as its file says."""
+        """The axis of the page, else of the server's settings, else of the file."""
         if self._draft is not None:
             return self._draft.up
         if self._settings.up is not None:

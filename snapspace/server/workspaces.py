@@ -1,4 +1,4 @@
-"""Workspaces: those of the pages that are connected, and of pages that may come back."""
+"""Workspaces: the workspaces of connected pages, and of pages that may come back."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from .page_channel import Put
 from .settings import ServerSettings
 from .workspace import Workspace
 
-#: Seconds from look to look at whether others wait.
-LOOK = 0.2
+#: Seconds between checks whether other pages wait.
+CHECK_SECONDS = 0.2
 
 Dismiss = Callable[[], Awaitable[None]]
 
 
 class Workspaces:
-    """By id. Used in one event loop.
+    """All workspaces by id. Used in one event loop.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ class Workspaces:
         self._leaving: dict[str, asyncio.Task[None]] = {}
 
     def get(self, id: str) -> Workspace | None:
-        """The workspace of an id; None if there is none any more."""
+        """The workspace of an id; None if it no longer exists."""
         return self._known.get(id)
 
     async def enter(self, id: str | None, put: Put, dismiss: Dismiss) -> Workspace:
@@ -41,10 +41,11 @@ class Workspaces:
         Parameters
         ----------
         id : str or None
+            Id of a workspace of an earlier connection.
         put : callable
-            Gets the messages for the page.
+            Called with the messages for the page.
         dismiss : callable
-            Ends the page's connection, if another page enters in its place.
+            Ends the page's connection when another page takes its place.
         """
         known = None if id is None else self._known.get(id)
         if known is None:
@@ -63,23 +64,23 @@ class Workspaces:
         return known
 
     async def leave(self, workspace: Workspace, dismiss: Dismiss) -> None:
-        """The page that entered with this `dismiss` is gone; it may come back for a while."""
+        """Called when the page with this `dismiss` is gone; it may come back for a while."""
         if self._pages.get(workspace.id) is not dismiss:
-            return  # another one is in its place
+            return  # another page has taken its place
         del self._pages[workspace.id]
         workspace.pause()
         self._leaving[workspace.id] = asyncio.create_task(self._end(workspace))
 
     async def _end(self, workspace: Workspace) -> None:
-        """Closes a workspace once nobody has come back in time, or the server ends."""
+        """Closes a workspace if its page does not come back in time, or when the server ends."""
         own = asyncio.current_task()
         try:
             timeouts, waited = self._settings.timeouts, 0.0
             while waited < timeouts.alone:
                 if waited >= timeouts.waited_for and self._settings.queue.waiting:
                     break
-                await asyncio.sleep(min(LOOK, timeouts.alone - waited))
-                waited += LOOK
+                await asyncio.sleep(min(CHECK_SECONDS, timeouts.alone - waited))
+                waited += CHECK_SECONDS
             self._known.pop(workspace.id, None)
             await run_in_threadpool(workspace.close)
         except asyncio.CancelledError:

@@ -18,12 +18,12 @@ from .full_loop import FullBlendingLoop
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
 from .session import Session
-from .trajectory import between_rows, checked_way
+from .trajectory import between_rows, checked_path
 
 FloatArray = NDArray[np.float64]
 
-#: A solution farther from the mean shape than this many tenths of the diagonal (in the mean over
-#: the shape) is none: negative weights have let the energy fall without bound.
+#: Solutions farther from the mean shape than this many tenths of the diagonal (root mean square
+#: over the shape) are discarded: with negative weights the energy has fallen without bound.
 FARTHEST = 100.0
 
 
@@ -35,9 +35,9 @@ class BlendingSession(Session[InterpolationModel]):
 
     Notes
     -----
-    A solve starts from the last frame's shape or from the nearest sample that the model was trained
-    with, whichever has the lower energy: from afar a descent could end in another minimum. A drag
-    along a straight line continues where its last three frames say that it arrives.
+    A solve starts from the last frame's shape or from the nearest training sample, whichever has
+    the lower energy: from far away a descent could end in another minimum. A drag along a straight
+    line starts from the shape that its last three frames predict.
 
     Examples
     --------
@@ -60,17 +60,17 @@ class BlendingSession(Session[InterpolationModel]):
         Parameters
         ----------
         weights : array_like, (poses,)
-            Not negative, with sum one. One-hot weights give back the pose, as far as the subspace
-            holds it.
+            Not negative, with sum one. One-hot weights give the pose, as well as the subspace can
+            represent it.
         extrapolate : bool, default False
-            Also takes weights beyond the simplex that was sampled; their sum is still one. There
-            the energy may have no minimum: the report's status is then unbounded, and shape and
-            weights stay as they were. `certain` and `reach` tell how far there is one for sure.
+            Also accepts weights beyond the sampled simplex; their sum is still one. There the
+            energy may have no minimum: then the report's status is unbounded, and shape and
+            weights stay as they were. `certain` and `reach` say how far a minimum is certain.
 
         Raises
         ------
         ValueError
-            For another number of weights, one that is not finite, a sum that is not one, or a
+            For a wrong number of weights, one that is not finite, a sum that is not one, or a
             weight beyond the sampled simplex without `extrapolate`; the shape stays as it was.
         """
         w = self.model.problem.weights(weights, extrapolate=extrapolate)
@@ -88,7 +88,7 @@ class BlendingSession(Session[InterpolationModel]):
     def animate(
         self, keys: Sequence[ArrayLike], *, frames: int = 60, easing: str = "smooth"
     ) -> Iterator[FrameReport]:
-        """Blends from the present weights through keys, frame by frame.
+        """Blends from the current weights through keys, frame by frame.
 
         `vertices` is the shape of each frame; `write_animation` writes them as files, GIF or MP4.
 
@@ -96,39 +96,40 @@ class BlendingSession(Session[InterpolationModel]):
         ----------
         keys : sequence of weights (poses,), as for `blend`
         frames : int, default 60
-            The first has the present weights, and the last is the last key.
+            Number of frames. The first has the current weights, the last is the last key.
         easing : "smooth" or "linear", default "smooth"
             Whether each leg begins and ends slowly.
 
         Yields
         ------
         FrameReport
-            Of each frame, once it is solved.
+            The report of each frame, once it is solved.
 
         Raises
         ------
         ValueError
-            As for `blend`, for no keys, fewer than two frames or an unknown easing; the shape stays
-            as it was.
+            As for `blend`, and if there are no keys, for fewer than two frames or an unknown
+            easing; the shape stays as it was.
         """
         weights = [self.model.problem.weights(key) for key in keys]
         states = np.array([self._weights, *weights])
-        ways = between_rows(states, *checked_way(frames, len(states), easing))
-        return (self.blend(w, extrapolate=True) for w in ways)
+        path = between_rows(states, *checked_path(frames, len(states), easing))
+        return (self.blend(w, extrapolate=True) for w in path)
 
     def put(self, weights: ArrayLike, q: ArrayLike) -> None:
-        """Takes a frame that was solved elsewhere, as in the page; nothing is solved.
+        """Takes a frame that was solved elsewhere, for example in the page; nothing is solved.
 
         Parameters
         ----------
-        weights : array_like, (poses,), of sum one
+        weights : array_like, (poses,), with sum one
         q : array_like, (dimension,) or fewer
-            Coordinates of the shape, or the leading ones, which set `dimension`.
+            Coordinates of the shape, or the leading ones. Their number sets `dimension`.
 
         Raises
         ------
         ValueError
-            For another number of weights or coordinates, one that is not finite, or another sum.
+            For a wrong number of weights or coordinates, one that is not finite, or a sum that is
+            not one.
         """
         w = self.model.problem.weights(weights, extrapolate=True)
         shape = given_coordinates(q, self.model.dimension)
@@ -136,23 +137,23 @@ class BlendingSession(Session[InterpolationModel]):
         self._set_weights(w)
 
     def reset(self) -> None:
-        """Back to the mean shape: equal weights."""
+        """Returns to the mean shape: equal weights."""
         self._set_weights(self.model.problem.domain.center)
         self._loop.q = np.zeros(self.dimension)
 
     @property
     def outside(self) -> tuple[str, ...]:
-        """Poses whose weights are below the least one of the domain that was sampled."""
+        """Poses whose weights are below the lowest weight of the sampled domain."""
         lowest = self.model.problem.domain.lowest - 1e-9
         names = self.model.problem.poses.names
         return tuple(n for n, w in zip(names, self._weights, strict=True) if w < lowest)
 
     @property
     def certain(self) -> bool | None:
-        """Whether the energy certainly has a minimum for the present weights.
+        """Whether the energy certainly has a minimum for the current weights.
 
-        Not certain does not mean that there is none: see `CertainRange`, and the last report's
-        status. None where no test is known and a weight is negative.
+        False does not mean that there is none: see `CertainRange`, and the last report's status.
+        None where no test is known and a weight is negative.
         """
         certain = self.model.certain_range
         if certain is not None:
@@ -160,22 +161,22 @@ class BlendingSession(Session[InterpolationModel]):
         return True if (self._weights >= 0.0).all() else None
 
     def reach(self, toward: ArrayLike) -> float | None:
-        """How far the way from the present weights to others has a minimum for certain.
+        """How far a minimum is certain on the line from the current weights toward others.
 
         Parameters
         ----------
-        toward : array_like, (poses,), of sum one
+        toward : array_like, (poses,), with sum one
 
         Returns
         -------
         float or None
-            As `CertainRange.reach`: 1.3 says that the way may be gone on by three tenths of its
+            As `CertainRange.reach`: 1.3 means that the line may be extended by three tenths of its
             length. None where no test is known.
 
         Raises
         ------
         ValueError
-            For another number of weights, one that is not finite, or another sum.
+            For a wrong number of weights, one that is not finite, or a sum that is not one.
         """
         w = self.model.problem.weights(toward, extrapolate=True)
         certain = self.model.certain_range
@@ -190,15 +191,15 @@ class BlendingSession(Session[InterpolationModel]):
         self._loop.set_weights(weights)
 
     def _start(self) -> str:
-        """Takes the nearest training sample as the start if its energy is below the present one."""
+        """Starts from the nearest training sample if its energy is below the current one."""
         if not len(self.model.training_parameters):
             return "last frame"
-        with np.errstate(over="ignore"):  # weights far outside of any use
+        with np.errstate(over="ignore"):  # weights far beyond any use
             away = ((self.model.training_parameters - self._weights) ** 2).sum(axis=1)
         candidate = self.model.training_coordinates[np.argmin(away), : self.dimension]
-        present, _ = self._loop.value_and_gradient(self._loop.q)
-        known, _ = self._loop.value_and_gradient(candidate)
-        if present <= known:
+        current, _ = self._loop.value_and_gradient(self._loop.q)
+        sampled, _ = self._loop.value_and_gradient(candidate)
+        if current <= sampled:
             return "last frame"
         self._loop.q = candidate
         return "sample"

@@ -14,14 +14,14 @@ from .polish import relative
 if TYPE_CHECKING:
     from .session import Session
 
-#: Iterations of the polish that a thorough certificate judges by.
+#: Iterations of the polish in a thorough certificate.
 THOROUGH_ITERATIONS = 10
-#: Its tolerance: none, so that every sample and frame takes the same number of steps.
+#: Its tolerance, never reached, so that every sample and frame takes the same number of steps.
 NEVER = 1e-300
 
 
 def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Certificate:
-    """What `Session.certificate` returns."""
+    """The certificate of the current frame, see `Session.certificate`."""
     begin = time.perf_counter()
     q, estimator = session.q, _estimator(session)
     if thorough:
@@ -30,7 +30,7 @@ def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Cert
     else:
         indicator, ratios = session.residual(estimator.sample), estimator.of_residual
     median, bound = ratios.at(q, confidence)
-    # the basis is M-orthonormal: the norm of q is that of the displacement
+    # the basis is M-orthonormal: the norm of q is the M-norm of the displacement
     size = float(np.linalg.norm(q)) / math.sqrt(estimator.mass)
     return Certificate(
         distance=indicator * median,
@@ -43,7 +43,7 @@ def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Cert
 
 
 def movement(session: Session[Any]) -> float:
-    """How far a polish of always as many steps moves the frame: the thorough indicator."""
+    """How far a polish with a fixed number of steps moves the frame: the thorough indicator."""
     return session.polish(iterations=THOROUGH_ITERATIONS, tolerance=NEVER).moved
 
 

@@ -1,4 +1,4 @@
-"""DisplayShapes: shapes of a subspace for the screen, as fast as memory delivers the basis."""
+"""DisplayShapes: shapes of a subspace for the screen, limited only by reading the basis."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ Vertices = TypeVar("Vertices", NDArray[np.float64], NDArray[np.float32])
 
 
 class DisplayShapes:
-    """Shapes tau + U q in single precision. The basis is copied for the first of them.
+    """Shapes tau + U q in single precision.
 
-    It keeps the first 16 modes in single precision and the others in 16 bits, which is little more
-    than a quarter of the basis.
+    The first shape makes a copy of the basis: the first 16 modes in single precision, the others
+    in 16 bits. It takes little more than a quarter of the basis's memory.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ class DisplayShapes:
     def shape(self, q: NDArray[np.float64]) -> NDArray[np.float32]:
         """The shape (3n,) of coordinates (d,), or of the leading ones with the others zero.
 
-        A coordinate is off by at most sum_i |q_i| max |mode_i| / 65534 over the modes after the
-        first 16, and by the rounding of single precision: on bodies by less than 2e-5 of the
+        The error of an entry is at most sum_i |q_i| max |mode_i| / 65534 over the modes after the
+        first 16, plus the rounding of single precision. On bodies it is less than 2e-5 of the
         largest displacement.
         """
         if self._rows is None:

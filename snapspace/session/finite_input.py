@@ -1,4 +1,4 @@
-"""finite: a user's numbers, checked."""
+"""finite, radians: checks of a user's numbers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _PACKAGE = __name__.partition(".")[0]
 
 
 def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
-    """The values as an array; ValueError, with the entry, unless they are finite and of a shape."""
+    """The values as an array; ValueError for another shape or, with its index, a bad entry."""
     array = np.asarray(values, np.float64)
     if array.shape != shape:
         numbers = "three numbers" if shape == (3,) else f"a {shape} matrix"
@@ -29,13 +29,13 @@ def finite(values: ArrayLike, shape: tuple[int, ...], name: str) -> FloatArray:
 
 
 def radians(euler: ArrayLike, name: str) -> FloatArray:
-    """Three finite angles, (3,); a UserWarning for one beyond a full turn: degrees, probably."""
+    """Three finite angles, (3,); a UserWarning for more than a full turn: probably degrees."""
     angles = finite(euler, (3,), name)
     largest = float(np.abs(angles).max())
     if largest > 2.0 * math.pi:
         warnings.warn(
-            f"{name} has an angle of {largest:g} radians, more than a full turn; if these are "
-            "degrees give np.deg2rad(...) of them",
+            f"{name} has an angle of {largest:g} radians, more than a full turn; convert degrees "
+            "with np.deg2rad(...)",
             UserWarning,
             stacklevel=_outside(),
         )
@@ -43,7 +43,7 @@ def radians(euler: ArrayLike, name: str) -> FloatArray:
 
 
 def _outside() -> int:
-    """The `stacklevel` of the first caller that is not of this package."""
+    """The `stacklevel` of the first caller outside this package."""
     frame, level = sys._getframe(1), 1
     while frame.f_back is not None and frame.f_globals["__name__"].startswith(f"{_PACKAGE}."):
         frame, level = frame.f_back, level + 1

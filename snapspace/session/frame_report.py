@@ -13,9 +13,9 @@ class FrameReport:
     where an extrapolated blend has no minimum
     iterations, evaluations : steps of the minimiser, and evaluations of the reduced energy
     value : reduced objective F; gradient_norm : Euclidean norm of its gradient by q
-    seconds : of the solve, without the vertices
+    seconds : time of the solve, without computing the vertices
     start : where the solve began: "last frame", "sample" (a training sample of lower energy) or
-    "tau"; of `solve_anew` it tells which start led to the lowest energy
+    "tau"; after `solve_anew`, the start that led to the lowest energy
     """
 
     status: str

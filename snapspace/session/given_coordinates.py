@@ -1,4 +1,4 @@
-"""Coordinates that were solved elsewhere, at the door."""
+"""Validation of coordinates that were solved elsewhere."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ def given_coordinates(q: ArrayLike, dimension: int) -> NDArray[np.float64]:
     ----------
     q : array_like, (d,)
     dimension : int
-        Of the model; d is at least 1, and at most that.
+        The model's dimension: 1 <= d <= dimension.
 
     Raises
     ------
     ValueError
-        For another number of coordinates, or one that is not finite.
+        For a wrong number of coordinates, or one that is not finite.
     """
     values = np.asarray(q, np.float64)
     if values.ndim != 1 or not 1 <= len(values) <= dimension:
         raise ValueError(
-            f"put: q has shape {values.shape}, but the model has {dimension} coordinates, of which "
-            "the leading ones may be given"
+            f"put: q has shape {values.shape}, but the model has {dimension} coordinates; give all "
+            "of them or the leading ones"
         )
     if not np.isfinite(values).all():
         bad = np.flatnonzero(~np.isfinite(values))[0]

@@ -1,4 +1,4 @@
-"""given_rotation: a user's rotation, in any of the usual forms."""
+"""given_rotation: a user's rotation in any of the usual forms."""
 
 from __future__ import annotations
 
@@ -13,30 +13,30 @@ from .finite_input import finite, radians
 
 FloatArray = NDArray[np.float64]
 #: Three Euler angles (radians, extrinsic x, y, z), a matrix (3, 3), a quaternion (x, y, z, w), or a
-#: rotation of SciPy.
+#: `Rotation` of SciPy.
 Turn: TypeAlias = "ArrayLike | Rotation"
 
 
 def given_rotation(turn: Turn, name: str) -> FloatArray:
-    """The rotation as a matrix (3, 3); ValueError, with the name, if it is none.
+    """The rotation as a matrix (3, 3); ValueError, with the name, if it is not a rotation.
 
-    A quaternion of another length than one is made one; a matrix must be orthogonal to 1e-6.
+    Quaternions are normalised; a matrix must be orthogonal to 1e-6.
     """
     if isinstance(turn, Rotation):
         if not turn.single:
             raise ValueError(f"{name} is {len(turn)} rotations, but it must be one")
-        return _of(turn)
+        return _as_matrix(turn)
     shape = np.shape(turn)
     if shape == (4,):
         quaternion = finite(turn, (4,), name)
         if not quaternion.any():
-            raise ValueError(f"{name} is the quaternion zero, which is no rotation")
-        return _of(Rotation.from_quat(quaternion / np.abs(quaternion).max()))
+            raise ValueError(f"{name} is the zero quaternion, which is not a rotation")
+        return _as_matrix(Rotation.from_quat(quaternion / np.abs(quaternion).max()))
     if shape == (3, 3):
         matrix = finite(turn, (3, 3), name)
         if not is_rotation(matrix, to=1e-6):
             raise ValueError(
-                f"{name} is a matrix that is no rotation; its columns must be orthonormal and "
+                f"{name} is a matrix that is not a rotation; its columns must be orthonormal and "
                 "right-handed (move_affine takes any matrix)"
             )
         return matrix
@@ -44,11 +44,11 @@ def given_rotation(turn: Turn, name: str) -> FloatArray:
 
 
 def is_rotation(matrix: FloatArray, *, to: float = 1e-9) -> bool:
-    """Whether a matrix (3, 3) is orthogonal, each entry of R R^T to so much, and right-handed."""
+    """Whether a matrix R (3, 3) is right-handed and R R^T = I, each entry to within `to`."""
     orthogonal = np.allclose(matrix @ matrix.T, np.eye(3), rtol=0.0, atol=to)
     return bool(orthogonal and np.linalg.det(matrix) > 0)
 
 
-def _of(rotation: Rotation) -> FloatArray:
+def _as_matrix(rotation: Rotation) -> FloatArray:
     matrix: FloatArray = rotation.as_matrix()
     return matrix

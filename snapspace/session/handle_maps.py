@@ -1,4 +1,4 @@
-"""Maps of world positions that handles follow."""
+"""Maps of world positions that move handles."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .finite_input import finite
 from .given_rotation import Turn, given_rotation, is_rotation
 
 FloatArray = NDArray[np.float64]
-#: A turn about the centroid, and a translation.
+#: A rotation about the centroid, and a translation.
 Motion: TypeAlias = tuple[Turn, ArrayLike]
 
 
 def world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
-    """The (3, 4) map of world positions that an offset [A - I | t] about a center stands for."""
+    """The map (3, 4) of world positions for an offset [A - I | t] about a center."""
     linear = offset[:, :3] + np.eye(3)
     return np.column_stack([linear, center + offset[:, 3] - linear @ center])
 
@@ -26,9 +26,9 @@ def world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
 def wanted_maps(
     motions: Mapping[str, Motion], center: Callable[[str], FloatArray], *, who: str
 ) -> dict[str, FloatArray]:
-    """Maps (3, 4) by handle, of turns about their centers and translations.
+    """Maps (3, 4) by handle, for rotations about the handles' centers and translations.
 
-    ValueError, which names the handle, for a turn or a translation that is none; `center` refuses
+    ValueError, which names the handle, for an invalid rotation or translation; `center` rejects
     unknown handles.
     """
     maps = {}
@@ -43,9 +43,9 @@ def wanted_maps(
 def given_maps(
     motions: Sequence[tuple[ArrayLike, ArrayLike]], names: Sequence[str], centers: FloatArray
 ) -> dict[str, FloatArray]:
-    """Maps (3, 4) by handle, of rotations (3, 3) about the centers and translations (3,).
+    """Maps (3, 4) by handle, for rotations (3, 3) about the centers and translations (3,).
 
-    ValueError for another number of motions, or one that is not finite or no rigid motion.
+    ValueError for a wrong number of motions, or one that is not finite or not rigid.
     """
     if len(motions) != len(names):
         raise ValueError(f"put: got {len(motions)} motions, but there are {len(names)} handles")
@@ -54,13 +54,13 @@ def given_maps(
         turn = finite(rotation, (3, 3), f"put: the rotation of '{name}'")
         shift = finite(translation, (3,), f"put: the translation of '{name}'")
         if not is_rotation(turn, to=1e-6):
-            raise ValueError(f"put: the matrix of '{name}' is no rotation")
+            raise ValueError(f"put: the matrix of '{name}' is not a rotation")
         maps[name] = world_map(np.column_stack([turn - np.eye(3), shift]), center)
     return maps
 
 
 def relative_offsets(maps: FloatArray, centers: FloatArray) -> FloatArray:
-    """Offsets (h, 3, 4) about the centers of maps (h, 3, 4) as seen from the first, a rigid one."""
+    """Offsets (h, 3, 4) about the centers of maps (h, 3, 4), relative to the first, rigid map."""
     back = maps[0, :, :3].T  # inverse rotation of the first handle
     offsets = [np.zeros((3, 4))]
     for target, center in zip(maps[1:], centers[1:], strict=True):

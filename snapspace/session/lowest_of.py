@@ -1,4 +1,4 @@
-"""lowest_of: one frame, solved from several shapes."""
+"""lowest_of: solves one frame from several starting shapes."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def lowest_of(
 ) -> FrameReport:
     """Solves from each of the named starts (d,), and leaves the loop at the lowest value.
 
-    A later one must be lower by the share `resolved` of the value, which is seen as no smaller than
-    its scale. The report is that of the start that it names, with the seconds of all. Each solve
-    keeps its own bounds.
+    A later solution replaces the best one if it is lower by more than resolved * (value_scale +
+    |value|). The returned report is that of the best start, with the seconds of all solves. The
+    bounds on iterations and evaluations hold for each solve.
     """
     begin = time.perf_counter()
     best, shape = FrameReport("not_finite", 0, 0, math.nan, math.nan, 0.0), loop.q

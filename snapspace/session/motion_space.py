@@ -1,4 +1,4 @@
-"""MotionSpace: motions of the handles as points, and the samples among them."""
+"""MotionSpace: motions of the handles as points, with the training samples."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ FloatArray = NDArray[np.float64]
 
 
 class MotionSpace:
-    """The offsets D_h of the moving handles in the metric of the handles' energy.
+    """The offsets D_h of the moving handles in the metric of the handle energy.
 
-    The distance of two motions is how far they move the handles apart, whatever parameters describe
-    them: its square is the handles' energy of the one where the shape follows the other.
+    The distance between two motions does not depend on the parameters that describe them. Its
+    square is the handle energy of one motion where the shape follows the other.
 
     Parameters
     ----------
     model : PosingModel
-        With at least two samples.
+        A model with at least two samples.
     """
 
     def __init__(self, model: PosingModel) -> None:
@@ -29,38 +29,38 @@ class MotionSpace:
         values, vectors = np.linalg.eigh(model.handles.S[1:])
         roots = np.sqrt(np.maximum(values, 0.0))
         self._metric = vectors * roots[:, None, :]
-        #: Of the samples, (k, f).
+        #: Points of the samples, (k, f).
         self.samples = np.array(
             [self.point(model.problem.offsets(w)) for w in model.training_parameters]
         )
 
     @cached_property
     def distances(self) -> FloatArray:
-        """Between all samples, (k, k)."""
+        """Distances between all samples, (k, k)."""
         return distances(self.samples, self.samples)
 
     @cached_property
     def spacing(self) -> float:
-        """How far samples are from their nearest neighbour, in the median."""
+        """Median distance of the samples to their nearest neighbours."""
         return float(np.median(np.sort(self.distances, axis=1)[:, 1]))
 
     def point(self, offsets: FloatArray) -> FloatArray:
-        """Of offsets (h, 3, 4), (f,)."""
+        """The point (f,) of offsets (h, 3, 4)."""
         point: FloatArray = (offsets[1:] @ self._metric).reshape(-1)
         return point
 
     def to_samples(self, offsets: FloatArray) -> FloatArray:
-        """Distances of offsets (h, 3, 4) to all samples, (k,)."""
+        """Distances from offsets (h, 3, 4) to all samples, (k,)."""
         found: FloatArray = distances(self.point(offsets)[None], self.samples)[0]
         return found
 
     def distance(self, offsets: FloatArray, others: FloatArray) -> float:
-        """How far two settings of the handles (h, 3, 4) are apart."""
+        """Distance between two settings of the handles, (h, 3, 4) each."""
         return float(np.linalg.norm(self.point(offsets) - self.point(others)))
 
 
 def distances(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Euclidean distances of rows, (len(a), len(b))."""
+    """Euclidean distances between the rows of a and of b, (len(a), len(b))."""
     squares = (a**2).sum(axis=1)[:, None] + (b**2).sum(axis=1) - 2.0 * a @ b.T
     distances: FloatArray = np.sqrt(np.maximum(squares, 0.0))
     return distances

@@ -1,4 +1,4 @@
-"""NotPickled: what is tied to this process says so."""
+"""NotPickled: base of objects that cannot leave this process."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import NoReturn
 
 
 class NotPickled:
-    """Of sessions: they are the state of compiled solvers, threads among it."""
+    """Refuses pickling: a session holds the state of compiled solvers, including threads."""
 
     def __reduce__(self) -> NoReturn:
-        """TypeError with what to do instead of pickling or copying."""
+        """Raises a TypeError that says what to do instead of pickling or copying."""
         raise TypeError(
-            f"{type(self).__name__}: a session is not pickled or copied, since it is the state of "
-            "compiled solvers; pickle session.model, and call model.session() where it arrives "
-            "(put(..., session.q) brings it to the same frame)"
+            f"{type(self).__name__}: a session cannot be pickled or copied, since it holds the "
+            "state of compiled solvers; pickle session.model, and call model.session() where it "
+            "arrives (put(..., session.q) brings it to the same frame)"
         )

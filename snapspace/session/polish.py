@@ -22,8 +22,8 @@ from ..subspace import AffineSubspace
 FloatArray = NDArray[np.float64]
 Place = Callable[[FloatArray], FloatArray]
 
-#: Curvatures below this share of the largest are raised to it: a reduced Hessian away from a
-#: minimum may have negative ones, and a seed must be positive definite.
+#: Curvatures are raised to at least this share of the largest: away from a minimum a reduced
+#: Hessian may have negative ones, and a seed must be positive definite.
 LEAST_CURVATURE = 1e-10
 
 
@@ -31,15 +31,15 @@ LEAST_CURVATURE = 1e-10
 class Polished:
     """A frame after some iterations in the full space.
 
-    vertices : (n, 3) of the improved shape, in the mesh's length unit
+    vertices : vertices of the improved shape, (n, 3), in the mesh's length unit
     moved : root mean square distance to the frame over the body's mass, in the mesh's length unit;
-    of interpolations after rigid registration
-    moved_relative : the same over the distance of the frame from the rest or mean shape
+    for interpolation after rigid registration
+    moved_relative : the same, divided by the distance of the frame from the rest or mean shape
     moved_most : the largest distance of a vertex
     report : SampleReport of the iterations. Its status is converged, max_iterations,
     line_search_failed, not_finite, or cancelled. Its value is the full objective, never above that
     of the frame
-    seconds : with all preparations
+    seconds : time, including all preparations
     """
 
     vertices: FloatArray
@@ -51,15 +51,16 @@ class Polished:
 
 
 class Polisher:
-    """Full-space iterations for one subspace; what they share is made once.
+    """Full-space iterations for one subspace; shared preparations are done once.
 
-    The L-BFGS of the snapshots on one shape, seeded with A^-1 + U H^-1 U^T: A is the scalar
-    factor's matrix, which takes soft and smooth directions for stiff ones, and H the reduced
-    Hessian at the frame, which knows those of the subspace [two-level additive Schwarz: Dryja &
-    Widlund 1990; a fixed inverse as the seed: Liu, Bouaziz, Kavan 2017]. A reduced solution is in
-    equilibrium along U, and still nearly all of its error is along U: what relaxes outside pulls it
-    along. On the Dragon ten iterations with this seed do as much as sixteen with A^-1 alone, and
-    between poses, where no handles hold the shape, more than thirty.
+    This is the L-BFGS of the snapshots on one shape, seeded with A^-1 + U H^-1 U^T. A is the scalar
+    factor's matrix, which overestimates the stiffness of soft and smooth directions. H is the
+    reduced Hessian at the frame, which has the right stiffness within the subspace [two-level
+    additive Schwarz: Dryja & Widlund 1990; a fixed inverse as the seed: Liu, Bouaziz, Kavan 2017].
+    A reduced solution is in equilibrium along U, but nearly all of its error is still along U:
+    relaxation outside the subspace changes the equilibrium within it. On the Dragon ten iterations
+    with this seed do as much as sixteen with A^-1 alone, and between poses, where no handles hold
+    the shape, as much as more than thirty.
 
     Parameters
     ----------
@@ -76,7 +77,7 @@ class Polisher:
 
     @property
     def dimension(self) -> int:
-        """d of the subspace."""
+        """Dimension d of the subspace."""
         return self._subspace.dimension
 
     def polish(
@@ -94,10 +95,10 @@ class Polisher:
 
         Parameters
         ----------
-        q : (d,)
-        inputs : (input_size,) of the problem's system
-        hessian : (d, d), of the reduced objective at q
-        place : carries vertices (n, 3) to where the session shows them
+        q : reduced coordinates, (d,)
+        inputs : inputs of the problem's system, (input_size,)
+        hessian : Hessian of the reduced objective at q, (d, d)
+        place : moves vertices (n, 3) to where the session shows them
         iterations, tolerance, should_stop : as for `Session.polish`
         """
         begin = time.perf_counter()
@@ -134,27 +135,27 @@ class Polisher:
                 self._system, self._coarse, *arrays, threads=1, control=control, **how
             )
 
-        def look(_: int) -> None:
+        def poll(_: int) -> None:
             if should_stop is not None and should_stop():
                 for control in controls:
                     control.cancel()
 
         solution: core.Solution
-        solution, interrupted = run_interruptible(solve, look)
+        solution, interrupted = run_interruptible(solve, poll)
         if interrupted:
             raise KeyboardInterrupt
         return solution
 
 
 def relative(distance: float, size: float) -> float:
-    """distance / size, and zero for no distance from a shape that is tau itself."""
+    """distance / size. For the shape tau itself, of size zero, 0 without a distance, else inf."""
     if size > 0:
         return distance / size
     return math.inf if distance > 0 else 0.0
 
 
 def _positive_inverse(hessian: FloatArray) -> FloatArray:
-    """Inverse of |H|, its eigenvalues raised to a share of the largest [Nocedal & Wright, 3.4]."""
+    """Inverse of |H|, with eigenvalues raised to a share of the largest [Nocedal & Wright, 3.4]."""
     values, vectors = np.linalg.eigh(hessian)
     sizes = np.abs(values)
     sizes = np.maximum(sizes, LEAST_CURVATURE * sizes.max())

@@ -9,7 +9,8 @@ from ..reduction import Cubature, FullEnergy, PosingModel
 from .full_loop import FullPosingLoop
 
 SINGLE_CUBATURE = (
-    "Session: precision 'single' is for exact quartics; a cubature always keeps its rows so"
+    "Session: precision 'single' is for exact quartics only; a cubature always keeps its rows in "
+    "single precision"
 )
 
 

@@ -22,11 +22,11 @@ from .posing_loop import posing_loop
 from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
-from .trajectory import between_maps, checked_way
+from .trajectory import between_maps, checked_path
 
 FloatArray = NDArray[np.float64]
 
-#: Times the samples' spacing: beyond this, nothing is known from them.
+#: In units of the samples' spacing: motions farther away are not interpolated from the samples.
 FARTHEST = 1e3
 
 
@@ -37,8 +37,8 @@ class PosingSession(Session[PosingModel]):
 
     Notes
     -----
-    A drag goes on from the last frame's shape. A jump, farther than the training samples lie apart,
-    is solved from a shape interpolated between these, or from the last frame's if that is lower.
+    A drag starts from the last frame's shape. A jump, longer than the spacing of the training
+    samples, starts from a shape interpolated between them, or from the last one if that is lower.
 
     Examples
     --------
@@ -47,7 +47,7 @@ class PosingSession(Session[PosingModel]):
     session.vertices
     """
 
-    _maps: FloatArray  # (h, 3, 4), of world positions
+    _maps: FloatArray  # (h, 3, 4), maps of world positions
     _offsets: FloatArray  # (h, 3, 4), relative to the first handle
 
     @property
@@ -66,7 +66,7 @@ class PosingSession(Session[PosingModel]):
         rotation: Turn | None = None,
         translation: ArrayLike = (0.0, 0.0, 0.0),
     ) -> FrameReport:
-        """Puts a handle at a rigid motion from rest about its centroid, and solves.
+        """Moves a handle rigidly from rest, about its centroid, and solves.
 
         The motion is absolute: moving twice to the same place is moving once. The first handle,
         which was fixed while sampling, may move as well: the problem is solved relative to it, so
@@ -75,19 +75,19 @@ class PosingSession(Session[PosingModel]):
         Parameters
         ----------
         handle : str
-        euler : three angles in radians, extrinsic x, y, z, default none; beyond a full turn with a
-            warning, since they look like degrees
-        rotation : instead of `euler`
+        euler : three angles in radians, extrinsic x, y, z, default zero
+            More than a full turn gives a warning: these are probably degrees.
+        rotation : optional, instead of `euler`
             A matrix (3, 3), a quaternion (x, y, z, w) of any length, or SciPy's `Rotation`.
-        translation : three lengths
+        translation : three lengths, default zero
 
         Raises
         ------
         ValueError
-            For an unknown handle, `euler` and `rotation` together, a matrix that is no rotation, or
-            values that are not finite or not as many: the message names handle and entry, handles
-            and shape stay as they were. They also do if the motion is so large that the energy
-            overflows; the report's status is then not_finite.
+            For an unknown handle, `euler` and `rotation` together, a matrix that is not a rotation,
+            values that are not finite, or a wrong number of them. The message names handle and
+            entry; handles and shape stay as they were. They also do if the motion is so large that
+            the energy overflows; then the report's status is not_finite.
         """
         if rotation is not None and euler is not None:
             raise ValueError(f"move: '{handle}' has both euler and rotation; give one of them")
@@ -95,15 +95,15 @@ class PosingSession(Session[PosingModel]):
         return self.move_all({handle: ((0.0, 0.0, 0.0) if turn is None else turn, translation)})
 
     def move_all(self, motions: Mapping[str, Motion]) -> FrameReport:
-        """Puts several handles at rigid motions, and solves once.
+        """Moves several handles rigidly, and solves once.
 
-        As `move`; handles that are not named stay where they are. If one motion is refused, none is
-        made.
+        As `move`; handles that are not named stay where they are. If one motion is invalid, no
+        handle moves.
 
         Parameters
         ----------
-        motions : mapping of a handle to (turn, translation)
-            The turn are Euler angles, or a rotation as for `move`.
+        motions : mapping from a handle's name to (turn, translation)
+            The turn is three Euler angles, or a rotation as for `move`.
         """
         return self._solve_at(*self._moved(self._wanted(motions, who="move")))
 
@@ -118,22 +118,22 @@ class PosingSession(Session[PosingModel]):
         Parameters
         ----------
         keys : sequence of mappings as for `move_all`
-            A handle that a key does not name stays where it was at the key before.
+            A handle that a key does not name stays where it was at the previous key.
         frames : int, default 60
-            The first is where the handles are now, and the last is the last key.
+            The first has the handles where they are now, and the last is the last key.
         easing : "smooth" or "linear", default "smooth"
             Whether each leg begins and ends slowly.
 
         Yields
         ------
         FrameReport
-            Of each frame, once it is solved.
+            The report of each frame, once it is solved.
 
         Raises
         ------
         ValueError
-            As for `move_all`, for no keys, fewer than two frames or an unknown easing; and where a
-            handle is at an affine map that is not a rigid motion. Nothing is moved then.
+            As for `move_all`, without keys, for fewer than two frames or an unknown easing, or if a
+            handle is at an affine map that is not a rigid motion. Then no handle moves.
 
         Examples
         --------
@@ -141,44 +141,44 @@ class PosingSession(Session[PosingModel]):
         >>> shapes = [session.vertices for _ in nod]
         """
         if not all(is_rotation(linear) for linear in self._maps[:, :, :3]):
-            raise ValueError("animate: a handle is at a map that is no rigid motion; reset() first")
+            raise ValueError("animate: a handle is at a map that is not rigid; call reset() first")
         states = [self._maps]
         for key in keys:
             states.append(states[-1].copy())
             for handle, target in self._wanted(key, who="animate").items():
                 states[-1][self.model.problem.handles.index(handle)] = target
         centers = self.model.problem.centroids
-        ways = between_maps(np.array(states), centers, *checked_way(frames, len(states), easing))
-        return (self._solve_at(maps, relative_offsets(maps, centers)) for maps in ways)
+        path = between_maps(np.array(states), centers, *checked_path(frames, len(states), easing))
+        return (self._solve_at(maps, relative_offsets(maps, centers)) for maps in path)
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:
-        """Puts a handle at an affine map (3, 4) of world positions (v, 1), and solves.
+        """Moves a handle by an affine map (3, 4) of world positions (v, 1), and solves.
 
         Raises
         ------
         ValueError
-            For an unknown handle, a matrix of another shape or not finite, or one that is not a
-            rigid motion for the first handle; otherwise as for `move`.
+            For an unknown handle, a matrix that has another shape or is not finite, or, for the
+            first handle, one that is not a rigid motion; otherwise as for `move`.
         """
         self._center(handle)
         wanted = finite(matrix, (3, 4), f"move_affine: the matrix of '{handle}'")
         linear = wanted[:, :3]
         if self.model.problem.handles.index(handle) == 0 and not is_rotation(linear):
             raise ValueError(
-                f"move_affine: '{handle}' is the reference of all others and takes rigid motions "
-                "only"
+                f"move_affine: '{handle}' is the reference of all other handles and takes rigid "
+                "motions only"
             )
         return self._solve_at(*self._moved({handle: wanted}))
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
-        """Puts all handles at a parameter vector (dimension,), and solves.
+        """Moves all handles to a parameter vector (p,), and solves.
 
-        Parameters outside of the domain's bounds are allowed.
+        Parameters outside the domain's bounds are allowed.
 
         Raises
         ------
         ValueError
-            For another shape, or a parameter that is not finite.
+            For a wrong shape, or a parameter that is not finite.
         """
         offsets = self.model.problem.offsets(parameters)
         centers = self.model.problem.centroids
@@ -186,19 +186,19 @@ class PosingSession(Session[PosingModel]):
         return self._solve_at(np.array(maps), offsets)
 
     def put(self, motions: Sequence[tuple[ArrayLike, ArrayLike]], q: ArrayLike) -> None:
-        """Takes a frame that was solved elsewhere, as in the page; nothing is solved.
+        """Takes a frame that was solved elsewhere, for example in the page; nothing is solved.
 
         Parameters
         ----------
         motions : for each handle a rotation (3, 3) about its centroid and a translation (3,)
         q : array_like, (dimension,) or fewer
-            Coordinates of the shape, or the leading ones, which set `dimension`.
+            Coordinates of the shape, or the leading ones. Their number sets `dimension`.
 
         Raises
         ------
         ValueError
-            For another number of motions or coordinates, one that is not finite, or a matrix that
-            is no rotation; handles and shape stay as they were.
+            For a wrong number of motions or coordinates, one that is not finite, or a matrix that
+            is not a rotation; handles and shape stay as they were.
         """
         problem = self.model.problem
         maps = given_maps(motions, problem.handles.names, problem.centroids)
@@ -207,14 +207,14 @@ class PosingSession(Session[PosingModel]):
         self._set(*self._moved(maps))
 
     def reset(self) -> None:
-        """Back to rest: all handles and the shape."""
+        """Returns all handles and the shape to rest."""
         handles = len(self.model.problem.handles)
         self._set(np.tile(np.eye(3, 4), (handles, 1, 1)), np.zeros((handles, 3, 4)))
         self._loop.q = np.zeros(self.dimension)
 
     @property
     def outside(self) -> tuple[str, ...]:
-        """Handles that are outside of the box of motions that the model was sampled in.
+        """Names of the handles outside the box of motions in which the model was sampled.
 
         There the reduced solution may be far from the full one. Motions are relative to the first
         handle; an affine map that is not a rigid motion is outside.
@@ -226,7 +226,7 @@ class PosingSession(Session[PosingModel]):
         return tuple(name for name, bounds, offset in moving if not is_inside(bounds, offset))
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
-        """`pose`."""
+        """The same as `pose`."""
         return self.pose(parameters)
 
     def _make_loop(self, *, single: bool) -> Any:
@@ -255,14 +255,14 @@ class PosingSession(Session[PosingModel]):
         return center
 
     def _moved(self, moved: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
-        """All handles' maps with some of them moved, and all offsets relative to the first one."""
+        """Maps of all handles with some of them moved, and offsets relative to the first handle."""
         maps = self._maps.copy()
         for handle, target in moved.items():
             maps[self.model.problem.handles.index(handle)] = target
         return maps, relative_offsets(maps, self.model.problem.centroids)
 
     def _solve_at(self, maps: FloatArray, offsets: FloatArray) -> FrameReport:
-        """Sets and solves; sets back what was if the energy is beyond all numbers."""
+        """Sets the handles and solves; restores the previous state if the energy overflows."""
         before, shape = (self._maps, self._offsets), self.q
         self._set(maps, offsets)
         report = self._solve_from(before[1])
@@ -272,10 +272,10 @@ class PosingSession(Session[PosingModel]):
         return report
 
     def _solve_from(self, before: FloatArray) -> FrameReport:
-        """Solves; after a jump from offsets (h, 3, 4) from what the samples suggest."""
+        """Solves; after a jump from the offsets `before` (h, 3, 4), starts from the samples."""
         if len(self.model.training_parameters) < 2:
             return self.solve()
-        with np.errstate(over="ignore"):  # motions far outside of any use
+        with np.errstate(over="ignore"):  # motions far beyond any use
             jump = self._motions.distance(self._offsets, before)
         if not self._motions.spacing < jump < FARTHEST * self._motions.spacing:
             return self.solve()

@@ -1,4 +1,4 @@
-"""Where a solve starts after a jump: a guess from the solutions that a model was trained with."""
+"""SampleStarts: where a solve starts after a jump, interpolated from the training solutions."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from .motion_space import MotionSpace
 
 FloatArray = NDArray[np.float64]
 
-#: Added to the interpolation matrix, relative to its size: repeated samples do no harm.
+#: Added to the diagonal of the interpolation matrix, relative to its size, so that repeated
+#: samples do no harm.
 _NUGGET = 1e-9
 
 
@@ -25,7 +26,7 @@ class SampleStarts:
     ----------
     motions : MotionSpace
     coordinates : (k, d)
-        Of its samples.
+        Reduced coordinates of its samples.
     """
 
     def __init__(self, motions: MotionSpace, coordinates: FloatArray) -> None:
@@ -34,7 +35,7 @@ class SampleStarts:
 
     @cached_property
     def _weights(self) -> FloatArray:
-        """Of the functions and the constant, (samples + 1, d). A drag without jumps needs none."""
+        """Weights of functions and constant, (k + 1, d); a drag without jumps needs none."""
         distances, k = self._motions.distances, len(self._coordinates)
         matrix = np.ones((k + 1, k + 1))
         matrix[:k, :k] = _NUGGET * distances.max() * np.eye(k) - distances
@@ -48,14 +49,14 @@ class SampleStarts:
         return q
 
     def after_jump(self, offsets: FloatArray, loop: Any) -> tuple[str, FloatArray]:
-        """Name and coordinates (d,) to solve from: interpolated, or the loop's if that is lower.
+        """Name and coordinates (d,) of the start: interpolated, or the loop's if those are lower.
 
-        From rest alone a jump may end in a higher minimum, also with stable neo-Hookean: of 20
-        poses of the Elephant one does. More starts, such as the nearest samples, find nothing lower
-        with it, and with St.Venant-Kirchhoff lower energies that are no nearer to the full
-        solutions; see docs/notes/closure-and-starts.md.
+        From rest alone a jump may end in a higher minimum, even with stable neo-Hookean: one of 20
+        poses of the Elephant does. More starts, such as the nearest samples, find nothing lower
+        with that material. With St.Venant-Kirchhoff they find lower energies that are no closer to
+        the full solutions; see docs/notes/closure-and-starts.md.
         """
-        first = self(offsets)[: loop.dimension]
-        present, known = (loop.value_and_gradient(q)[0] for q in (loop.q, first))
-        lower = not present <= known and np.isfinite(known)
-        return ("sample", first) if lower else ("last frame", loop.q)
+        guess = self(offsets)[: loop.dimension]
+        current, guessed = (loop.value_and_gradient(q)[0] for q in (loop.q, guess))
+        lower = not current <= guessed and np.isfinite(guessed)
+        return ("sample", guess) if lower else ("last frame", loop.q)

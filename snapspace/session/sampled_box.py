@@ -1,4 +1,4 @@
-"""Which handles are outside of the box of motions that a model was sampled in."""
+"""is_inside: whether a handle is inside the box of motions in which a model was sampled."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def is_inside(bounds: FloatArray, offset: FloatArray) -> bool:
     """Whether the offset [A - I | t] (3, 4) of a handle is within its bounds (6,) of the box.
 
     An affine map that is not a rigid motion never is. A rotation has two triples of Euler angles
-    (besides turns by 2 pi); one of them in the box is enough.
+    (up to multiples of 2 pi); one of them in the box is enough.
     """
     bounds = bounds + _ROUNDING
     rotation = offset[:, :3] + np.eye(3)

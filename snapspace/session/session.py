@@ -28,10 +28,10 @@ PRECISIONS = ("double", "single")
 
 
 class Session(NotPickled, ABC, Generic[Model]):
-    """What the sessions of all problems have in common.
+    """Base class of the sessions of all problems.
 
-    `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes the one
-    that belongs to the model. Each change solves the reduced problem from the last frame's shape.
+    `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes either.
+    Each change solves the reduced problem from the last frame's shape.
 
     Parameters
     ----------
@@ -42,13 +42,13 @@ class Session(NotPickled, ABC, Generic[Model]):
     max_iterations, max_evaluations : int, default 300 and 500
         Bounds on the work of one frame: steps, and evaluations of the energy.
     minimizer : "newton" or "bfgs", default "newton", but "bfgs" for a cubature
-        Newton's method, with the exact Hessian, shifted where that is not positive definite; or
-        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2), or
-        that of the last frame where the energy is a cubature.
+        Newton's method with the exact Hessian, shifted where that is not positive definite; or
+        the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2),
+        or, where the energy is a cubature, that of the last frame.
     precision : "double" or "single", default "double"
-        Of the stored coefficients. Single takes half of the memory, and less time where the
-        coefficients do not fit into the second-level cache (d = 60 and more); each coefficient is
-        rounded to 6e-8 of its size, all arithmetic is in double precision.
+        Precision of the stored coefficients. Single takes half of the memory, and less time where
+        the coefficients do not fit into the second-level cache (d = 60 and more). Each coefficient
+        is rounded to 6e-8 of its size; all arithmetic is in double precision.
 
     Raises
     ------
@@ -75,7 +75,7 @@ class Session(NotPickled, ABC, Generic[Model]):
                 f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
                 f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
             )
-        if minimizer is None:  # a Hessian of a cubature costs d / 4 times its gradient
+        if minimizer is None:  # the Hessian of a cubature costs d / 4 times its gradient
             minimizer = "newton" if model.cubature is None else "bfgs"
         if minimizer not in MINIMIZERS:
             raise ValueError(
@@ -100,8 +100,8 @@ class Session(NotPickled, ABC, Generic[Model]):
     def dimension(self) -> int:
         """Number of coordinates that are solved for: at first all of the model's.
 
-        Fewer are faster and less accurate, as of `model.leading(dimension)`. Setting it keeps the
-        leading coordinates of the shape; those that come back are zero until the next solve.
+        Fewer are faster and less accurate, as with `model.leading(dimension)`. Setting it keeps the
+        leading coordinates of the shape; added coordinates are zero until the next solve.
         ValueError unless it is between 1 and the model's dimension.
         """
         dimension: int = self._loop.dimension
@@ -111,8 +111,8 @@ class Session(NotPickled, ABC, Generic[Model]):
     def dimension(self, dimension: int) -> None:
         if not 1 <= dimension <= self.model.dimension:
             raise ValueError(
-                f"Session: dimension {dimension} is not between 1 and {self.model.dimension}, the "
-                "model's"
+                f"Session: dimension {dimension} is not between 1 and the model's, "
+                f"{self.model.dimension}"
             )
         self._loop.dimension = dimension
 
@@ -129,11 +129,11 @@ class Session(NotPickled, ABC, Generic[Model]):
 
     @property
     def positions(self) -> NDArray[np.float32]:
-        """`vertices` for the screen: in single precision, in less time, see `DisplayShapes`."""
+        """`vertices` for the screen: faster, in single precision, see `DisplayShapes`."""
         return self._placed(self._display.shape(self.q).reshape(-1, 3))
 
     def solve(self) -> FrameReport:
-        """Solves for what is set, from the current shape."""
+        """Solves for the current handles or weights, from the current shape."""
         begin = time.perf_counter()
         report = self._loop.solve(
             method=MINIMIZERS[self.minimizer],
@@ -159,22 +159,22 @@ class Session(NotPickled, ABC, Generic[Model]):
         tolerance: float | None = None,
         should_stop: Callable[[], bool] | None = None,
     ) -> Polished:
-        """Improves the current shape by a few iterations in the full space, as on release.
+        """Improves the current shape by a few iterations in the full space, as after a drag.
 
-        The session stays as it is: its q, `vertices` and next frames are those of the subspace, and
-        the improved shape is in the result only.
+        The session does not change: its q, `vertices` and next frames are those of the subspace.
+        Only the result has the improved shape.
 
         Parameters
         ----------
         iterations : int, default 10
-            At most. On unseen samples ten leave two thirds of the error on the Dragon, a third on
-            the armadillo, a seventh on the helix.
+            Largest number of iterations. On unseen samples ten leave two thirds of the error on the
+            Dragon, a third on the armadillo, a seventh on the helix.
         tolerance : float, optional
             Converged when twice the decrease that the solver's model predicts is below this share
             of the objective. Default: that of the problem's snapshots.
         should_stop : callable() -> bool, optional
-            Asked some ten times a second. When it says so, the result has the best shape so far and
-            the status cancelled.
+            Called about ten times a second. Once it returns True, the result has the best shape so
+            far and the status cancelled.
 
         Returns
         -------
@@ -189,8 +189,8 @@ class Session(NotPickled, ABC, Generic[Model]):
 
         Notes
         -----
-        The cost grows with the mesh: on the Dragon (121k tets) about 15 ms an iteration. The first
-        call makes the scalar factor, 0.1 to 0.3 s there, unless the problem has solved samples.
+        The cost grows with the mesh: on the Dragon (121k tets) about 15 ms per iteration. The first
+        call computes the scalar factor, 0.1 to 0.3 s there, unless the problem has solved samples.
         """
         tolerance = self.model.problem.solving.tolerance if tolerance is None else tolerance
         if iterations < 0 or not tolerance > 0:
@@ -217,37 +217,37 @@ class Session(NotPickled, ABC, Generic[Model]):
         Parameters
         ----------
         confidence : float, default 0.9
-            Of the upper bounds.
+            Confidence of the upper bounds.
         thorough : bool, default False
-            Judges by what a polish moves instead of the residual at sampled vertices: closer to
-            the truth, at the price of `polish`.
+            Uses the distance that a polish moves the shape instead of the residual at sampled
+            vertices: more accurate, at the cost of `polish`.
 
         Raises
         ------
         ValueError
-            If the model is not calibrated, or for another dimension, or the confidence takes more
-            samples than it was calibrated with; the message names the cure.
+            If the model is not calibrated, or was calibrated for another dimension, or if the
+            confidence needs more samples than it was calibrated with; the message names the cure.
         """
         return certify(self, confidence=confidence, thorough=thorough)
 
     def residual(self, sample: ResidualSample) -> float:
-        """The full objective's residual at the current shape, read at a few vertices.
+        """Norm of the full objective's residual at the current shape, from a few vertices.
 
-        An estimate of sqrt(g^T D^-1 g), see `ResidualSample`; the cost does not grow with the mesh,
-        apart from the first call with a sample.
+        It estimates sqrt(g^T D^-1 g), see `ResidualSample`. Except for the first call with a
+        sample, the cost does not grow with the mesh.
         """
         if self._probe is None or self._probe[0] is not sample:
             self._probe = sample, self._make_probe(sample)
         return self._probe[1].norm(self.q, self._state())
 
     def solve_anew(self) -> FrameReport:
-        """Solves for what is set from the current shape, from tau, and from the best samples.
+        """Solves from the current shape, from tau, and from the best samples.
 
-        A drag follows one minimum; far from rest there may be others. This takes the lowest of
-        those that the starts lead to, and the report's `start` tells which it was: "last frame" if
-        no other is lower than the one that the drag was in, by ten times what the tolerance
-        resolves. The best samples are the one of the lowest energy, and for posing what a jump
-        starts from. Costs some ten to fifty frames.
+        A drag follows one minimum; far from rest there may be others. This takes the lowest
+        minimum that the starts lead to, and the report's `start` names its start: "last frame"
+        unless another minimum is lower than that of the drag by ten times what the tolerance
+        resolves. The best samples are the one of the lowest energy and, for posing, the shape from
+        which a jump starts. It costs about ten to fifty frames.
         """
         return self._lowest_of([("last frame", self.q), *self._known_starts()])
 
@@ -258,18 +258,18 @@ class Session(NotPickled, ABC, Generic[Model]):
     @property
     @abstractmethod
     def outside(self) -> tuple[str, ...]:
-        """Names of what is set outside of the domain that the model was sampled in.
+        """Names of the handles or poses outside the domain in which the model was sampled.
 
         There the reduced solution may be far from the full one.
         """
 
     @abstractmethod
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
-        """Takes a parameter vector (p,) of the problem, also beyond its domain, and solves."""
+        """Sets a parameter vector (p,) of the problem, even outside its domain, and solves."""
 
     @abstractmethod
     def reset(self) -> None:
-        """Back to tau."""
+        """Returns to tau."""
 
     def _known_starts(self) -> Iterator[tuple[str, FloatArray]]:
         """tau, and the training sample of the lowest energy, as coordinates."""
@@ -281,19 +281,19 @@ class Session(NotPickled, ABC, Generic[Model]):
 
     @abstractmethod
     def _state(self) -> FloatArray:
-        """What the frame is solved for: offsets (h, 3, 4) of the handles, or weights."""
+        """The parameters of the frame: offsets (h, 3, 4) of the handles, or weights."""
 
     @abstractmethod
     def _inputs(self) -> FloatArray:
-        """The same as the problem's compiled system takes it, (input_size,)."""
+        """The same parameters as inputs of the problem's compiled system, (input_size,)."""
 
     @abstractmethod
     def _placed(self, vertices: Vertices) -> Vertices:
-        """Vertices (n, 3) of a shape of the problem where the session shows it."""
+        """The vertices (n, 3) of a shape, moved to where the session shows it."""
 
     @abstractmethod
     def _make_probe(self, sample: ResidualSample) -> ResidualProbe:
-        """The probe of a sample that takes `_state`."""
+        """The probe of a sample; it takes `_state`."""
 
     @abstractmethod
     def _make_loop(self, *, single: bool) -> Any:

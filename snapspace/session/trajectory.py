@@ -1,4 +1,4 @@
-"""Trajectories: frames along a way through keys."""
+"""Trajectories: frames along a path through keys."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ FloatArray = NDArray[np.float64]
 EASINGS = ("linear", "smooth")
 
 
-def checked_way(frames: int, keys: int, easing: str) -> tuple[int, str]:
-    """Frames and easing; ValueError unless there are two frames and keys, and an easing."""
+def checked_path(frames: int, keys: int, easing: str) -> tuple[int, str]:
+    """Frames and easing; ValueError for fewer than two frames or keys, or an unknown easing."""
     if easing not in EASINGS:
         raise ValueError(f"animate: unknown easing '{easing}'; known are {', '.join(EASINGS)}")
     if keys < 2:
-        raise ValueError("animate: there are no keys; give at least one to go to")
+        raise ValueError("animate: no keys are given, but at least one is needed")
     if frames < 2:
         raise ValueError(
-            f"animate: frames is {frames}, but a way has two at least, its first and its last"
+            f"animate: frames is {frames}, but at least two are needed, the first and the last"
         )
     return frames, easing
 
 
 def key_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float]]:
-    """For each frame the key before it, and the share of the way from there to the next one.
+    """For each frame, the index of the previous key and the share of the leg from it to the next.
 
-    The first frame is the first key and the last frame the last one; in between frames are evenly
-    spread over the legs. "smooth" begins and ends each leg slowly (3 s^2 - 2 s^3).
+    The first frame is the first key, and the last frame is the last key. The frames between are
+    spread evenly over the legs. "smooth" begins and ends each leg slowly (3 s^2 - 2 s^3).
     """
     # integers first: at a key the share is exactly zero
     legs, steps = keys - 1, frames - 1
@@ -41,7 +41,7 @@ def key_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float
 
 
 def between_rows(keys: FloatArray, frames: int, easing: str) -> Iterator[FloatArray]:
-    """Rows on the straight way through the rows of keys (k, p)."""
+    """Rows on the straight lines between the rows of keys (k, p)."""
     for key, share in key_shares(frames, len(keys), easing):
         row = keys[key]
         yield row if share == 0.0 else (1.0 - share) * row + share * keys[key + 1]
@@ -50,10 +50,10 @@ def between_rows(keys: FloatArray, frames: int, easing: str) -> Iterator[FloatAr
 def between_maps(
     keys: FloatArray, centers: FloatArray, frames: int, easing: str
 ) -> Iterator[FloatArray]:
-    """Rigid maps (h, 3, 4) on the way through keys (k, h, 3, 4).
+    """Rigid maps (h, 3, 4) on the path through keys (k, h, 3, 4).
 
-    Each center moves straight, and each body turns at an even rate about one axis, the shorter way
-    round.
+    On each leg a center moves straight, and its handle turns about one axis at a constant rate, by
+    the smaller of the two angles.
     """
     for key, share in key_shares(frames, len(keys), easing):
         if share == 0.0:

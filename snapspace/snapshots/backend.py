@@ -1,4 +1,4 @@
-"""Backend: what solves the samples of a run, wherever it does."""
+"""Backend: interface of whatever solves the samples of a run, here or elsewhere."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ FloatArray = NDArray[np.float64]
 
 
 class Backend(Protocol):
-    """What solves samples: threads here, or an executor's workers."""
+    """Solves samples, on threads of this process or on an executor's workers."""
 
     def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
         """Adds samples: numbers, inputs (k, input_size), starts (k, 3n)."""
         ...
 
     def wait(self, timeout: float) -> list[Solved]:
-        """Samples that are finished, after at most `timeout` seconds."""
+        """Newly finished samples, after at most `timeout` seconds."""
         ...
 
     def running(self) -> dict[int, int]:
-        """Evaluations so far of samples that are not finished, as far as it is known."""
+        """Evaluations so far of unfinished samples, by number; only those that are known."""
         ...
 
     def no_more(self) -> None:
-        """Tells that all samples are submitted."""
+        """Says that all samples are submitted."""
         ...
 
     def cancel(self) -> None:
@@ -37,9 +37,9 @@ class Backend(Protocol):
         ...
 
     def close(self) -> None:
-        """Cancels what is left, and lets go of everything."""
+        """Cancels what is left, and frees everything."""
         ...
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and gives what is finished when solvers have stopped or time is up."""
+        """Cancels, and returns finished samples once solvers have stopped or time is up."""
         ...

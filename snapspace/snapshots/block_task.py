@@ -1,4 +1,4 @@
-"""BlockTask: a block of samples as an executor's worker solves it."""
+"""BlockTask: a block of samples for a worker of an executor to solve."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ FloatArray = NDArray[np.float64]
 class BlockTask:
     """A block of samples, without the problem.
 
-    run : names the run, for tasks in its own process
+    run : id of the run, for tasks in its own process
     problem : key of the problem in workers' processes
-    number : differs between all tasks of a run; an executor may take equal tasks for one
+    number : unique among the tasks of a run, since an executor may merge equal tasks
     samples, inputs, starts : k numbers, (k, input_size), (k, 3n)
     options : ResolvedOptions
-    payload : the pickled problem, for a worker that has told that it needs it
+    payload : the pickled problem, for a worker that has asked for it
     """
 
     run: str
@@ -43,10 +43,10 @@ class BlockTask:
 
 @dataclass(frozen=True, eq=False)
 class BlockAnswer:
-    """What became of a block.
+    """A worker's answer to a block.
 
-    worker : name of the process that had it
-    solved : samples that are finished; None if the worker needs the problem
+    worker : name of the worker's process
+    solved : finished samples; None if the worker needs the problem
     """
 
     worker: str
@@ -54,15 +54,15 @@ class BlockAnswer:
 
 
 def solve_block(task: BlockTask) -> BlockAnswer:
-    """Solves a block on one thread, in whatever process the executor runs this.
+    """Solves a block on one thread, in any process of the executor.
 
-    In the run's own process the run's control ends it early, elsewhere Ctrl-C does: samples that
-    are not finished then are missing in the answer.
+    In the run's own process the run's control can end it early, elsewhere Ctrl-C can. Then
+    unfinished samples are missing in the answer.
     """
     worker = worker_name()
-    home = HELD_PROBLEMS.home(task.run, task.options)
-    if home is not None:
-        return BlockAnswer(worker, _solved(task, home.problem, home.control))
+    context = HELD_PROBLEMS.run_context(task.run, task.options)
+    if context is not None:
+        return BlockAnswer(worker, _solved(task, context.problem, context.control))
     problem = HELD_PROBLEMS.received(task.problem, task.payload, task.options)
     if problem is None:
         return BlockAnswer(worker, None)

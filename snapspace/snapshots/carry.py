@@ -1,4 +1,4 @@
-"""carry_over: the solutions for some handles as snapshots of a problem with other handles."""
+"""carry_over: turns solutions for some handles into snapshots of a problem with other handles."""
 
 from __future__ import annotations
 
@@ -17,42 +17,43 @@ FloatArray = NDArray[np.float64]
 
 @single_threaded_blas
 def carry_over(snapshots: Snapshots, problem: PosingProblem) -> Snapshots:
-    """What snapshots are worth for a problem with other handles: as starts, and in its basis.
+    """Carries snapshots over to a problem with other handles, as starts and for its basis.
 
-    Each shape gets the parameters of the new problem that it fits best. A handle with the same
-    vertices as an old one keeps its motion; any other one gets the rigid motion that brings its
-    rest vertices closest to the shape's, weighted by mass, which is the motion of least energy.
-    Where the new problem fixes another handle, the shape is moved back rigidly by the motion of
-    that one, and the motions count from there: the objective does not change.
+    Each shape gets the parameters of the new problem that fit it best. A handle with the same
+    vertices as an old one keeps its motion. Any other handle gets the rigid motion that brings its
+    rest vertices closest to the shape's, weighted by mass, which is the motion of least energy. If
+    the new problem fixes another handle, the shape is moved back rigidly by the motion of that
+    handle, and all motions count from there: the objective does not change.
 
     Parameters
     ----------
     snapshots : Snapshots
-        Of a `PosingProblem`. Those that are not usable are left behind.
+        Snapshots of a `PosingProblem`. Those that are not usable are left out.
     problem : PosingProblem
-        With the same mesh, in most cases from `with_handles`. Material and stiffness may differ.
+        A problem with the same mesh, usually from `with_handles`. Material and stiffness may
+        differ.
 
     Returns
     -------
     Snapshots
-        Of `problem`; parameters may lie outside of its box. If the problem has the same handles in
-        another order, under other names or in another box, the shapes are its solutions and the
-        reports are kept. Otherwise their status is "carried", and the numbers are zero.
+        Snapshots of `problem`; parameters may lie outside its box. If the problem has the same
+        handles in another order, with other names or in another box, the shapes are its solutions
+        and the reports are kept. Otherwise their status is "carried", and the numbers are zero.
 
     Raises
     ------
     ValueError
-        For another mesh, another kind of problem, or snapshots of which none is usable.
+        For another mesh, another kind of problem, or if no snapshot is usable.
 
     Notes
     -----
-    A handle whose vertices lie on a line or in a point does not determine its rotation, nor does
-    the objective depend on what is left open. It gets the smallest one relative to the fixed
-    handle. Rotations are fitted after Kabsch 1976, see `rigid_registration`.
+    A handle whose vertices lie on a line or in a point does not determine its rotation, and the
+    objective does not depend on the undetermined part. The handle gets the smallest rotation
+    relative to the fixed handle. Rotations are fitted after Kabsch 1976, see `rigid_registration`.
 
     An added handle hardly pulls: on the creature a solve from such shapes at their own parameters
     takes 2 iterations, and 25 new samples with 100 carried ones span as much as 50 new ones (on the
-    Dragon 100). Where a handle is removed its force is missing: the shapes help a basis of few new
+    Dragon 100). If a handle is removed, its force is missing: the shapes help a basis of few new
     samples, but as starts they are no better than the rest shape.
     """
     old = _checked(snapshots, problem)
@@ -84,20 +85,22 @@ class _Carrier:
     def carry(self, moving: FloatArray, shape: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Parameters (p,) and positions (3n,), from motions (h - 1, 6) and positions (3n,)."""
         motions = np.vstack([np.zeros(6), moving])
-        if self._places[0] != 0:  # else nothing turns, and what is known keeps its last bit
+        if self._places[0] != 0:  # otherwise nothing moves, and known values keep all their bits
             back = self._first_motion(motions, shape).inverse()
             shape = back.apply(shape)
             pairs = zip(motions, self._old.centroids, strict=True)
-            motions = np.array([_six(_after(back, _rigid(m, c)), c) for m, c in pairs])
+            motions = np.array([_parameters(_composed(back, _rigid(m, c)), c) for m, c in pairs])
         parameters = [
-            _six(self._fit(h, shape), self._new.centroids[h]) if place is None else motions[place]
+            _parameters(self._fit(h, shape), self._new.centroids[h])
+            if place is None
+            else motions[place]
             for h, place in enumerate(self._places)
             if h > 0
         ]
         return np.concatenate(parameters), shape
 
     def _first_motion(self, motions: FloatArray, shape: FloatArray) -> RigidMotion:
-        """How the handle that the new problem fixes has moved in the old one."""
+        """The motion, in the old problem, of the handle that the new problem fixes."""
         place = self._places[0]
         if place is None:
             return self._fit(0, shape)
@@ -120,13 +123,14 @@ def _rigid(motion: FloatArray, center: FloatArray) -> RigidMotion:
     return RigidMotion(rotation, center + motion[:3] - rotation @ center)
 
 
-def _six(motion: RigidMotion, center: FloatArray) -> FloatArray:
+def _parameters(motion: RigidMotion, center: FloatArray) -> FloatArray:
     """Translation and Euler angles (6,) about a center: the inverse of `_rigid`."""
     shift = motion.apply(center[None])[0] - center
     return np.concatenate([shift, euler_of_rotation(motion.rotation)])
 
 
-def _after(second: RigidMotion, first: RigidMotion) -> RigidMotion:
+def _composed(second: RigidMotion, first: RigidMotion) -> RigidMotion:
+    """The first motion, followed by the second one."""
     shift = second.apply(first.translation[None])[0]
     return RigidMotion(second.rotation @ first.rotation, shift)
 
@@ -154,8 +158,7 @@ def _checked(snapshots: Snapshots, problem: PosingProblem) -> PosingProblem:
         )
     if not snapshots.usable.any():
         raise ValueError(
-            f"carry_over: none of the {len(snapshots)} snapshots converged; "
-            "allow more iterations or "
-            "a smaller domain"
+            f"carry_over: none of the {len(snapshots)} snapshots converged; allow more iterations "
+            "or choose a smaller domain"
         )
     return old

@@ -1,4 +1,4 @@
-"""Checkpoint: finished samples on disk, so that an interrupted run can go on."""
+"""Checkpoint: finished samples on disk, so that an interrupted run can continue."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ FloatArray = NDArray[np.float64]
 
 
 class CheckpointNotice(Notice):
-    """A file of a checkpoint is damaged and its samples are solved again, or cannot be written."""
+    """A checkpoint's file cannot be written, or is damaged and its samples are solved again."""
 
 
 class UnsavedSamplesError(ValueError):
-    """Finished samples could not be written; they are here, and may be saved once they can be.
+    """Finished samples could not be written. The error holds them, so that they can be saved later.
 
     indices, displacements, reports : the arguments of the `Checkpoint.save` that failed
     """
@@ -59,8 +59,8 @@ class Checkpoint:
     Parameters
     ----------
     folder : Path
-        Made when the first samples are saved. Each save adds one file that is either complete or
-        not there, whenever the process is killed; a checksum tells later damage.
+        The folder, made when the first samples are saved. Each save adds one file that is either
+        complete or absent, even if the process is killed; a checksum detects later damage.
     """
 
     def __init__(self, folder: str | Path) -> None:
@@ -82,14 +82,14 @@ class Checkpoint:
         Returns
         -------
         list of (3n,)
-            The same displacements, mapped from the file and not to be written to: the caller need
-            not keep its own.
+            The same displacements, mapped read-only from the file: the caller need not keep its
+            own.
 
         Raises
         ------
         UnsavedSamplesError
             A ValueError: the folder or the file cannot be written, for instance because the disk
-            is full. Samples saved before are kept, nothing of these is left behind.
+            is full. Samples saved before are kept, and no part of the new file is left behind.
         """
         rows = list(displacements)
         path = self.folder / f"samples-{min(indices):05d}-{len(indices)}.safetensors"
@@ -104,8 +104,8 @@ class Checkpoint:
             size = 1e-6 * sum(row.nbytes for row in rows)
             raise UnsavedSamplesError(
                 f"{self.folder}: {len(indices)} finished samples, {size:.1f} MB, are not saved: "
-                f"{reason}; {len(self.numbers())} samples are kept there, and when they can be "
-                "written the same call goes on from these",
+                f"{reason}; {len(self.numbers())} samples are kept there, and once the cause is "
+                "removed the same call continues from them",
                 indices,
                 rows,
                 reports,
@@ -113,9 +113,9 @@ class Checkpoint:
         return [samples[int(index)][0] for index in indices]
 
     def load(self) -> Samples:
-        """All finished samples by number: displacements (3n,) mapped from the files, and report.
+        """All finished samples by number: displacements (3n,) mapped from the files, and reports.
 
-        Files that are damaged are skipped with a `CheckpointNotice`.
+        Damaged files are skipped with a `CheckpointNotice`.
         """
         found: Samples = {}
         for path in self._files():
@@ -134,14 +134,14 @@ class Checkpoint:
             try:
                 numbers.update(read_indices(path))
             except (OSError, ValueError):
-                continue  # `load` tells of it
+                continue  # `load` warns about it
         return numbers
 
     def remove(self) -> None:
         """Deletes the folder, after the result is safe elsewhere.
 
-        Rows that are still mapped can be used on; where the system does not delete mapped files
-        (Windows), these stay.
+        Rows that are still mapped can still be used. Systems that do not delete mapped files
+        (Windows) keep these.
         """
         shutil.rmtree(self.folder, ignore_errors=True)
 

@@ -30,19 +30,18 @@ FloatArray = NDArray[np.float64]
 class ExecutorBackend:
     """Solves blocks of samples on an executor; each block is one task on one thread.
 
-    The problem is not sent with the tasks. A worker that does not have it says so, and gets it with
-    the next block; while it is on its way, other blocks that such a worker had are held back.
+    The problem is not sent with the tasks. A worker that lacks it says so, and gets it with the
+    next block. While the problem is on its way, other blocks from that worker are held back.
     Workers in this process (a thread pool) share the problem itself.
 
     Parameters
     ----------
     executor : Executor
-        Of threads, of processes, or of a cluster; it is not shut down.
+        An executor of threads, processes or a cluster; it is not shut down.
     problem : Problem
-        One that can be pickled. A mean shape that is not known is solved for here.
+        A problem that can be pickled. If its mean shape is not known, it is solved for here.
     options : ResolvedOptions
-        A sample has the same bits here and in a local run with the same options, however it is put
-        into blocks.
+        A sample has the same bits as in a local run with the same options, whatever its block.
 
     Raises
     ------
@@ -51,34 +50,34 @@ class ExecutorBackend:
 
     Notes
     -----
-    Of use to one thread. `payloads_sent` counts the problems sent: about one per worker process.
+    For use by one thread. `payloads_sent` counts the problems sent: about one per worker process.
     """
 
     def __init__(self, executor: Executor, problem: Problem, options: ResolvedOptions) -> None:
-        _ = problem.tau  # to be found once here, and not by every worker
+        _ = problem.tau  # found once here, and not by every worker
         self.payloads_sent = 0
         self._executor = executor
         self._options = options
         self._payload = _pickled(problem)
-        # not its fingerprint: that leaves out a mean shape that was given
+        # not the fingerprint: that does not depend on a given mean shape
         self._key = hashlib.sha256(self._payload).hexdigest()
         self._run = uuid.uuid4().hex
-        self._home = RunContext(problem, core.SolveControl())
-        HELD_PROBLEMS.share(self._run, self._home)
+        self._context = RunContext(problem, core.SolveControl())
+        HELD_PROBLEMS.share(self._run, self._context)
         self._numbers = count()
-        self._under_way: dict[Future[BlockAnswer], BlockTask] = {}
-        self._carriers: dict[Future[BlockAnswer], str] = {}  # and the workers that they are for
+        self._in_flight: dict[Future[BlockAnswer], BlockTask] = {}
+        self._carriers: dict[Future[BlockAnswer], str] = {}  # tasks with the problem, by worker
         self._held_back: list[BlockTask] = []
         self._collected: list[Solved] = []
         self._cancelled = False
 
     def submit(self, samples: Sequence[int], inputs: FloatArray, starts: FloatArray) -> None:
-        """Hands a block over: k sample numbers, inputs (k, input_size), starts (k, 3n).
+        """Submits a block: k sample numbers, inputs (k, input_size), starts (k, 3n).
 
         Raises
         ------
         ValueError
-            If the executor takes no more work.
+            If the executor accepts no more work.
         """
         task = BlockTask(
             run=self._run,
@@ -92,33 +91,33 @@ class ExecutorBackend:
         self._send(task)
 
     def wait(self, timeout: float) -> list[Solved]:
-        """Finished samples that were not returned before, in no order.
+        """Newly finished samples, in any order.
 
-        Returns as soon as there are any, or nothing is under way, at most after `timeout` seconds.
-        After `cancel` these are what was finished all the same.
+        Returns as soon as there are any, or no task is in flight, or after `timeout` seconds.
+        After `cancel` these are the samples that were finished nevertheless.
 
         Raises
         ------
         ValueError, MemoryError, RuntimeError
-            For a block that failed, with its samples in the message, or a lost worker. What else
-            is finished can still be waited for.
+            For a block that failed, with its samples in the message, or a lost worker. A later
+            call still returns other finished samples.
         """
         deadline = monotonic() + timeout
-        while not self._collected and self._under_way:
+        while not self._collected and self._in_flight:
             left = deadline - monotonic()
-            done, _ = wait(self._under_way, timeout=max(left, 0.0), return_when=FIRST_COMPLETED)
-            # results before errors, which would keep them from the caller
+            done, _ = wait(self._in_flight, timeout=max(left, 0.0), return_when=FIRST_COMPLETED)
+            # results first: an error would keep them from the caller
             for future in sorted(done, key=_has_failed):
                 if self._collected and _has_failed(future):
                     break
-                self._take(future)
+                self._collect(future)
             if left <= 0:
                 break
         solved, self._collected = self._collected, []
         return solved
 
     def running(self) -> dict[int, int]:
-        """Nothing: workers do not tell how far their samples are."""
+        """Empty: workers do not report the progress of their samples."""
         return {}
 
     def no_more(self) -> None:
@@ -127,50 +126,50 @@ class ExecutorBackend:
     def cancel(self) -> None:
         """Asks all tasks to end; returns at once. Other processes finish what they have begun."""
         self._cancelled = True
-        self._home.control.cancel()
+        self._context.control.cancel()
         self._held_back.clear()
-        for future in list(self._under_way):
+        for future in list(self._in_flight):
             if future.cancel():
-                del self._under_way[future]
+                del self._in_flight[future]
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and gives what is finished when tasks have ended or time is up."""
+        """Cancels, and returns finished samples once tasks have ended or time is up."""
         self.cancel()
         deadline, solved = monotonic() + seconds, []
-        while self._under_way and monotonic() < deadline:
+        while self._in_flight and monotonic() < deadline:
             solved += self.wait(deadline - monotonic())
         return solved + self.wait(0.0)
 
     def close(self) -> None:
-        """Cancels what is under way and lets go of all results; the executor stays open."""
+        """Cancels tasks in flight and drops all results; the executor stays open."""
         self.cancel()
-        self._under_way.clear()
+        self._in_flight.clear()
         self._carriers.clear()
         self._collected.clear()
 
     def _send(self, task: BlockTask, *, worker: str | None = None) -> Future[BlockAnswer]:
-        """Submits a task; to a worker of this name, where the executor can choose."""
+        """Submits a task, to the worker of this name if the executor can choose."""
         numbered = replace(task, number=next(self._numbers))
         place = {} if worker is None else for_worker(self._executor, worker)
         try:
             with warnings.catch_warnings():
-                # dask advises to send large data once per worker: that is what is done here
+                # dask advises to send large data once per worker, which is done here
                 warnings.filterwarnings("ignore", message="Sending large graph")
                 future = self._executor.submit(solve_block, numbered, **place)
         except Exception as error:
             raise refused_fault(error, task.samples) from error
-        self._under_way[future] = task
+        self._in_flight[future] = task
         return future
 
-    def _take(self, future: Future[BlockAnswer]) -> None:
-        """Books a future that is done."""
-        task, is_carrier = self._under_way[future], future in self._carriers
+    def _collect(self, future: Future[BlockAnswer]) -> None:
+        """Collects the answer of a finished future, and sends what is left of its block."""
+        task, is_carrier = self._in_flight[future], future in self._carriers
         try:
             answer = self._answer(future, task)
-            # before the future is let go of: Ctrl-C in between repeats samples and loses none
+            # before the future is dropped: Ctrl-C in between repeats samples and loses none
             self._collected += answer.solved or [] if answer else []
         finally:
-            del self._under_way[future]
+            del self._in_flight[future]
             self._carriers.pop(future, None)
         if answer is None or self._cancelled:
             return
@@ -184,7 +183,7 @@ class ExecutorBackend:
                 self._send(held)
 
     def _answer(self, future: Future[BlockAnswer], task: BlockTask) -> BlockAnswer | None:
-        """The answer of a task; None if it failed after `cancel`, when nobody asks for it."""
+        """The answer of a task; None if it failed after `cancel`, when it is not needed."""
         if future.cancelled():
             if self._cancelled:
                 return None
@@ -197,7 +196,7 @@ class ExecutorBackend:
         raise task_fault(error, task.samples) from error
 
     def _send_problem(self, task: BlockTask, worker: str) -> None:
-        """Sends a block again that a worker could not solve without the problem."""
+        """Sends a block again, with the problem that its worker lacked."""
         if worker in self._carriers.values():
             self._held_back.append(task)
             return
@@ -206,7 +205,7 @@ class ExecutorBackend:
         self.payloads_sent += 1
 
     def _send_rest(self, task: BlockTask, solved: Sequence[Solved]) -> None:
-        """Sends what Ctrl-C in a worker has left of a block."""
+        """Sends the samples of a block that Ctrl-C in a worker left unfinished."""
         finished = {one.sample for one in solved}
         rest = [k for k, sample in enumerate(task.samples) if sample not in finished]
         if rest:

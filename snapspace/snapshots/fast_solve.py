@@ -1,4 +1,4 @@
-"""The fast solver on samples, with a second try for the slow ones."""
+"""solve_fast: the fast solver on samples, with a second try for slow ones."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ def solve_fast(
     *,
     threads: int,
 ) -> tuple[FloatArray, list[SampleReport]]:
-    """Displacements (k, 3n) and reports by L-BFGS, samples in lanes.
+    """Displacements (k, 3n) and reports of L-BFGS solves, with samples in lanes.
 
-    What a sample goes through does not depend on the others of the call.
+    The result of a sample does not depend on the other samples of the call.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ def solve_fast(
         Cancelled samples have the status cancelled.
     options : ResolvedOptions
     threads : int
-        0 for all.
+        Number of threads, 0 for all.
     """
     batch = problem.system.solve_fast(
         inputs,
@@ -52,23 +52,23 @@ def solve_fast(
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
     for k, report in enumerate(reports):
         if needs_another_try(report, options):
-            shapes[k], reports[k] = solve_on(
+            shapes[k], reports[k] = continue_solving(
                 problem, inputs[k], shapes[k], report, control, options, threads=threads
             )
     return shapes, reports
 
 
 def first_iterations(problem: Problem, options: ResolvedOptions) -> int:
-    """Iterations of a sample on the factor that all share."""
+    """Iterations of a sample on the factor that all samples share."""
     return min(problem.solving.patience or options.max_iterations, options.max_iterations)
 
 
 def needs_another_try(report: SampleReport, options: ResolvedOptions) -> bool:
-    """Whether a sample has used up the problem's patience, but not its iterations."""
+    """Whether a sample has used up the problem's patience, but not all its iterations."""
     return report.status == "max_iterations" and report.iterations < options.max_iterations
 
 
-def solve_on(
+def continue_solving(
     problem: Problem,
     inputs: FloatArray,
     shape: FloatArray,
@@ -78,9 +78,9 @@ def solve_on(
     *,
     threads: int,
 ) -> tuple[FloatArray, SampleReport]:
-    """Goes on with one sample alone, on factors made for the shapes that it reaches.
+    """Continues one sample alone, on factors made for the shapes that it reaches.
 
-    inputs (input_size,); shape (3n,) and report are where it was left. Returns where it ends.
+    inputs (input_size,); shape (3n,) and report are those reached so far. Returns the final ones.
     """
     traits = problem.solving
     while needs_another_try(report, options):

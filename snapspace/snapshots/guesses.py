@@ -1,4 +1,4 @@
-"""Guesses: starts of samples while few are finished."""
+"""Guesses: starts of samples while few samples are finished."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from .starts import interpolation_weights
 
 FloatArray = NDArray[np.float64]
 
-#: Finished samples for each parameter up to which guesses are worth their time. On the Dragon a
-#: guess costs two evaluations, and saves as many where six samples for each parameter are finished.
+#: Guesses are worth their time up to so many finished samples per parameter. On the Dragon a guess
+#: costs two evaluations, and saves as many once six samples per parameter are finished.
 GUESSED = 8
 
 
 class Guesses:
-    """A problem's own guesses, corrected by how much they have missed finished samples.
+    """A problem's own guesses, corrected by their errors at finished samples.
 
-    Far from all samples a corrected guess is the guess, and at a sample the sample. Interpolating
-    what guesses miss leaves half to two thirds of the error of interpolating shapes.
+    Far from all samples a corrected guess equals the guess, and at a sample the sample. Compared
+    with interpolating shapes, interpolating these errors leaves half to two thirds of the error.
 
     Parameters
     ----------
     problem : Problem
     parameters : (k, p)
-        Of all samples that are known or wanted; they are named by their rows from here on.
+        Parameters of all samples, known or wanted; methods refer to samples by row.
     """
 
     def __init__(self, problem: Problem, parameters: FloatArray) -> None:
@@ -42,33 +42,33 @@ class Guesses:
     ) -> FloatArray | None:
         """Starts (j, 3n) for wanted samples, from displacements (i, 3n) of the known ones.
 
-        None if the problem has no guesses, or so many samples are known that they do without.
+        None if the problem has no guesses, or if enough samples are known without them.
         """
-        if self._done_without(len(known)):
+        if self._has_enough(len(known)):
             self._rows.clear()
             return None
-        if not self._made(wanted):
+        if not self._make_missing(wanted):
             return None
         guesses = DisplacementRows([self._rows[i] for i in wanted], rows.size)
-        if len(known) < 2:  # the rest shape, where guesses miss nothing
+        if len(known) < 2:  # only the rest shape, where guesses are exact
             return guesses.array()
-        self._made(known)
+        self._make_missing(known)
         weights = interpolation_weights(self._scaled[list(known)], self._scaled[list(wanted)])
-        # a guess, and what guesses miss of known samples
+        # a guess, plus the interpolated errors of the guesses at known samples
         every = guesses.followed_by(rows).followed_by([self._rows[i] for i in known])
         return every.combined(np.hstack([np.eye(len(wanted)), weights, -weights]))
 
     def make(self, wanted: Sequence[int], *, known: int) -> None:
-        """Makes the guesses that `corrected` needs of wanted samples, with so many known ones."""
-        if not self._done_without(known):
-            self._made(wanted)
+        """Makes the guesses that `corrected` needs for wanted samples, given `known` others."""
+        if not self._has_enough(known):
+            self._make_missing(wanted)
 
-    def _done_without(self, known: int) -> bool:
+    def _has_enough(self, known: int) -> bool:
         enough: int = GUESSED * self._parameters.shape[1]
         return known >= enough
 
-    def _made(self, samples: Sequence[int]) -> bool:
-        """Makes the guesses that are missing; whether the problem has any."""
+    def _make_missing(self, samples: Sequence[int]) -> bool:
+        """Makes the missing guesses; returns whether the problem has any."""
         missing = [i for i in samples if i not in self._rows]
         if missing:
             guesses = self._problem.guesses(self._parameters[missing])

@@ -1,4 +1,4 @@
-"""HeldOutError: what error unseen samples would have by now."""
+"""HeldOutError: estimates the error that unseen samples would have by now."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from ..problem import Problem, solutions_beyond_tau
 
 FloatArray = NDArray[np.float64]
 
-#: Dimension of the subspaces that errors are estimated for, or all directions while there are
-#: fewer: the size that users build.
+#: Dimension of the subspaces in which errors are estimated, a size that users build. While there
+#: are fewer directions, all of them.
 DIMENSION = 40
 
 
 class HeldOutError:
     """Errors of each new block of samples in the best subspace of all samples before it.
 
-    The samples that come next are unseen ones, until they are used: an honest estimate that costs
-    inner products only, which the subspace needs anyway.
+    New samples are unseen until they are used: an unbiased estimate that costs only inner products,
+    which the subspace needs anyway.
 
     gram : SnapshotGram of all samples so far
 
@@ -29,7 +29,7 @@ class HeldOutError:
     ----------
     problem : Problem
     dimension : int, default 40
-        Of the subspaces.
+        Dimension of the subspaces.
     """
 
     def __init__(self, problem: Problem, *, dimension: int = DIMENSION) -> None:
@@ -42,9 +42,9 @@ class HeldOutError:
         self.gram.add(rows, threads=threads)
 
     def of_last(self, converged: NDArray[np.bool_], last: int) -> float | None:
-        """Median error of the last samples against all before; None where there are none.
+        """Median error of the last samples against all before; None if there are none.
 
-        converged (k,) tells which samples count.
+        converged (k,) is a mask of the samples that count.
         """
         before = len(self.gram) - last
         training, unseen = np.flatnonzero(converged[:before]), np.flatnonzero(converged[before:])

@@ -1,4 +1,4 @@
-"""The problems that tasks of an executor find in their process."""
+"""HeldProblems: problems kept in a process for the tasks of executors."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ from .. import _core as core
 from ..problem import Problem
 from .solver_options import ResolvedOptions
 
-#: A cluster that serves two runs in turns needs no more; a problem with its factor can take GBs.
+#: Enough for a cluster that serves two runs in turn; a problem with its factor can take GBs.
 _MOST_RECEIVED = 2
 
 
 @dataclass(frozen=True, eq=False)
 class RunContext:
-    """What a run shares with the tasks in its own process: the problem, and what ends them."""
+    """A run's problem and the control that ends its tasks, shared with those in its own process."""
 
     problem: Problem
     control: core.SolveControl
 
 
 class HeldProblems:
-    """Problems by the names under which tasks ask for them; safe to use from several threads.
+    """Problems by the keys with which tasks ask for them; safe to use from several threads.
 
-    The one process-wide state of this package. Tasks of an executor have only their process in
-    common, and its factor and copy of a problem cost more than a block of samples. Results do not
-    depend on what is held. It is bounded: problems that came with a task are the last few, those
-    of runs in this process live no longer than the runs.
+    This is the only process-wide state of the package. Tasks of an executor share only their
+    process, and the copy and factor of a problem cost more than a block of samples. Results do not
+    depend on what is held. The state is bounded: it keeps the last few problems that came with a
+    task, and those of runs in this process only as long as the runs.
     """
 
     def __init__(self) -> None:
@@ -39,28 +39,28 @@ class HeldProblems:
 
     def clear(self) -> None:
         """Forgets everything."""
-        # building a factor under the lock makes one for a process, not one for each of its threads
+        # building a factor under the lock makes one per process, not one per thread
         self._lock = threading.Lock()
-        self._homes: WeakValueDictionary[str, RunContext] = WeakValueDictionary()
+        self._runs: WeakValueDictionary[str, RunContext] = WeakValueDictionary()
         self._received: OrderedDict[str, Problem] = OrderedDict()
 
-    def share(self, run: str, home: RunContext) -> None:
-        """Lets tasks in this process find a run's home for as long as it is referenced."""
+    def share(self, run: str, context: RunContext) -> None:
+        """Lets tasks in this process find a run's context for as long as it is referenced."""
         with self._lock:
-            self._homes[run] = home
+            self._runs[run] = context
 
-    def home(self, run: str, options: ResolvedOptions) -> RunContext | None:
-        """The home of a run of this process, with what its options need compiled; else None."""
+    def run_context(self, run: str, options: ResolvedOptions) -> RunContext | None:
+        """The context of a run of this process, with its system and modes made; else None."""
         with self._lock:
-            home = self._homes.get(run)
-            if home is not None:
-                _ = home.problem.system, options.modes_of(home.problem)
-            return home
+            context = self._runs.get(run)
+            if context is not None:
+                _ = context.problem.system, options.modes_of(context.problem)
+            return context
 
     def received(self, key: str, payload: bytes | None, options: ResolvedOptions) -> Problem | None:
-        """The problem of this key, with what the options need; from the payload if it is new.
+        """The problem of this key, with system and modes made; from the payload if it is new.
 
-        None if it is not there and there is no payload.
+        None if it is not held and there is no payload.
         """
         with self._lock:
             problem = self._received.get(key)
@@ -79,6 +79,6 @@ class HeldProblems:
 
 HELD_PROBLEMS = HeldProblems()
 if hasattr(os, "register_at_fork"):
-    # a forked worker is a worker like any other; it must not inherit a lock that is taken, nor the
-    # control of a run that cannot reach it
+    # a forked worker must inherit neither a locked lock nor the control of a run that cannot reach
+    # it
     os.register_at_fork(after_in_child=HELD_PROBLEMS.clear)

@@ -1,4 +1,4 @@
-"""LocalBackend: samples on the threads of this process."""
+"""LocalBackend: solves samples on the threads of this process."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..problem import Problem
-from .fast_solve import as_sample_report, first_iterations, needs_another_try, solve_on
+from .fast_solve import as_sample_report, continue_solving, first_iterations, needs_another_try
 from .solved import Solved
 from .solver_options import ResolvedOptions
 
@@ -20,22 +20,22 @@ FloatArray = NDArray[np.float64]
 
 
 class LocalBackend:
-    """Solves samples as they come, on threads that share a queue.
+    """Solves samples as they arrive, on threads that share a queue.
 
     Parameters
     ----------
     problem : Problem
     options : ResolvedOptions
     expected : int
-        Samples that will come in all.
+        Total number of samples that will be submitted.
     threads : int
-        0 for all.
+        Number of threads, 0 for all.
     """
 
     def __init__(
         self, problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
     ) -> None:
-        # made once, before threads ask for them, and where Ctrl-C ends it
+        # made once, before threads ask for them, and where Ctrl-C can interrupt it
         _ = problem.system, options.modes_of(problem)
         self._problem = problem
         self._options = options
@@ -44,7 +44,7 @@ class LocalBackend:
         self._control = core.SolveControl()
         self._collected: list[core.Solution] = []
         self._inputs: dict[int, FloatArray] = {}
-        self._again: dict[int, Future[Solved]] = {}
+        self._continued: dict[int, Future[Solved]] = {}
         self._pool = ThreadPoolExecutor(max_workers=2)
         self._server = self._pool.submit(self._serve, expected)
 
@@ -55,7 +55,7 @@ class LocalBackend:
             self._problem.system.put(self._queue, sample, w, start)
 
     def wait(self, timeout: float) -> list[Solved]:
-        """Samples that are finished, after at most `timeout` seconds; raises what a solver did."""
+        """Newly finished samples, after at most `timeout` seconds; raises errors of the solvers."""
         if self._server.done():
             self._server.result()
         self._queue.collect(self._collected, timeout)
@@ -63,10 +63,10 @@ class LocalBackend:
         solved = [Solved(one.id, one.shape, as_sample_report(one.report)) for one in collected]
         slow = [one for one in solved if needs_another_try(one.report, self._options)]
         for one in slow:
-            self._again[one.sample] = self._pool.submit(self._solve_on, one)
-        done = [one for one in solved if one.sample not in self._again]
-        for sample in [sample for sample, future in self._again.items() if future.done()]:
-            done.append(self._again.pop(sample).result())
+            self._continued[one.sample] = self._pool.submit(self._continue_solving, one)
+        done = [one for one in solved if one.sample not in self._continued]
+        for sample in [sample for sample, future in self._continued.items() if future.done()]:
+            done.append(self._continued.pop(sample).result())
         for one in done:
             del self._inputs[one.sample]
         return [one for one in done if one.report.status != "cancelled"]
@@ -80,15 +80,15 @@ class LocalBackend:
         self._queue.close()
 
     def cancel(self) -> None:
-        """Ends all solves; what is not finished by then is lost. Returns at once."""
+        """Ends all solves and returns at once; unfinished samples are lost."""
         self._control.cancel()
         self._queue.close()
 
     def stop(self, seconds: float) -> list[Solved]:
-        """Cancels, and gives what is finished when the solvers have stopped or time is up."""
+        """Cancels, and returns finished samples once the solvers have stopped or time is up."""
         self.cancel()
-        under_way: list[Future[Any]] = [self._server, *self._again.values()]
-        futures.wait(under_way, timeout=seconds)
+        running: list[Future[Any]] = [self._server, *self._continued.values()]
+        futures.wait(running, timeout=seconds)
         return self.wait(0.0)
 
     def close(self) -> None:
@@ -122,8 +122,8 @@ class LocalBackend:
             modes=options.modes_of(self._problem),
         )
 
-    def _solve_on(self, slow: Solved) -> Solved:
-        shape, report = solve_on(
+    def _continue_solving(self, slow: Solved) -> Solved:
+        shape, report = continue_solving(
             self._problem,
             self._inputs[slow.sample],
             slow.displacement,

@@ -32,15 +32,15 @@ from .starts import interpolated_start, lowest_start, nearest_start
 FloatArray = NDArray[np.float64]
 
 POLL_SECONDS = 0.1
-#: How long Ctrl-C waits for solvers to stop: they ask between the parts of an iteration.
+#: How long Ctrl-C waits for solvers to stop: they check between the parts of an iteration.
 STOP_SECONDS = 0.4
 
 
 class Interrupted(KeyboardInterrupt):
     """Ctrl-C during `solve_snapshots`; the finished samples are in its checkpoint, if any.
 
-    finished : Snapshots of them, in the order of the samples; None if there are none, and of
-        samples that were chosen on the way
+    finished : Snapshots of the finished samples, in order; None if there are none, or if samples
+        are chosen during the run
     """
 
     def __init__(self, message: str, finished: Snapshots | None = None) -> None:
@@ -49,7 +49,7 @@ class Interrupted(KeyboardInterrupt):
 
 
 class Run:
-    """Samples on their way: what is submitted, what is finished, what is saved.
+    """The state of a run: which samples are submitted, finished and saved.
 
     Parameters
     ----------
@@ -78,9 +78,9 @@ class Run:
         self.rows: dict[int, FloatArray] = {}
         self.reports: dict[int, SampleReport] = {}
         self.unsaved: list[int] = []
-        self.enough = options.block  # samples that are saved together
-        self.complete = 0  # leading blocks that are finished
-        self.quick: list[list[int]] = []  # of leading blocks: samples that others start from
+        self.save_size = options.block  # number of samples to save together
+        self.complete = 0  # number of finished leading blocks
+        self.quick: list[list[int]] = []  # for leading blocks: samples that others start from
         for index, (row, report) in (checkpoint.load() if checkpoint else {}).items():
             self.rows[index], self.reports[index] = row, report
         self.found = len(self.reports)
@@ -96,28 +96,28 @@ class Run:
 
     @cached_property
     def held_out(self) -> HeldOutError:
-        """Of the leading blocks, for those who watch; made while the first samples are solved."""
+        """Error of the leading blocks, for `progress`; made while the first samples are solved."""
         return HeldOutError(self.problem)
 
     def solve(self, executor: Executor | None) -> Snapshots:
-        """Solves what is missing and gives all samples; raises Interrupted on Ctrl-C."""
+        """Solves the missing samples and returns all of them; raises Interrupted on Ctrl-C."""
         try:
             with ctrl_c_at_checks():
                 self._solve(executor)
-                every = self._of(range(len(self.samples)))
+                every = self._snapshots_of(range(len(self.samples)))
                 return replace(every, gram=self.held_out.gram) if self.progress else every
         except KeyboardInterrupt:
             done = f"{len(self.reports)} of {len(self.samples)} samples are finished"
-            finished = self._of(sorted(self.reports)) if self.reports else None
+            finished = self._snapshots_of(sorted(self.reports)) if self.reports else None
             raise Interrupted(done, finished) from None
 
     def _solve(self, executor: Executor | None) -> None:
         missing = len(self.samples) - self.found
         if not missing:
             self._advance()
-            self._tell()
+            self._report_progress()
             return
-        finish_guesses = self._begin_guesses()  # beside what a backend makes
+        finish_guesses = self._begin_guesses()  # in parallel with the backend's preparations
         backend: Backend
         if executor is None:
             backend = LocalBackend(
@@ -127,29 +127,29 @@ class Run:
             backend = ExecutorBackend(executor, self.problem, self.options)
         try:
             finish_guesses()
-            self._solve_on(backend)
+            self._solve_with(backend)
         except KeyboardInterrupt:
-            self._book(backend.stop(STOP_SECONDS))
+            self._record(backend.stop(STOP_SECONDS))
             raise
         finally:
             self._save()
             backend.close()
 
     def _begin_guesses(self) -> Callable[[], None]:
-        """Begins with guesses of the first block; what is returned waits for them."""
+        """Begins to make guesses for the first block; the returned function waits for them."""
         if self.found or self.options.solver == "newton":
             return lambda: None
-        _ = self.problem.system  # threads that ask for it at the same time would both make it
+        _ = self.problem.system  # otherwise two threads could both make it
         given = len(self.known_parameters)
         first = [given + i for i in self.schedule.samples(0)]
         return begin_abandonable(lambda: self.guesses.make(first, known=given))
 
-    def _of(self, numbers: Sequence[int]) -> Snapshots:
+    def _snapshots_of(self, numbers: Sequence[int]) -> Snapshots:
         rows = DisplacementRows([self.rows[i] for i in numbers], self.problem.base.size)
         reports = [self.reports[i] for i in numbers]
         return Snapshots(self.problem, self.samples[np.array(numbers)], rows, reports)
 
-    def _solve_on(self, backend: Backend) -> None:
+    def _solve_with(self, backend: Backend) -> None:
         submitted = 0
         while len(self.reports) < len(self.samples):
             check_stop()
@@ -160,12 +160,12 @@ class Run:
                 submitted += 1
                 if submitted == len(self.schedule):
                     backend.no_more()
-            self._tell()
-            self._book(backend.wait(POLL_SECONDS))
-            if len(self.unsaved) >= self.enough:
+            self._report_progress()
+            self._record(backend.wait(POLL_SECONDS))
+            if len(self.unsaved) >= self.save_size:
                 self._save()
         self._advance()
-        self._tell()
+        self._report_progress()
 
     def _ready(self, index: int, backend: Backend) -> bool:
         """Whether it is known which samples a block starts from."""
@@ -185,31 +185,31 @@ class Run:
             if any(i not in self.reports for i in block):
                 break
             self.complete += 1
-            if self.unsaved and self.enough == self.options.block:
-                self._save()  # before the Gram matrix takes hold of what is in memory
+            if self.unsaved and self.save_size == self.options.block:
+                self._save()  # before the Gram matrix keeps references to rows in memory
             if self.progress:
-                self._learn(block.stop, last=self.complete == len(self.schedule))
+                self._estimate_error(block.stop, last=self.complete == len(self.schedule))
 
-    def _learn(self, finished: int, *, last: bool) -> None:
-        """Estimates the error from the leading samples, for those who watch.
+    def _estimate_error(self, finished: int, *, last: bool) -> None:
+        """Estimates the error from the leading samples, for `progress`.
 
-        In growing parts, since each part of the Gram matrix reads all earlier rows.
+        It adds samples in growing parts, since each part of the Gram matrix reads all earlier rows.
         """
-        learned = len(self.held_out.gram)
-        if finished < 1.5 * learned and not last:
+        added = len(self.held_out.gram)
+        if finished < 1.5 * added and not last:
             return
-        rows = [self.rows[i] for i in range(learned, finished)]
+        rows = [self.rows[i] for i in range(added, finished)]
         self.held_out.add(rows, threads=self.threads)
         converged = np.array([self.reports[i].converged for i in range(finished)])
-        self.estimate = self.held_out.of_last(converged, finished - learned)
+        self.estimate = self.held_out.of_last(converged, finished - added)
 
     def _submit(self, backend: Backend, index: int) -> None:
         block = self.schedule.samples(index)
         missing = [i for i in block if i not in self.reports]
         if not missing:
             return
-        # for the whole block: products with fewer rows round differently, and which samples are
-        # missing depends on where an earlier run was interrupted
+        # for the whole block: products with fewer rows round differently, and the missing samples
+        # depend on where an earlier run was interrupted
         inputs = self.problem.inputs(self.samples[block])
         starts = self._starts(index, inputs)
         if len(missing) < len(block):
@@ -218,7 +218,7 @@ class Run:
         backend.submit(missing, inputs, starts)
 
     def _starts(self, index: int, inputs: FloatArray) -> FloatArray:
-        """Guesses for a block from converged samples before it, and from what is known anyway."""
+        """Starts for a block from converged samples before it and from the known ones."""
         block = self.schedule.samples(index)
         quick = [i for earlier in self.schedule.before(index) for i in self.quick[earlier]]
         before = [i for i in quick if self.reports[i].converged]
@@ -241,14 +241,14 @@ class Run:
         guesses = [corrected, nearest, tau]
         return lowest_start(self.problem.system, inputs, guesses, threads=self.threads)
 
-    def _book(self, solved: Sequence[Solved]) -> None:
+    def _record(self, solved: Sequence[Solved]) -> None:
         for one in solved:
             self.rows[one.sample] = self.problem.registered(one.displacement[None])[0]
             self.reports[one.sample] = one.report
             self.unsaved.append(one.sample)
 
     def _save(self) -> None:
-        """Saves what is not saved yet; what cannot be saved stays in memory for the next time."""
+        """Saves unsaved samples; those that cannot be saved stay in memory for the next try."""
         if self.checkpoint is None or not self.unsaved:
             return
         places = sorted(self.unsaved)
@@ -258,13 +258,13 @@ class Run:
             )
         except UnsavedSamplesError as error:
             warnings.warn(str(error), CheckpointNotice, stacklevel=2)
-            self.enough = len(places) + self.options.block
+            self.save_size = len(places) + self.options.block
             return
         self.rows.update(zip(places, rows, strict=True))
         self.unsaved.clear()
-        self.enough = self.options.block
+        self.save_size = self.options.block
 
-    def _tell(self) -> None:
+    def _report_progress(self) -> None:
         if self.progress is None:
             return
         done = len(self.reports)

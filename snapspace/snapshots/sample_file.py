@@ -1,4 +1,4 @@
-"""Files of finished samples: safetensors layout, a checksum, and rows mapped on reading."""
+"""Files of finished samples: safetensors layout, a checksum, and rows that are memory-mapped."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .snapshots import SampleReport
 FloatArray = NDArray[np.float64]
 Samples = dict[int, tuple[FloatArray, SampleReport]]
 
-#: Bytes that are read for the checksum at a time.
+#: Bytes that the checksum reads at a time.
 PIECE = 1 << 22
 
 
@@ -29,10 +29,10 @@ def write_samples(
     displacements: Sequence[FloatArray],
     reports: Sequence[SampleReport],
 ) -> None:
-    """Writes numbers, displacements (3n,) and reports; the file is complete or not there.
+    """Writes numbers, displacements (3n,) and reports; the file is either complete or absent.
 
-    No copy is made of the displacements. The layout is that of safetensors (a JSON header behind
-    its size in eight bytes, then the arrays), with an array `indices` (j,) and an array
+    The displacements are not copied. The layout is that of safetensors (the size of a JSON header
+    in eight bytes, the header, then the arrays), with an array `indices` (j,) and an array
     `displacements` (j, 3n).
 
     Raises
@@ -61,24 +61,24 @@ def write_samples(
 
 
 def read_indices(path: Path) -> list[int]:
-    """Numbers of the samples in a file whose header and size are right; nothing else is read.
+    """Numbers of the samples in a file. Only header and size are checked; nothing else is read.
 
-    Raises ValueError, which says what is wrong, and OSError.
+    Raises ValueError, which names the fault, and OSError.
     """
     with path.open("rb") as file:
-        return _head(file)[0]
+        return _read_header(file)[0]
 
 
 def read_samples(path: Path) -> Samples:
-    """Displacements (3n,) and reports of a file by sample number, after its checksum is verified.
+    """Displacements (3n,) and reports of a file by sample number, after checking its checksum.
 
-    The displacements are mapped: the system reads them when they are used, and may forget them
-    again. Where a file cannot be mapped they are in memory.
+    The displacements are mapped: the system reads them when they are used, and may drop them from
+    memory again. If a file cannot be mapped, they are in memory.
 
-    Raises ValueError, which says what is wrong, and OSError.
+    Raises ValueError, which names the fault, and OSError.
     """
     with path.open("rb") as file:
-        indices, shape, offset, metadata = _head(file)
+        indices, shape, offset, metadata = _read_header(file)
         file.seek(offset - 8 * len(indices))
         if _checksum(file, metadata["reports"]) != metadata["crc32"]:
             raise ValueError("its content has changed")
@@ -94,16 +94,16 @@ def _rows(file: BinaryIO, shape: tuple[int, int], offset: int) -> FloatArray:
         file.seek(offset)
         content = file.read(8 * shape[0] * shape[1])
         return np.frombuffer(content, "<f8").reshape(shape).astype(np.float64, copy=False)
-    # a plain array: what is computed from it should not be a memmap
+    # a plain array: results computed from it should not be memmaps
     return mapped.view(np.ndarray)
 
 
-def _head(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, str]]:
+def _read_header(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, str]]:
     """Numbers, shape and position of the displacements, and metadata."""
     length = os.fstat(file.fileno()).st_size
     size = int.from_bytes(file.read(8), "little")
     if not 0 < size <= length - 8:
-        raise ValueError("it is not complete")
+        raise ValueError("it is incomplete")
     try:
         header = json.loads(file.read(size))
         metadata = header.pop("__metadata__")
@@ -116,10 +116,10 @@ def _head(file: BinaryIO) -> tuple[list[int], tuple[int, int], int, dict[str, st
     except (ValueError, KeyError, TypeError, AttributeError):
         known = False
     if not known or count < 1 or width < 1:
-        raise ValueError("it is not a file of samples of this version")
+        raise ValueError("it is not a samples file of this version")
     offset = 8 + size + 8 * count
     if length != offset + 8 * count * width:
-        raise ValueError("it is not complete")
+        raise ValueError("it is incomplete")
     indices = np.frombuffer(file.read(8 * count), "<i8").tolist()
     return indices, (count, width), offset, metadata
 
@@ -130,12 +130,12 @@ def _reports(metadata: dict[str, str], count: int) -> list[SampleReport]:
     except (ValueError, TypeError):
         reports = []
     if len(reports) != count:
-        raise ValueError("its reports are not readable")
+        raise ValueError("its reports cannot be read")
     return reports
 
 
 def _checksum(file: BinaryIO, reports: str) -> str:
-    """Of the reports and the rest of the file; not through a map, which would fill the memory."""
+    """Checksum of reports and the rest of the file; read, since a map would fill the memory."""
     checksum = zlib.crc32(reports.encode())
     while piece := file.read(PIECE):
         checksum = zlib.crc32(piece, checksum)

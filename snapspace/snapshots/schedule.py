@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Schedule:
-    """Blocks of samples in order, each with the earlier blocks that its starts come from.
+    """Blocks of samples in order, each with the earlier blocks that supply its starts.
 
-    Starts depend on the samples only, never on what happens to be finished, so that results do not
+    Starts depend only on the samples, never on which ones happen to be finished. So results do not
     depend on threads, executors or interruptions.
 
     count : number of samples
     block : samples per block
-    strict : a block starts from all earlier blocks and has to wait for them. Otherwise it starts
-        from the first three quarters of the blocks before it, and of each of these from the three
-        quarters of the samples that took the fewest evaluations: nobody waits for slow samples.
+    strict : whether a block starts from all earlier blocks and waits for them. Otherwise it uses
+        the first three quarters of the blocks before it, and in each of these the three quarters
+        of the samples that took the fewest evaluations, so that nobody waits for slow samples.
     """
 
     count: int
@@ -33,27 +33,27 @@ class Schedule:
         return range(begin, min(begin + self.block, self.count))
 
     def before(self, index: int) -> range:
-        """The blocks that a block's starts come from."""
+        """The blocks that supply a block's starts."""
         return range(index if self.strict else 3 * index // 4)
 
     def waited_for(self, index: int) -> int:
-        """How many samples of a block later blocks wait for."""
+        """For how many samples of a block later blocks wait."""
         size = len(self.samples(index))
         return size if self.strict else -(-3 * size // 4)
 
     def quick(
         self, index: int, finished: Mapping[int, int], running: Mapping[int, int]
     ) -> list[int] | None:
-        """The samples of a block that later blocks start from; None while that is not certain.
+        """The samples of a block from which later blocks start; None while they are not certain.
 
-        finished, running : evaluations of samples, at the end or so far
+        finished, running : evaluations by sample, final ones or those so far
         """
         done = sorted((finished[i], i) for i in self.samples(index) if i in finished)
         wanted = self.waited_for(index)
         if len(done) < wanted:
             return None
         last = done[wanted - 1]
-        # a sample that is not finished might still have had fewer
+        # an unfinished sample might still end with fewer
         for i in self.samples(index):
             if i not in finished and running.get(i, 0) <= last[0]:
                 return None

@@ -1,4 +1,4 @@
-"""Files of snapshots: full solutions with their parameters, for another run to use."""
+"""Files of snapshots: full solutions with their parameters, for use in another run."""
 
 from __future__ import annotations
 
@@ -30,23 +30,23 @@ def save_snapshots(snapshots: Snapshots, path: str | os.PathLike[str]) -> Path:
     """Writes full solutions with their parameters, reports and the fingerprint of their problem.
 
     The layout is that of safetensors, with arrays `parameters` (k, p) and `displacements` (k, 3n)
-    in double precision and a checksum. The mesh is not in it.
+    in double precision and a checksum. The file does not contain the mesh.
 
     Parameters
     ----------
     snapshots : Snapshots
     path : path
-        Ends in .samples; its folder exists.
+        Must end in .samples, in an existing folder.
 
     Returns
     -------
     Path
-        The file written: completely, or not at all.
+        The file. If writing fails, no incomplete file is left behind.
 
     Raises
     ------
     ValueError
-        For another extension, or if the file cannot be written.
+        For an unknown extension, or if the file cannot be written.
     """
     target = writable_path(path, known=[SAMPLES_SUFFIX])
     arrays = {
@@ -71,22 +71,22 @@ def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
     Parameters
     ----------
     path : path
-        Of `save_snapshots`.
+        A file of `save_snapshots`.
     problem : Problem
-        That they were solved for, or an equal one, such as `model.problem`.
+        The problem of the samples, or an equal one, such as `model.problem`.
 
     Raises
     ------
     ValueError
         If there is no such file, it is damaged or of another kind, or its samples are of another
-        problem: another mesh, material or domain, or other handles or poses.
+        problem, with another mesh, material or domain, or other handles or poses.
     """
     file = existing_file(path, known=[SAMPLES_SUFFIX])
     arrays, header = _read(file)
     if header["fingerprint"] != problem.fingerprint:
         raise ValueError(
             f"{file}: these samples are of another problem than {problem!r}: mesh, material, "
-            "domain, handles or poses differ; solve them anew"
+            "domain, handles or poses differ; solve them again"
         )
     try:
         reports = [SampleReport(**entry) for entry in json.loads(header["reports"])]
@@ -99,18 +99,16 @@ def load_snapshots(path: str | os.PathLike[str], problem: Problem) -> Snapshots:
 
 
 def _read(file: Path) -> tuple[Arrays, dict[str, str]]:
-    """Arrays and header after all checks that need no problem."""
+    """Arrays and header, after all checks that do not need the problem."""
     try:
         with safe_open(file, framework="np") as content:
             arrays = {name: content.get_tensor(name) for name in content.keys()}
             header = dict(content.metadata() or {})
     except (SafetensorError, OSError, ValueError) as error:
-        raise ValueError(
-            f"{file}: not a complete file of samples ({error}); write it again"
-        ) from None
+        raise ValueError(f"{file}: not a complete samples file ({error}); write it again") from None
     if header.get("format") != FORMAT or header.get("version") != VERSION:
         raise ValueError(
-            f"{file}: not a file of samples of this version; `snapspace validate --save-reference` "
+            f"{file}: not a samples file of this version; `snapspace validate --save-reference` "
             "writes one"
         )
     if header.get("crc32") != _checksum(arrays, header):
@@ -124,8 +122,8 @@ def _read(file: Path) -> tuple[Arrays, dict[str, str]]:
             wrong.append(name)
     if wrong or len(arrays) != 2:
         raise ValueError(
-            f"{file}: {wrong[0] if wrong else 'one more array than known'}: not what a file of "
-            "samples has there; write it again"
+            f"{file}: {wrong[0] if wrong else 'unknown array'}: not as in a samples file; write it "
+            "again"
         )
     return arrays, header
 
@@ -134,7 +132,7 @@ def _checksum(arrays: Arrays, header: dict[str, Any]) -> str:
     words = [f"{key}={header[key]}\n" for key in sorted(header) if key != "crc32"]
     checksum = zlib.crc32("".join(words).encode())
     for name in sorted(arrays):
-        # not a cast of the memory's view, which arrays without entries refuse
+        # not by memoryview.cast, which empty arrays refuse
         content = np.ascontiguousarray(arrays[name]).reshape(-1).view(np.uint8).data
         checksum = zlib.crc32(content, checksum)
     return f"{checksum:08x}"

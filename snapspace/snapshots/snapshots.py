@@ -23,8 +23,8 @@ class SampleReport:
     decrease that the solver's model still predicted, seconds the wall time, inverted_tets the
     number of tets with det F <= 0.
 
-    The status carried is that of a shape not solved for these parameters, see `carry_over`:
-    all its numbers are zero.
+    The status "carried" is that of a shape not solved for these parameters, see `carry_over`. Then
+    all numbers are zero.
     """
 
     status: str
@@ -43,20 +43,20 @@ class SampleReport:
 
     @property
     def carried(self) -> bool:
-        """Whether the shape comes from a problem with other handles, where it was a solution."""
+        """Whether the shape is a solution of a problem with other handles."""
         return self.status == "carried"
 
 
 @dataclass(frozen=True)
 class Snapshots:
-    """Solutions of a problem at sampled parameters, and shapes that are worth as much to a basis.
+    """Solutions of a problem at sampled parameters, and shapes that serve a basis equally well.
 
     problem : Problem
     parameters : (k, p), one sample per row
     displacements : DisplacementRows (k, 3n) from problem.base, in memory or mapped from files
     reports : one SampleReport per sample
-    gram : SnapshotGram of the displacements, if it is known, as it is after a run with `progress`;
-        it saves `snapshot_pca` its main work
+    gram : SnapshotGram of the displacements, if it is known, as after a run with `progress`; it
+        saves `snapshot_pca` most of its work
 
     Raises ValueError unless there is a row of problem.base's size and a report for each sample.
     """
@@ -93,7 +93,7 @@ class Snapshots:
         shapes: FloatArray,
         reports: Sequence[SampleReport],
     ) -> Snapshots:
-        """From an array of shapes (3n, k), one per column; its displacements are kept in memory."""
+        """From an array of shapes (3n, k), one per column; the displacements are in memory."""
         displacements = np.ascontiguousarray(shapes.T) - problem.base
         return cls(problem, parameters, DisplacementRows(displacements, problem.base.size), reports)
 
@@ -104,8 +104,8 @@ class Snapshots:
     def shapes(self) -> FloatArray:
         """All shapes, (3n, k), one per column, positions x0 y0 z0 x1 ...
 
-        A new array at each call, and a large one: 24 k n bytes. `displacements` gives one row, or
-        blocks of columns, without the others.
+        Each call makes a new array of 24 k n bytes. `displacements` gives single rows, or blocks
+        of columns, without the others.
         """
         shapes = self.displacements.array()
         shapes += self.problem.base
@@ -122,13 +122,13 @@ class Snapshots:
         return np.array([r.converged or r.carried for r in self.reports], dtype=bool)
 
     def select(self, which: NDArray[np.bool_]) -> Snapshots:
-        """The samples of a mask (k,); displacements are shared, not copied."""
+        """The samples selected by a mask (k,); displacements are shared, not copied."""
         reports = [report for report, keep in zip(self.reports, which, strict=True) if keep]
         rows = self.displacements.select(which)
         return Snapshots(self.problem, self.parameters[which], rows, reports)
 
     def joined(self, others: Snapshots) -> Snapshots:
-        """These samples and then those of another run.
+        """These samples, followed by those of another run.
 
         Raises
         ------
@@ -148,7 +148,7 @@ class Snapshots:
         )
 
     def check_known(self, problem: Problem, who: str) -> None:
-        """ValueError of `who` unless these may be starts for samples of a problem."""
+        """Raises a ValueError in the name of `who` unless these are snapshots of the problem."""
         if self.problem.fingerprint != problem.fingerprint:
             raise ValueError(
                 f"{who}: the known snapshots are of another problem; `carry_over` makes them "
@@ -156,10 +156,9 @@ class Snapshots:
             )
 
     def summary(self) -> str:
-        """One line: how many converged, why others did not, iterations, inverted tets.
+        """One line: how many converged, the status of others, iterations, inverted tets.
 
-        Carried samples are told apart: they count among those neither for how many converged nor
-        for the iterations.
+        Carried samples are listed separately: they do not count for convergence and iterations.
         """
         solved = [report for report in self.reports if not report.carried]
         good = int(self.converged.sum())

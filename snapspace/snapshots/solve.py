@@ -41,31 +41,32 @@ def solve_snapshots(
     threads : int, optional
         Default: as many as the machine has. The result is bitwise the same for any number.
     progress : callable(SolveProgress), optional
-        Called some ten times a second, from this thread. With it the inner products of the samples
-        are measured on the way, which its error estimate needs, and kept in the result (`gram`).
+        Called about ten times a second, from this thread. Its error estimate needs the inner
+        products of the samples, which are then computed during the run and kept in the result
+        (`gram`).
     checkpoint : Checkpoint, optional
-        Finished samples are saved there block by block, and on Ctrl-C; a run with the same
-        arguments goes on from them and ends with the same result as one that was not interrupted.
+        Finished samples are saved there block by block, and on Ctrl-C. A run with the same
+        arguments continues from them and gives the same result as one that was not interrupted.
         Saved shapes need no memory: they are mapped from the files. Samples that cannot be saved,
-        because the disk is full for instance, stay in memory, with a `CheckpointNotice`.
+        for instance because the disk is full, stay in memory, with a `CheckpointNotice`.
     executor : concurrent.futures.Executor, optional
-        Its workers solve the samples, a block on one thread each, instead of `threads`; the result
-        has the same bits. A pool of processes, or a cluster (dask: `client.get_executor()`).
+        A pool of processes, or a cluster (dask: `client.get_executor()`). Its workers, instead of
+        `threads`, solve the samples, each block on one thread; the result has the same bits.
     known : Snapshots, optional
-        Of the same problem: solutions, or shapes near them, that the new samples may start from.
+        Solutions of the same problem, or shapes near them, as starts for the new samples.
 
     Returns
     -------
     Snapshots
-        In the order of `parameters`, with a report each. Not every sample has to be converged:
-        `snapshot_pca` leaves out those that are not.
+        The samples in the order of `parameters`, with their reports. Some may not be converged:
+        `snapshot_pca` leaves these out.
 
     Raises
     ------
     ValueError
         For parameters of the wrong shape or not finite, threads out of range, known snapshots of
-        another problem, or an executor that has lost its workers; finished samples are in the
-        checkpoint then.
+        another problem, or an executor that has lost its workers; then finished samples are in the
+        checkpoint.
     Interrupted
         On Ctrl-C, after the finished samples were saved.
     """
@@ -85,7 +86,7 @@ def solve_snapshots(
 
 
 def solver_key(options: SolverOptions, problem: Problem) -> dict[str, Any]:
-    """What of the options the solutions of a problem depend on."""
+    """The options on which the solutions of a problem depend."""
     return options.resolved(problem).as_key()
 
 

@@ -1,4 +1,4 @@
-"""SolveProgress: how far a run of samples is."""
+"""SolveProgress: the progress of a run of samples."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class SolveProgress:
-    """What `solve_snapshots` tells its `progress` callable.
+    """The report that `solve_snapshots` passes to its `progress` callable.
 
-    done, total : samples
-    seconds : since the run began
-    solved : samples of this run; the others were finished before
+    done, total : numbers of finished samples and of all samples
+    seconds : time since the run began
+    solved : number of samples that this run has solved; the others were finished before
     held_out_error : relative error in the M-norm of the newest samples' projection onto the best
         subspace of the samples before them, the median of the newest block; None before the second
-        block is finished. What a user of the subspace may expect for unseen parameters.
+        block is finished. It estimates the error of the subspace at unseen parameters.
     """
 
     done: int
@@ -31,7 +31,7 @@ class SolveProgress:
 
     @property
     def eta(self) -> float | None:
-        """Seconds that the rest will take at this rate; None before the first sample."""
+        """Seconds that the remaining samples take at this rate; None before the first sample."""
         return None if self.rate is None else (self.total - self.done) / self.rate
 
 

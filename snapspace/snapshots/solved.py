@@ -1,4 +1,4 @@
-"""Solved: a finished sample on its way from a solver to the run."""
+"""Solved: a finished sample, passed from a solver to the run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 class Solved:
     """One finished sample.
 
-    sample : its number in the run
+    sample : number of the sample in the run
     displacement : (3n,) from the problem's `base`, as the solver left it: not yet registered
     report : SampleReport, never cancelled
     """

@@ -20,15 +20,15 @@ PRECISIONS: tuple[Precision, ...] = ("single", "double")
 #: neo-Hookean, end at the same median distance of 6e-4 from tight solutions after as many
 #: evaluations, in 0.7 of the time.
 SINGLE_TOLERANCE = 1e-6
-#: Below this it takes more evaluations than double, and may not end.
+#: Below this, single precision takes more evaluations than double, and may not converge.
 SINGLE_LIMIT = 1e-7
-#: Where `settling` decides, samples whose energy is done before, for instance those at rest, stop
-#: at this tolerance.
+#: Where `settling` decides, samples whose energy converges earlier, for instance those at rest,
+#: stop at this tolerance.
 SETTLED_TOLERANCE = 1e-6
-#: Energies of single tets must be far from the ends of its range, 1e-38 and 1e38.
+#: In single precision the energies of tets must be far from the ends of the range, 1e-38 and 1e38.
 SINGLE_ENERGIES = 1e-22, 1e22
 
-#: What the core's integers hold.
+#: Largest value of the core's integers.
 MOST_ITERATIONS = 2**31 - 1
 
 
@@ -45,40 +45,39 @@ class SolverOptions:
         and for "fast" the mean decrease of the last 8 iterations is as well. Default: `settling`
         decides where the problem has one, otherwise the problem's, see `SolverTraits`.
     settling : float, optional
-        "fast" only: converged as well when 8 directions as long as the last 4, steps of the
-        solver's model to the minimum, together would be shorter than this share of the sample's
+        "fast" only: also converged when 8 directions as long as the last 4 (steps to the minimum
+        of the solver's model) together would be shorter than this share of the sample's
         displacement, in the norm of the lumped masses. A subspace needs shapes, not energies: on a
-        fine mesh the energy goes on falling while the surface wrinkles, and nothing else moves.
-        Default: the problem's, see `SolverTraits`, a fifth of it without soft modes, whose steps
-        then are too short; 0, which is never, if a tolerance is given.
+        fine mesh the energy keeps falling while the surface wrinkles, and nothing else moves.
+        Default: the problem's, see `SolverTraits`, or a fifth of it without soft modes, where
+        steps are too short. If a tolerance is given, the default is 0, which disables the test.
     soft_modes : bool, default True
-        "fast" only: L-BFGS is seeded with the lowest modes of a posing problem beside the scalar
-        factor. Without them it takes half as many steps again, and soft parts stay behind.
+        "fast" only: L-BFGS is seeded with the lowest modes of a posing problem, in addition to the
+        scalar factor. Without them it takes half as many steps again, and soft parts lag behind.
     max_iterations : int, default 1000
-        Per sample; one that needs more ends as max_iterations.
+        Limit per sample; a sample that needs more has the status max_iterations.
     projection : "stretches", "clamp" or "absolute", optional
         Newton only: how the Hessian of a tet becomes positive semi-definite. stretches: taken at
-        singular values raised to `clamp` (paper, sec. 4.2), which suits St.Venant-Kirchhoff and is
-        its default. clamp, the default of all others: negative eigenvalues become zero (Teran,
-        Sifakis, Irving, Fedkiw 2005). absolute: they change their sign (Chen et al. 2024).
+        singular values raised to `clamp` (paper, sec. 4.2), the default for St.Venant-Kirchhoff.
+        clamp, the default for all others: negative eigenvalues become zero (Teran, Sifakis,
+        Irving, Fedkiw 2005). absolute: they change their sign (Chen et al. 2024).
     clamp : float, default 0.65
         Newton with the projection stretches only: least singular value; the paper uses 0.5 to 0.8.
     precision : "single" or "double", optional
-        "fast" only: of shapes and gradients while solving; objectives and inner products are summed
-        in double precision anyway. Default: single where settling decides and for tolerances of
-        1e-6 and more, which takes half the time and changes the shapes by less than these tests
-        leave; double where the mesh's units are so small or large that energies would leave the
-        range of single numbers.
+        "fast" only: precision of shapes and gradients while solving; objectives and inner products
+        are always summed in double precision. Default: single where settling decides and for
+        tolerances of 1e-6 and more, which takes half the time and changes the shapes by less than
+        the errors that these tests leave. Double if the mesh's units are so small or large that
+        energies would leave the range of single precision.
     block : int, optional
-        Samples handed out together. They start from the samples of earlier blocks, see `Schedule`:
-        larger ones keep more cores busy, smaller ones give better starts. Default 16 for "fast", 2
-        for "newton".
+        Number of samples handed out together. They start from the samples of earlier blocks, see
+        `Schedule`: larger blocks keep more cores busy, smaller ones give better starts. Default 16
+        for "fast", 2 for "newton".
 
     Raises
     ------
     ValueError
-        For an unknown solver, projection or precision, or a number that is not positive or not in
-        its range.
+        For an unknown solver, projection or precision, or a number out of range.
     """
 
     solver: Solver = "fast"
@@ -118,7 +117,7 @@ class SolverOptions:
             raise ValueError(f"block is {self.block}, but must be at least 1")
 
     def resolved(self, problem: Problem) -> ResolvedOptions:
-        """The options with everything decided, for a problem."""
+        """The options for a problem, with all defaults resolved."""
         settling = self._settling(problem)
         usual = SETTLED_TOLERANCE if settling > 0 else problem.solving.tolerance
         tolerance = usual if self.tolerance is None else float(self.tolerance)
@@ -129,7 +128,7 @@ class SolverOptions:
         if single and tolerance < SINGLE_LIMIT:
             raise ValueError(
                 f"precision single resolves tolerances down to {SINGLE_LIMIT:.0e}, not "
-                f"{tolerance:g}; take double"
+                f"{tolerance:g}; use double"
             )
         return ResolvedOptions(
             solver=self.solver,
@@ -155,9 +154,9 @@ class SolverOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class ResolvedOptions:
-    """All that the solutions of samples depend on, apart from the problem and the samples.
+    """All options on which the solutions of samples depend.
 
-    As in `SolverOptions`; single is whether shapes are in single precision.
+    The fields are as in `SolverOptions`; `single` says whether shapes are in single precision.
     """
 
     solver: Solver
@@ -171,7 +170,7 @@ class ResolvedOptions:
     block: int
 
     def modes_of(self, problem: Problem) -> core.SoftModes | None:
-        """The soft modes that solutions of a problem are to start with, if any."""
+        """The soft modes that seed the solutions of a problem, if any."""
         return problem.solving.soft_modes() if self.soft_modes else None
 
     def as_key(self) -> dict[str, Any]:
@@ -180,7 +179,7 @@ class ResolvedOptions:
 
 
 def _in_range(problem: Problem) -> bool:
-    """Whether energies of tets of usual size at a strain of one are usual single numbers."""
+    """Whether the energies of average tets at a strain of one fit into single precision."""
     mesh = problem.mesh
     energies = problem.material.stiffness * (mesh.diagonal**3 / len(mesh.tets))
     return bool(SINGLE_ENERGIES[0] < np.min(energies) and np.max(energies) < SINGLE_ENERGIES[1])

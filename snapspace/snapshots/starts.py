@@ -1,4 +1,4 @@
-"""Where a solve starts: guesses from the samples that are finished."""
+"""Starts of solves: guesses from finished samples."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from ..displacements import DisplacementRows
 FloatArray = NDArray[np.float64]
 Kernel = Literal["linear", "thin_plate_spline"]
 
-#: Samples around a wanted one that its start is interpolated from. On the Dragon 64 and all of
-#: 300 give starts of the same quality, and a bound keeps the cost of a start constant.
+#: A start is interpolated from so many nearest samples. On the Dragon 64 and all of 300 give
+#: starts of the same quality, and a bound keeps the cost of a start constant.
 NEIGHBOURS = 64
-#: Samples for each parameter from which on thin plates take over from linear functions.
+#: With so many samples per parameter, thin plates replace linear functions.
 ENOUGH_FOR_PLATES = 4
-#: Sum of the absolute weights of a start that is still trusted; those of the Dragon's are below 6.
+#: Largest sum of absolute weights of a trusted start; on the Dragon the sums are below 6.
 WILDEST_WEIGHTS = 10.0
 
 
@@ -47,18 +47,18 @@ def nearest_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray)
 def interpolated_start(known: FloatArray, rows: DisplacementRows, wanted: FloatArray) -> FloatArray:
     """Shapes interpolated between the nearest known samples by radial basis functions.
 
-    Arguments and result as for `nearest_start`. On 32 samples of the Dragon after 48 finished ones
-    such starts need 82 evaluations each, against 105 from the nearest sample and 145 from the rest
-    shape (without soft modes).
+    Arguments and result are as for `nearest_start`. On 32 samples of the Dragon after 48 finished
+    ones, such starts need 82 evaluations each, against 105 from the nearest sample and 145 from
+    the rest shape (without soft modes).
     """
     return rows.combined(interpolation_weights(known, wanted))
 
 
 @single_threaded_blas
 def interpolation_weights(known: FloatArray, wanted: FloatArray) -> FloatArray:
-    """Weights (j, k) of known samples whose combinations are interpolated at the wanted ones.
+    """Weights (j, k) that interpolate the known samples at the wanted ones.
 
-    With fewer than two distinct samples it is one that has all the weight.
+    With fewer than two distinct samples, the first one has all the weight.
     """
     # the interpolant needs distinct points, but a sample may repeat another one or the rest pose
     distinct = np.sort(np.unique(known.round(9), axis=0, return_index=True)[1])
@@ -71,14 +71,14 @@ def interpolation_weights(known: FloatArray, wanted: FloatArray) -> FloatArray:
 
 
 def _weights_of_distinct(points: FloatArray, wanted: FloatArray) -> FloatArray:
-    """Weights (j, k) of distinct points (k, p): of thin plates, where the points carry them.
+    """Weights (j, k) of distinct points (k, p), by thin plates where there are enough points.
 
-    Thin plates have half the error of the linear functions, and save one in twenty evaluations of
-    the Dragon. They need points in all directions, several times as many as there are.
+    Thin plates have half the error of linear functions, and on the Dragon save one in twenty
+    evaluations. They need points in all directions, several times as many as parameters.
     """
     weights, steady = np.zeros((len(wanted), len(points))), np.zeros(len(wanted), bool)
     if len(points) >= ENOUGH_FOR_PLATES * points.shape[1]:
-        # neighbours in one plane have no plates, in nearly one large weights of both signs
+        # thin plates fail for neighbours in one plane; near one, weights are large with both signs
         with contextlib.suppress(np.linalg.LinAlgError):
             weights = _radial_weights(points, wanted, kernel="thin_plate_spline", degree=1)
             steady = np.abs(weights).sum(axis=1) < WILDEST_WEIGHTS
@@ -103,11 +103,11 @@ def lowest_start(
     *,
     threads: int = 0,
 ) -> FloatArray:
-    """The guess (j, 3n) of lowest energy, sample by sample, for inputs (j, input_size).
+    """The guess (j, 3n) of lowest energy for each sample, for inputs (j, input_size).
 
-    Between distant poses an interpolated shape shrinks and turns inside out, and a solve from there
-    may end in a minimum that is far from the others; energies with a barrier are infinite there.
-    The first of equal guesses wins.
+    Between distant poses an interpolated shape shrinks and turns inside out. There energies with a
+    barrier are infinite, and a solve may end in a minimum far from the others. Among equal guesses
+    the first one wins.
     """
     count = len(inputs)
     values = system.evaluate(

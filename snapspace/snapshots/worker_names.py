@@ -1,4 +1,4 @@
-"""Names of worker processes, and tasks for one of them."""
+"""Names of worker processes, and how to send a task to one of them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def worker_name() -> str:
     if distributed is not None:
         try:
             return str(distributed.get_worker().address)
-        except ValueError:  # dask is loaded, but this is no worker of it
+        except ValueError:  # dask is loaded, but this process is not one of its workers
             pass
     return f"{socket.gethostname()}:{os.getpid()}"
 
@@ -23,8 +23,8 @@ def worker_name() -> str:
 def for_worker(executor: Executor, name: str) -> dict[str, Any]:
     """Arguments of `executor.submit` that send a task to the worker of this name.
 
-    Of dask's executor, and if that worker is gone the task goes to another one. Other executors
-    cannot choose: empty.
+    For dask's executor; if that worker is gone, the task goes to another one. Empty for other
+    executors, which cannot choose.
     """
     if type(executor).__module__.startswith("distributed."):
         return {"workers": [name], "allow_other_workers": True}

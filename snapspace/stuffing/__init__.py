@@ -1,4 +1,4 @@
-"""Isosurface stuffing: tets for the inside of an implicit surface."""
+"""Isosurface stuffing: fills the inside of an implicit surface with tets."""
 
 from .isosurface_stuffing import stuff
 

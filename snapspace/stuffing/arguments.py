@@ -1,4 +1,4 @@
-"""Checks of arguments, also of the generators: one clear line for every one that cannot work."""
+"""Checks of arguments, also for the generators: one clear line for every invalid argument."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import operator
 
 
 def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
-    """Return `value` as an int, or raise ValueError naming `who` and `name`."""
+    """Return `value` as an int, or raise a ValueError that names `who` and `name`."""
     try:
         count = operator.index(value)
     except TypeError:
@@ -18,7 +18,7 @@ def require_count(who: str, name: str, value: int, *, at_least: int) -> int:
 
 
 def require_finite(who: str, name: str, value: float) -> float:
-    """Return `value` as a float, or raise ValueError naming `who` and `name`."""
+    """Return `value` as a float, or raise a ValueError that names `who` and `name`."""
     try:
         number = float(value)
     except (TypeError, ValueError):
@@ -29,7 +29,7 @@ def require_finite(who: str, name: str, value: float) -> float:
 
 
 def require_positive(who: str, name: str, value: float) -> float:
-    """Return `value` as a float, or raise ValueError naming `who` and `name`."""
+    """Return `value` as a float, or raise a ValueError that names `who` and `name`."""
     number = require_finite(who, name, value)
     if number <= 0.0:
         raise ValueError(f"{who}: {name} is {number}, but must be positive")

@@ -7,24 +7,24 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-# Around a lattice edge along one axis, the four cell centres in counterclockwise order: offsets
-# along the next two axes (in cyclic order), and the next centre of each.
+# The four cell centres around a lattice edge along one axis, in counterclockwise order: their
+# offsets along the next two axes (in cyclic order).
 _RING = ((0, 0), (-1, 0), (-1, -1), (0, -1))
 
 
 @dataclass(frozen=True)
 class BccLattice:
-    """A box of cubic cells: the corners and the centres of the cells are the lattice nodes.
+    """A box of cubic cells. The corners and centres of the cells are the lattice nodes.
 
     Nodes are numbered corners first, then centres, each with z running fastest. Coordinates are
-    whole (corners) or half (centres) multiples of `cell`, so the lattice is its own mirror image
-    at the coordinate planes, to the last bit.
+    whole (corners) or half (centres) multiples of `cell`, so the lattice is bitwise its own mirror
+    image in the coordinate planes.
 
     Attributes
     ----------
     cell : float
-        Edge length of the cells; also the length of the long edges of the tets. Short edges
-        join a corner to a centre and have sqrt(3)/2 of this length.
+        Edge length of the cells, and length of the long edges of the tets. Short edges join a
+        corner to a centre; their length is sqrt(3)/2 times `cell`.
     first : (int, int, int)
         Lowest corner, in cells.
     corners : (int, int, int)
@@ -51,7 +51,7 @@ class BccLattice:
         return np.concatenate([self._grid(self.corners, 0.0), self._grid(self.centres, 0.5)])
 
     def on_border(self) -> NDArray[np.bool_]:
-        """Which nodes lie in the outermost layer of corners or of centres, (nodes,)."""
+        """Mask (nodes,) of the nodes in the outermost layer of corners or of centres."""
         layers = []
         for shape in (self.corners, self.centres):
             border = np.ones(shape, dtype=np.bool_)
@@ -60,7 +60,7 @@ class BccLattice:
         return np.concatenate(layers)
 
     def odd_nodes(self) -> NDArray[np.bool_]:
-        """Parity of the sum of each node's cell indices, (nodes,); it alternates on long edges."""
+        """Parity of the sum of each node's cell indices, (nodes,); it differs along long edges."""
         parities = []
         for shape in (self.corners, self.centres):
             index = [
@@ -73,9 +73,9 @@ class BccLattice:
     def tets_touching(self, inside: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Lattice tets with at least one node of `inside`, (m, 4), positively oriented.
 
-        Each tet is (corner, corner, centre, centre): a long edge between corners, the long edge
-        between centres across from it, and four short edges. The nodes inside must not be on
-        the border.
+        Each tet is (corner, corner, centre, centre): it has a long edge between corners, the
+        opposite long edge between centres, and four short edges. Inside nodes must not be on the
+        border.
         """
         corner = np.arange(self.corner_count).reshape(self.corners)
         centre = self.corner_count + np.arange(np.prod(self.centres)).reshape(self.centres)
@@ -117,7 +117,7 @@ def lattice_around(
 
 
 def _edge_ends(corners: tuple[int, int, int], axis: int, offset: int) -> tuple[slice, ...]:
-    """Slices of the first (offset 0) or second end of the inner edges along `axis`."""
+    """Slices of the first (offset 0) or second ends (offset 1) of the inner edges along `axis`."""
     slices = [slice(1, n - 1) for n in corners]
     slices[axis] = slice(offset, corners[axis] - 1 + offset)
     return tuple(slices)
@@ -126,7 +126,7 @@ def _edge_ends(corners: tuple[int, int, int], axis: int, offset: int) -> tuple[s
 def _ring_centres(
     centres: tuple[int, int, int], axis: int, offset: tuple[int, int]
 ) -> tuple[slice, ...]:
-    """Slices of the centres beside the same edges, on the side given by `offset`."""
+    """Slices of the centres beside these edges, on the side given by `offset`."""
     slices = [slice(None)] * 3
     for step, side in zip((1, 2), offset, strict=True):
         other = (axis + step) % 3

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, zero_fractions
 
-# The edges of a tet by local corners; cut points in stencils are numbered 4 + position here.
+# The edges of a tet, by local corners. In stencils the cut point on edge k is number 4 + k.
 TET_EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 
 
@@ -20,10 +20,11 @@ class CutPoints:
     Attributes
     ----------
     inside, outside : ndarray of int64, (k,)
-        The edge's nodes; sorted by inside, then outside, each edge once.
+        Nodes of the edges, sorted by inside, then outside; each edge occurs once.
     fractions : ndarray, (k,)
         Position on the edge, from 0 at the inside node to 1 at the outside node.
     points : ndarray, (k, 3)
+        Coordinates of the crossings.
     """
 
     inside: NDArray[np.int64]
@@ -44,7 +45,7 @@ def find_cut_points(
     values: FloatArray,
     tets: NDArray[np.int64],
 ) -> CutPoints:
-    """Locate the surface on all edges of the tets whose ends have opposite signs."""
+    """Locate the surface on all edges of the tets that have ends of opposite sign."""
     node_count = np.int64(len(points))
     negative = values < 0.0
     positive = values > 0.0

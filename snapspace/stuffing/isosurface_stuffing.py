@@ -1,4 +1,4 @@
-"""Tetrahedral meshes of implicit shapes with good dihedral angles."""
+"""stuff: tetrahedral meshes of implicit shapes, with good dihedral angles."""
 
 from __future__ import annotations
 
@@ -23,40 +23,40 @@ def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: 
     """Fill the inside of an implicit surface with well-shaped tetrahedra of uniform size.
 
     Isosurface stuffing (Labelle & Shewchuk 2007, "Isosurface Stuffing: Fast Tetrahedral Meshes
-    with Good Dihedral Angles", uniform version): a body-centred cubic lattice, whose nodes are
-    warped to the surface where it passes too closely, is clipped by the surface. The time is
-    mostly that of evaluating `implicit`, about once for each node in the box.
+    with Good Dihedral Angles", uniform version): nodes of a body-centred cubic lattice that are
+    too close to the surface are warped onto it, and the surface clips the lattice. Most of the
+    time is spent on evaluating `implicit`, about once for each node in the box.
 
     Parameters
     ----------
     implicit : callable, (k, 3) -> (k,)
-        Continuous, negative inside; a signed distance is best but not needed.
+        A continuous function, negative inside. A signed distance is best but not needed.
     lower, upper : array_like, (3,)
         Corners of a box that contains the shape.
     cell : float
-        Edge length of the lattice cells: tets have edges of about 0.9 to 1 of it and a volume of
-        cell^3 / 12 in the interior. Parts thinner than about two cells may get lost.
+        Edge length of the lattice cells. Tets in the interior have edges of about 0.9 to 1 times
+        `cell` and a volume of cell^3 / 12. Parts thinner than about two cells may get lost.
 
     Returns
     -------
     TetMesh
-        Its largest component, if there are several. Surface vertices lie on the zero set of
-        `implicit`. Dihedral angles are over 8 degrees (on smooth shapes 10.6 is the least seen; a
-        stress test with random signs and cut points at their worst places ends at 8.4). Mirror
-        planes of the shape through the origin and normal to an axis are mirror planes of the
-        vertices. Vertices and tets are ordered along a Morton curve.
+        The largest component, if there are several. Surface vertices lie on the zero set of
+        `implicit`. Dihedral angles are above 8 degrees. (The least angle seen on smooth shapes is
+        10.6 degrees; in a stress test with random signs and cut points in the worst places it is
+        8.4 degrees.) Mirror planes of the shape that go through the origin and are normal to an
+        axis are mirror planes of the vertices. Vertices and tets are ordered along a Morton curve.
 
     Raises
     ------
     ValueError
-        If an argument is unusable, if the shape leaves the box, if nothing is found inside, or if
+        If an argument is invalid, if the shape leaves the box, if nothing is inside, or if
         features as small as the cells make a surface that is not a manifold.
     """
     mesh = stuff_unchecked(implicit, lower, upper, cell)
     if not is_closed_manifold(mesh.surface):
         raise ValueError(
-            f"stuff: cell is {cell}, but parts of the shape, or gaps between them, are as small:"
-            " the surface is not a manifold; use a smaller cell"
+            f"stuff: cell is {cell}, but parts of the shape, or gaps between them, are as small,"
+            " so the surface is not a manifold; use a smaller cell"
         )
     return mesh
 
@@ -70,7 +70,7 @@ def stuff_unchecked(
     if np.prod(np.array(lattice.corners, dtype=float)) > _MOST_CELLS:
         raise ValueError(
             f"stuff: cell is {cell}, which makes {lattice.corners} cells in the box, but at most"
-            f" {_MOST_CELLS} in all are allowed; use a larger cell"
+            f" {_MOST_CELLS} are allowed; use a larger cell"
         )
     points = lattice.points()
     values = evaluate(implicit, points)
@@ -101,14 +101,14 @@ def clip_tets(
     signs : ndarray of int8, (nodes,)
         -1 inside, 0 on the surface, 1 outside.
     odd : ndarray of bool, (nodes,)
-        Parity of the nodes; decides diagonals.
+        Parity of the nodes; it determines the diagonals.
     cuts : CutPoints
-        On all edges from -1 to 1.
+        The cut points on all edges from -1 to 1.
 
     Returns
     -------
     ndarray of int64, (k, 4)
-        Positive volumes.
+        Tets with positive volumes.
     """
     numbers = case_numbers(signs[tets], odd[tets])
     cut_keys = cuts.inside * len(signs) + cuts.outside

@@ -1,4 +1,4 @@
-"""The largest connected part of a tet soup, without the vertices that it does not use."""
+"""largest_component: the largest connected part of some tets, without unused vertices."""
 
 from __future__ import annotations
 
@@ -11,19 +11,20 @@ from snapspace.mesh.components import tet_components
 def largest_component(
     vertices: NDArray[np.float64], tets: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Keep the component with the most tets and renumber its vertices, order kept.
+    """Keep the component with the most tets; its vertices are renumbered in the same order.
 
     Parameters
     ----------
     vertices : ndarray, (n, 3)
     tets : ndarray of int, (m, 4)
-        At least one.
+        At least one tet.
 
     Returns
     -------
     vertices : ndarray, (k, 3)
-        Those that belong to a tet of the component.
+        The vertices of the component's tets.
     tets : ndarray of int32, (j, 4)
+        The component's tets.
     """
     used, renumbered = np.unique(tets, return_inverse=True)
     local = renumbered.reshape(tets.shape).astype(np.int32)

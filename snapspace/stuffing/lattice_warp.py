@@ -1,4 +1,4 @@
-"""Warping: lattice nodes that the surface passes too closely are moved onto it."""
+"""Warping: moves lattice nodes that are too close to the surface onto it."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from snapspace.stuffing.root_finding import (
     zero_fractions,
 )
 
-# A node is too close if a cut point lies within this fraction of its edge: the values of Labelle &
-# Shewchuk (2007), chosen there for the best bound on dihedral angles. They warp node after node; we
-# warp all at once, which is independent of the order (and not worse in stress tests).
+# A node is too close if a cut point lies within this fraction of its edge. Labelle & Shewchuk
+# (2007) chose these values for the best bound on dihedral angles. They warp nodes one by one; here
+# all are warped at once, which does not depend on the order (and is not worse in stress tests).
 ALPHA_LONG = 0.24999
 ALPHA_SHORT = 0.41189
 
@@ -32,29 +32,32 @@ def warp_nodes(
     """Move every violated node to its nearest cut point and drop the cut points on its edges.
 
     If several cut points are exactly equally near, as at nodes on a mirror plane of the shape,
-    the node goes to the surface in the direction of their mean: so the warped lattice keeps
-    the mirror planes that the shape and the lattice share.
+    the node moves to the surface in the direction of their mean. So the warped lattice keeps the
+    mirror planes that the shape and the lattice share.
 
     Parameters
     ----------
     points : ndarray, (nodes, 3)
+        Coordinates of the nodes.
     values : ndarray, (nodes,)
         Implicit function at the nodes.
     cuts : CutPoints
-        On all edges with ends of opposite sign.
+        The cut points on all edges with ends of opposite sign.
     corner_count : int
-        Nodes below are cell corners, the others cell centres (tells long edges from short ones).
+        Number of cell corners; later nodes are cell centres. It distinguishes long from short
+        edges.
     cell : float
         Length of the long edges.
 
     Returns
     -------
     points : ndarray, (nodes, 3)
-        Moved nodes.
+        Coordinates after moving.
     signs : ndarray of int8, (nodes,)
         -1 inside, 0 on the surface, 1 outside.
     cuts : CutPoints
-        Those that remain: both nodes unmoved, no closer than alpha times the edge.
+        The remaining cut points, on edges where neither node has moved; their distance from both
+        nodes is at least alpha times the edge length.
     """
     is_long = (cuts.inside < corner_count) == (cuts.outside < corner_count)
     alpha = np.where(is_long, ALPHA_LONG, ALPHA_SHORT)
@@ -103,7 +106,7 @@ def _towards_mean(
     means: FloatArray,
     fallback: FloatArray,
 ) -> FloatArray:
-    """Surface points on the rays from nodes through means; `fallback` where there is none near."""
+    """Surface points on the rays from nodes through means; `fallback` where none is near."""
     ends = nodes + 2.0 * (means - nodes)
     end_values = evaluate(implicit, ends)
     found = np.sign(values) * np.sign(end_values) < 0.0

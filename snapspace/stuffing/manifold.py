@@ -9,7 +9,7 @@ from scipy.sparse.csgraph import connected_components
 
 
 def is_closed_manifold(faces: NDArray[np.int32]) -> bool:
-    """Whether every edge has two faces that agree in orientation, and every vertex one fan.
+    """Whether every edge has two consistently oriented faces, and every vertex one fan of faces.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def is_closed_manifold(faces: NDArray[np.int32]) -> bool:
         return False
 
     # Corner c of the faces (row-major) starts directed edge c. Around a vertex, corner c is joined
-    # to the corner of the next face: the one after the reverse of edge c.
+    # to the corner of the next face, which follows the reverse of edge c.
     across = order[position]
     following = across - across % 3 + (across + 1) % 3
     corners = np.arange(faces.size)

@@ -1,4 +1,4 @@
-"""Order the vertices and tets of a mesh so that neighbours in space are near in memory."""
+"""morton_order: orders vertices and tets so that neighbours in space are close in memory."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def morton_order(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Sort vertices along a Morton (Z-order) curve, and tets by their vertices.
 
-    Loops over tets then find the vertices they gather in cache.
+    Then loops over tets find their vertices in the cache.
 
     Parameters
     ----------

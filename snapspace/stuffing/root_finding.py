@@ -1,4 +1,4 @@
-"""Zeros of an implicit function on many segments at once."""
+"""Root finding: zeros of an implicit function on many segments at once."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ FloatArray = NDArray[np.float64]
 ImplicitFunction = Callable[[FloatArray], FloatArray]
 
 _CHUNK = 1 << 15  # points per call: keeps the temporaries of the implicit function in cache
-_STEPS = 12  # the Illinois method gains about 1.44 times the digits per step
+_STEPS = 12  # each step of the Illinois method multiplies the correct digits by about 1.44
 
 
 def evaluate(implicit: ImplicitFunction, points: FloatArray) -> FloatArray:
-    """Call `implicit` on points (k, 3) piece by piece; ValueError if the answer is unusable."""
+    """Call `implicit` on points (k, 3) piece by piece; ValueError if the result is invalid."""
     values = np.empty(len(points))
     for start in range(0, len(points), _CHUNK):
         piece = points[start : start + _CHUNK]
@@ -43,9 +43,9 @@ def zero_fractions(
 ) -> FloatArray:
     """Find t with implicit(start + t (end - start)) = 0 on segments whose ends differ in sign.
 
-    A fixed number of steps of the Illinois variant of regula falsi (Dowell & Jarratt 1971), which
-    never leaves the segment; the order of the ends is the caller's, so that mirrored segments of
-    a mirrored function give the same bits.
+    It takes a fixed number of steps of the Illinois variant of regula falsi (Dowell & Jarratt
+    1971), which never leaves the segment. The ends are used in the caller's order, so mirrored
+    segments of a mirrored function give the same bits.
 
     Parameters
     ----------

@@ -1,11 +1,11 @@
 """Stencils: the part of a lattice tet inside the surface, cut into tets.
 
-Labelle & Shewchuk (2007, sec. 3.2) list the cases in a figure; here the table is derived. What
-the surface leaves of a tet is a tet, or a prism (perhaps with one line shrunk to a point), and
-all that needs a rule is the diagonal of each quadrilateral. On faces shared with a neighbour
-the rule sees only the face, so that both sides agree:
+Labelle & Shewchuk (2007, sec. 3.2) list the cases in a figure; here the table is derived. The
+part of a tet inside the surface is a tet, or a prism (perhaps with one line shrunk to a point).
+Only the diagonals of the quadrilaterals need a rule. On faces shared with a neighbour the rule
+depends only on the face, so that both sides agree:
 
-- two nodes inside on a long edge (both cut points are on short ones, and look alike): the
+- two nodes inside on a long edge (both cut points are on short edges and indistinguishable): the
   diagonal starts at the even node;
 - two nodes inside on a short edge: the diagonal ends at the cut point on the long edge.
 """
@@ -24,7 +24,7 @@ from snapspace.stuffing.cut_points import TET_EDGES
 _SHAPE = np.array([[-1.0, 0.0, -0.5], [1.0, 0.0, -0.5], [0.0, 1.0, 0.5], [0.0, -1.0, 0.5]])
 _PARTNER = (1, 0, 3, 2)
 
-# A line (start, end) of a prism; one shrunk to a point has start == end.
+# A line (start, end) of a prism; a line shrunk to a point has start == end.
 _Line = tuple[int, int]
 
 
@@ -41,7 +41,7 @@ def case_numbers(signs: NDArray[np.int8], odd: NDArray[np.bool_]) -> NDArray[np.
     Returns
     -------
     ndarray of int64, (m,)
-        sum of (sign_i + 1) 3^i, plus 81 if node 0 is odd, plus 162 if node 2 is odd.
+        The sum of (sign_i + 1) 3^i, plus 81 if node 0 is odd, plus 162 if node 2 is odd.
     """
     numbers = (signs + 1).astype(np.int64) @ [1, 3, 9, 27]
     return np.asarray(numbers + 81 * odd[:, 0] + 162 * odd[:, 2], dtype=np.int64)
@@ -71,7 +71,7 @@ def _stencil(signs: list[int], even: tuple[int, int]) -> list[tuple[int, ...]]:
     if not outside:
         return [(0, 1, 2, 3)]
     if len(inside) == 1:
-        return [tuple(_cut(inside[0], i) if i in outside else i for i in range(4))]
+        return [tuple(_cut_point(inside[0], i) if i in outside else i for i in range(4))]
     # Even nodes first: the order in which prisms are built is the order of the parity rule.
     inside.sort(key=lambda i: i not in even)
     if len(outside) == 1:
@@ -81,9 +81,9 @@ def _stencil(signs: list[int], even: tuple[int, int]) -> list[tuple[int, ...]]:
 
 def _truncated(inside: list[int], zero: list[int], tip: int) -> list[tuple[int, ...]]:
     """One corner, the tip, is cut off; a node on the surface is a shrunk line of the prism."""
-    # The node beside the tip, if inside, has the long cut: all diagonals of its faces end there.
+    # If the tip's partner on the long edge is inside, all diagonals of its faces end at that cut.
     ranking = sorted(inside, key=lambda i: _PARTNER[i] == tip)
-    return _staircase([(i, _cut(i, tip)) for i in ranking] + [(i, i) for i in zero])
+    return _staircase([(i, _cut_point(i, tip)) for i in ranking] + [(i, i) for i in zero])
 
 
 def _wedge(inside: list[int], outside: list[int]) -> list[tuple[int, ...]]:
@@ -91,10 +91,12 @@ def _wedge(inside: list[int], outside: list[int]) -> list[tuple[int, ...]]:
     first, second = inside
     spine = (first, second)
     if _PARTNER[first] == second:
-        # Lines from the even to the odd node. The quadrilateral on the surface is free.
-        return _staircase([spine] + [(_cut(first, o), _cut(second, o)) for o in outside])
+        # Lines go from the even to the odd node. The diagonal on the surface is arbitrary.
+        return _staircase(
+            [spine] + [(_cut_point(first, o), _cut_point(second, o)) for o in outside]
+        )
     beside_first, beside_second = (
-        (_cut(first, _PARTNER[i]), _cut(second, _PARTNER[i])) for i in inside
+        (_cut_point(first, _PARTNER[i]), _cut_point(second, _PARTNER[i])) for i in inside
     )
     return _staircase([beside_first, spine, beside_second])
 
@@ -108,7 +110,7 @@ def _staircase(lines: list[_Line]) -> list[tuple[int, ...]]:
     return tets
 
 
-def _cut(i: int, j: int) -> int:
+def _cut_point(i: int, j: int) -> int:
     return 4 + TET_EDGES.index((min(i, j), max(i, j)))
 
 

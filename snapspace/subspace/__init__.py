@@ -1,4 +1,4 @@
-"""Affine subspaces of shapes, the best one for given snapshots among them (paper, sec. 5)."""
+"""Affine subspaces of shapes, including the best one for given snapshots (paper, sec. 5)."""
 
 from .affine_subspace import AffineSubspace
 from .directions import affine_subspace

@@ -23,10 +23,10 @@ class AffineSubspace:
     tau : (3n,) reference shape, x0 y0 z0 x1 ...
     basis : (3n, d) U, with M-orthonormal columns; those of a PCA are sorted, best first
     mass : (n, n) scalar mass matrix M of the reference shape
-    snapshot_energies : (k,) squared M-norms of all snapshots together along each column, and what
-    they have beyond the last one: for every d, those beyond d are the squared error of the first d
-    columns. Those of a PCA in M are eigenvalues of the Gram matrix. None for a basis that is not
-    from snapshots
+    snapshot_energies : (k,) squared M-norm of all snapshots along each column, and the remainder
+    beyond the last column. For every d, the sum of the entries beyond d is the squared error of the
+    first d columns. For a PCA in M they are eigenvalues of the Gram matrix. None for a basis that
+    is not from snapshots
     """
 
     tau: FloatArray
@@ -36,7 +36,7 @@ class AffineSubspace:
 
     @property
     def dimension(self) -> int:
-        """d."""
+        """Number d of the basis's columns."""
         return int(self.basis.shape[1])
 
     @property
@@ -46,7 +46,7 @@ class AffineSubspace:
 
     @property
     def energy_fraction(self) -> float | None:
-        """Share of the snapshots' squared M-norm that the subspace holds (paper, sec. 5.2).
+        """Share of the snapshots' squared M-norm within the subspace (paper, sec. 5.2).
 
         None for a basis that is not from snapshots.
         """
@@ -55,15 +55,15 @@ class AffineSubspace:
         return float(self.snapshot_energies[: self.dimension].sum() / self.snapshot_energies.sum())
 
     def leading(self, dimension: int) -> AffineSubspace:
-        """The first columns; of a PCA the best subspace of that dimension in its norm."""
+        """The subspace of the first columns; for a PCA the best one of that dimension."""
         check_dimension(dimension, self.dimension)
         basis = np.asfortranarray(self.basis[:, :dimension])
         return AffineSubspace(self.tau, basis, self.mass, self.snapshot_energies)
 
     def in_single_precision(self) -> AffineSubspace:
-        """The same with the basis rounded to single precision, which files then hold without loss.
+        """The same with the basis rounded to single precision, so that files store it without loss.
 
-        Its columns are M-orthonormal to 1e-7 or so, and shapes move by as little of their
+        Its columns are M-orthonormal to about 1e-7, and shapes change by about 1e-7 of their
         displacements.
         """
         basis = self.basis.astype(np.float32).astype(np.float64)
@@ -78,20 +78,20 @@ class AffineSubspace:
         return coordinates
 
     def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:
-        """q = U^T M u, (k, d), of displacements u from tau, which are not copied whole."""
+        """q = U^T M u, (k, d), of displacements u from tau, without a copy of all of them."""
         directions = DisplacementRows(np.ascontiguousarray(self.basis.T), self.tau.size)
         return displacements.mass_products(shared_mass(self.mass), directions)
 
     def shape(self, q: ArrayLike) -> FloatArray:
-        """tau + U q, (3n,), for coordinates (d,), or the leading ones with the others zero."""
+        """tau + U q, (3n,), for coordinates (d,), or for the leading ones with the others zero."""
         coordinates = np.asarray(q, np.float64)
         return core.reconstruct(self.tau, self.basis.T[: len(coordinates)], coordinates)
 
 
 def check_dimension(dimension: int, largest: int) -> None:
-    """ValueError unless the dimension is between 1 and the largest that there is."""
+    """ValueError unless the dimension is between 1 and the largest one available."""
     if not 1 <= dimension <= largest:
         raise ValueError(
-            f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger one "
-            "takes more snapshots"
+            f"AffineSubspace: dimension {dimension} is not between 1 and {largest}; a larger "
+            "dimension needs more snapshots"
         )

@@ -1,4 +1,4 @@
-"""affine_subspace: any directions as a subspace."""
+"""affine_subspace: the subspace of any given directions."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .affine_subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 
-#: Rounds of Gram-Schmidt for each direction: two reach orthogonality to rounding (Giraud, Langou,
+#: Rounds of Gram-Schmidt per direction: two give orthogonality to rounding (Giraud, Langou,
 #: Rozloznik, van den Eshof 2005, "Rounding error analysis of the classical Gram-Schmidt
 #: orthogonalization process").
 _ROUNDS = 2
@@ -28,33 +28,33 @@ def affine_subspace(
     nested: bool = True,
     rtol: float = 1e-10,
 ) -> AffineSubspace:
-    """The shapes that any displacement directions span about a problem's tau.
+    """The affine subspace through a problem's tau that given displacement directions span.
 
-    For a basis of your own: vibration modes, biharmonic coordinates, handle responses. The
+    It is for a basis of your own: vibration modes, biharmonic coordinates, handle responses. The
     directions are made orthonormal in the mass matrix of tau, in their order.
 
     Parameters
     ----------
     directions : array_like, (3n, k)
-        One displacement per column, of vertices x0 y0 z0 x1 ...; of any length.
+        One displacement x0 y0 z0 x1 ... per column, of any length.
     problem : Problem
     nested : bool, default True
         Every leading part of the basis spans the leading part of the directions, so that a model
-        can be used with fewer dimensions; directions must be independent. False drops those that
-        depend on earlier ones.
+        can be used with fewer dimensions; directions must be independent. With False, directions
+        that depend on earlier ones are dropped.
     rtol : float, default 1e-10
         A direction depends on earlier ones if less than this share of its M-norm is left.
 
     Returns
     -------
     AffineSubspace
-        With k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no energies.
+        It has k dimensions, or fewer if not nested; U^T M U = I to rounding. It has no energies.
 
     Raises
     ------
     ValueError
-        For directions of another shape, none that is not zero, one that is not finite, one that
-        depends on earlier ones if nested, or an rtol that is not in (0, 1).
+        For directions of a wrong shape, if all are zero, if one is not finite or, if nested,
+        depends on earlier ones, or for an rtol that is not in (0, 1).
     """
     if not 0 < rtol < 1:
         raise ValueError(f"affine_subspace: rtol is {rtol}, but it must be between 0 and 1")
@@ -77,8 +77,8 @@ def affine_subspace(
             d += 1
         elif nested:
             raise ValueError(
-                f"affine_subspace: direction {k} is zero or depends on those before it, {left:.1g} "
-                "of it is left; leave it out, or pass nested=False, which drops such directions"
+                f"affine_subspace: direction {k} is zero or depends on earlier ones ({left:.1g} of "
+                "it is left); leave it out, or pass nested=False, which drops such directions"
             )
     if d == 0:
         raise ValueError("affine_subspace: all directions are zero; at least one must not be")
@@ -98,7 +98,7 @@ def _checked(directions: ArrayLike, size: int) -> FloatArray:
     if columns.ndim != 2 or columns.shape[0] != size or columns.shape[1] == 0:
         raise ValueError(
             f"affine_subspace: directions have shape {columns.shape}, but must be ({size}, k) with "
-            "k >= 1: a column for each, three rows per vertex"
+            "k >= 1: one column per direction, three rows per vertex"
         )
     bad = np.flatnonzero(~np.isfinite(columns).all(axis=0))
     if bad.size:

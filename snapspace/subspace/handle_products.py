@@ -1,4 +1,4 @@
-"""handle_products: inner products of displacements in the mass of the handles alone."""
+"""handle_products: inner products of displacements, with the mass of the handles only."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FloatArray = NDArray[np.float64]
 def handle_products(problem: PosingProblem, displacements: DisplacementRows) -> FloatArray:
     """Products d_i^T M_h d_j of displacements (k, 3n): (k, k).
 
-    M_h is the lumped mass of the vertices of handles, and zero elsewhere. One block of columns is
+    M_h is the lumped mass at the vertices of handles, and zero elsewhere. One block of columns is
     in memory at a time.
     """
     lumped = np.zeros_like(problem.mesh.vertex_masses)

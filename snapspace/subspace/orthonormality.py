@@ -1,4 +1,4 @@
-"""Whether a basis is what an AffineSubspace says it is: M-orthonormal."""
+"""check_orthonormal: checks that the basis of an AffineSubspace is M-orthonormal."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import numpy as np
 from ..mesh import apply_mass
 from .affine_subspace import AffineSubspace
 
-#: Of the deviation of U^T M U from the identity; single precision leaves 1e-7, and every solver
-#: and error takes the identity for granted.
+#: Largest deviation of U^T M U from the identity. Single precision leaves 1e-7; all solvers and
+#: errors assume the identity.
 TOLERANCE = 1e-4
 _PROBES = 8
 
 
 def check_orthonormal(subspace: AffineSubspace, *, who: str) -> None:
-    """ValueError of `who` unless U is (3n, d) and finite, and its columns are M-orthonormal.
+    """Raises a ValueError in the name of `who` unless U is (3n, d), finite and M-orthonormal.
 
-    U^T M U is applied to eight random combinations, always the same ones, which costs a few
-    products with U in place of d of them. No deviation is orthogonal to all of these.
+    U^T M U is applied to eight random combinations, always the same ones, which costs eight
+    products with U instead of d. A deviation is almost never orthogonal to all of them.
     """
     n, (rows, d) = subspace.mass.shape[0], subspace.basis.shape
     if rows != 3 * n or rows != subspace.tau.size or not d:
@@ -34,5 +34,6 @@ def check_orthonormal(subspace: AffineSubspace, *, who: str) -> None:
     if not deviation <= TOLERANCE:
         raise ValueError(
             f"{who}: the basis of the subspace is not M-orthonormal: U^T M U deviates from the "
-            f"identity by {deviation:.2g}; affine_subspace(directions, problem) makes it so"
+            f"identity by {deviation:.2g}; affine_subspace(directions, problem) makes an "
+            "orthonormal one"
         )

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 FloatArray = NDArray[np.float64]
 
-#: Chosen on five problems, where with 100 some errors still grow with d, and judged on seven others
+#: Chosen on five problems, where with 100 some errors still grow with d, and tested on seven others
 #: (docs/notes/basis-order.md).
 HANDLE_WEIGHT = 1000.0
 
@@ -38,21 +38,21 @@ def snapshot_pca(
 ) -> AffineSubspace:
     """Subspace through tau that fits the snapshots best (paper, sec. 5), above all their handles.
 
-    Best is meant in the mass M, to which `handle_weight` times the mass of the handles' vertices is
-    added. What few dimensions miss of the handles is small in M but stiff: a reduced solve gives up
-    the rest of the shape to follow them, and its error can grow with d. Interpolation problems have
-    no handles, and the norm is that of M.
+    The fit is best in the norm of the mass M plus `handle_weight` times the mass of the handles'
+    vertices. With few dimensions, the error at the handles is small in M but stiff: a reduced solve
+    distorts the rest of the shape to follow the handles, and its error can grow with d.
+    Interpolation problems have no handles, and the norm is that of M.
 
-    Those that are converged or carried count, see `Snapshots.usable`, and so do the solutions that
-    the problem knows without solving, the poses of an interpolation. Memory: the basis and blocks;
-    the snapshots stay where they are.
+    The fit uses converged and carried snapshots, see `Snapshots.usable`, and the solutions that the
+    problem knows without solving, the poses of an interpolation. Memory holds the basis and
+    blocks; the snapshots stay where they are.
 
     Parameters
     ----------
     snapshots : Snapshots
     dimension, energy_fraction : int, float in (0, 1]
-        Give one: d, or the smallest d at which the subspace holds that fraction of the snapshots'
-        squared M-norm.
+        Give one: d, or the share of the snapshots' squared M-norm that the subspace must reach, for
+        the smallest such d.
     lumped : bool, default False
         Diagonal instead of consistent mass matrix.
     include_unconverged : bool, default False
@@ -60,21 +60,21 @@ def snapshot_pca(
     handle_weight : float, default 1000
         Not negative; 0 is the paper's PCA in M.
     gram : SnapshotGram, optional
-        Of the problem, with the same lumping, to which all the snapshots were added in their order.
-        Default: that of the snapshots, or computed here where they have none or masses are lumped.
+        A Gram matrix of the problem, with the same lumping, to which all snapshots were added in
+        order. Default: that of the snapshots; computed here if they have none or masses are lumped.
 
     Returns
     -------
     AffineSubspace
-        U^T M U = I to rounding; the bases are nested; the squared errors of the snapshots add up
+        U^T M U = I to rounding. The bases are nested. The squared errors of the snapshots add up
         to `snapshot_energies` beyond d. Signs are fixed: the largest entry of a column is positive.
 
     Raises
     ------
     ValueError
-        If no or both sizes are given, the dimension exceeds the number of independent snapshots,
-        no snapshot is usable, the weight is negative or not finite, or the Gram matrix is of other
-        snapshots.
+        Unless exactly one of dimension and energy_fraction is given, if the dimension exceeds the
+        number of independent snapshots, if no snapshot is usable, if the weight is negative or not
+        finite, or if the Gram matrix is of other snapshots.
     """
     _check_size(dimension, energy_fraction)
     if not (np.isfinite(handle_weight) and handle_weight >= 0):
@@ -85,7 +85,7 @@ def snapshot_pca(
     if not which.any():
         raise ValueError(
             f"snapshot_pca: none of the {len(snapshots)} snapshots converged; allow more "
-            "iterations, a smaller domain, or include_unconverged=True"
+            "iterations, choose a smaller domain, or pass include_unconverged=True"
         )
     problem = snapshots.problem
     known = solutions_beyond_tau(problem)[1] - problem.base
@@ -132,10 +132,10 @@ def pca(
     Parameters
     ----------
     shapes : (3n, k), one shape per column
-    tau : (3n,), the shape that the subspace goes through
+    tau : (3n,), shape through which the subspace goes
     mass : csr_array, (n, n), scalar mass matrix
     dimension, energy_fraction
-        As for `snapshot_pca` without handles, and so are the result and the errors.
+        As for `snapshot_pca` without handles; result and errors are the same as well.
     gram : (k, k), optional
         Inner products (x_i - tau)^T M (x_j - tau), if they are known.
     """
@@ -164,9 +164,9 @@ def _pca(
     dimension: int | None,
     energy_fraction: float | None,
 ) -> AffineSubspace:
-    """From displacements from tau and their Gram matrix, block by block.
+    """The PCA, from displacements from tau and their Gram matrix, block by block.
 
-    heavy : (k, k), products in the norm of the PCA, where that is not the mass
+    heavy : (k, k), inner products in the norm of the PCA, if that is not the mass
     """
     eigenvalues, vectors = _descending(gram)
     rank = _rank(eigenvalues, tau, mass)
@@ -174,7 +174,7 @@ def _pca(
     if count > rank:
         raise ValueError(
             f"pca: dimension {count} exceeds the {rank} independent directions of "
-            f"{len(eigenvalues)} usable snapshots; take more samples or a smaller dimension"
+            f"{len(eigenvalues)} usable snapshots; use more samples or a smaller dimension"
         )
     check_dimension(count, rank)
     if heavy is None:
@@ -201,7 +201,7 @@ def _descending(gram: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _scaled(eigenvalues: FloatArray, vectors: FloatArray, dimension: int) -> FloatArray:
-    """Weights (d, k) of the snapshots in the first directions, which have length one."""
+    """Weights (d, k) of the snapshots in the first d directions, which have length one."""
     weights: FloatArray = (vectors[:, :dimension] / np.sqrt(eigenvalues[:dimension])).T
     return weights
 
@@ -221,11 +221,11 @@ def _check_size(dimension: int | None, energy_fraction: float | None) -> None:
 
 
 def _rank(eigenvalues: FloatArray, tau: FloatArray, mass: csr_array) -> int:
-    """How many directions are more than rounding; ValueError if none is."""
+    """Number of directions above rounding errors; ValueError if there are none."""
     count = len(eigenvalues)
     # Eigenvalues below this are rounding noise of the largest one.
     noise = count * np.finfo(float).eps * eigenvalues[0]
-    # So are displacements that are nothing but rounding of positions: those of equal poses.
+    # Displacements of equal poses are rounding errors of positions.
     centered = (tau.reshape(-1, 3) - tau.reshape(-1, 3).mean(axis=0)).reshape(-1)
     noise = max(noise, count * (1e-13 * mass_norm(mass, centered)) ** 2)
     rank = int((eigenvalues > noise).sum())
@@ -240,14 +240,14 @@ def _rank(eigenvalues: FloatArray, tau: FloatArray, mass: csr_array) -> int:
 def _check_gram(gram: SnapshotGram, mass: csr_array, samples: int) -> None:
     if len(gram) != samples:
         raise ValueError(
-            f"snapshot_pca: the Gram matrix is of {len(gram)} snapshots, but there are {samples}; "
-            "add all of them in their order"
+            f"snapshot_pca: the Gram matrix has {len(gram)} snapshots, but there are {samples}; "
+            "add all of them, in order"
         )
     same = gram.mass is mass or (
         np.array_equal(gram.mass.indptr, mass.indptr) and np.array_equal(gram.mass.data, mass.data)
     )
     if not same:
         raise ValueError(
-            "snapshot_pca: the Gram matrix has another mass matrix; make it by "
-            "SnapshotGram.of(problem, lumped=...) with the same lumping"
+            "snapshot_pca: the Gram matrix has another mass matrix; make it with "
+            "SnapshotGram.of(problem, lumped=...) and the same lumping"
         )

@@ -1,4 +1,4 @@
-"""How far reduced models are from full solutions, where the error comes from, and what helps."""
+"""Validation: errors of reduced models against full solutions, their causes and cures."""
 
 from .error_curve import ErrorCurve, error_curve, usual_dimensions
 from .error_split import PARTS, ErrorSplit, Part, split_errors

@@ -1,4 +1,4 @@
-"""error_curve: errors and times of a model's leading dimensions, against one reference."""
+"""error_curve: errors and times of a model's leading dimensions against one reference."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from ..snapshots import Progress, Snapshots
 from .validate import given_or_solved, validate
 from .validation import Validation
 
-#: Dimensions of a curve by default, each larger than the one before by the same factor.
+#: Default number of dimensions of a curve, in equal ratios, and the smallest as a share of the
+#: largest.
 POINTS, SMALLEST_SHARE = 8, 0.1
 
 
@@ -22,8 +23,8 @@ POINTS, SMALLEST_SHARE = 8, 0.1
 class ErrorCurve:
     """Validations of a model's leading dimensions.
 
-    dimensions : (c,) ascending
-    validations : one for each, all against the same full solutions
+    dimensions : (c,), ascending
+    validations : one per dimension, all against the same full solutions
     """
 
     dimensions: NDArray[np.int64]
@@ -35,13 +36,13 @@ class ErrorCurve:
         return self.validations[0].reference
 
     def as_json(self) -> list[dict[str, Any]]:
-        """Per dimension, what `Validation.as_json` gives."""
+        """The result of `Validation.as_json` for each dimension."""
         pairs = zip(self.dimensions.tolist(), self.validations, strict=True)
         return [validation.as_json(dimension) for dimension, validation in pairs]
 
 
 def usual_dimensions(dimension: int) -> list[int]:
-    """Eight dimensions or fewer, from a tenth of the largest up to it, in equal ratios."""
+    """At most eight dimensions in equal ratios, from a tenth of the largest to the largest."""
     spread = np.geomspace(max(SMALLEST_SHARE * dimension, 1.0), dimension, POINTS)
     return sorted({int(d) for d in np.rint(spread)})
 
@@ -69,20 +70,20 @@ def error_curve(
     -------
     ErrorCurve
         Its projection errors never grow with d. The tets of a cubature were chosen for the whole
-        model: with fewer dimensions they are as many, so that its milliseconds fall with d and not
-        with d^2, and a model that is built for a small d has fewer and is faster.
+        model, and fewer dimensions use all of them. So the milliseconds fall with d and not with
+        d^2; a model built for a small d has fewer tets and is faster.
 
     Raises
     ------
     ValueError
-        As `validate`, and for a dimension that the model does not have, or none.
+        As for `validate`, and if a dimension is out of range or there are none.
     """
     chosen = usual_dimensions(model.dimension) if dimensions is None else sorted(set(dimensions))
     wrong = [d for d in chosen if not 1 <= d <= model.dimension]
     if wrong or not chosen:
         raise ValueError(
             f"error_curve: dimensions are {chosen}, but one or more are needed, each between 1 and "
-            f"{model.dimension}, the model's"
+            f"the model's, {model.dimension}"
         )
     reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress

@@ -1,4 +1,4 @@
-"""split_errors: which part of a model's error is whose fault."""
+"""split_errors: splits a model's error into the parts of subspace, stiffness and cubature."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ PARTS: tuple[Part, ...] = ("subspace", "stiffness", "cubature")
 
 @dataclass(frozen=True)
 class ErrorSplit:
-    """The way from full solutions to reduced ones, in three parts, (k,) each for k samples.
+    """The error between full and reduced solutions in three parts, (k,) each for k samples.
 
-    All are M-norms over |x_full - tau|_M. With P the M-projection into the subspace, and x_all the
+    All are M-norms over |x_full - tau|_M. P is the M-projection into the subspace, and x_all the
     reduced minimiser with the energy of all tets:
 
     subspace : |P x_full - x_full|, the least error that the subspace allows
     stiffness : |x_all - P x_full|: a subspace cannot relax as the full mesh does, and is too stiff
-    cubature : |x_red - x_all|, what the sum over few tets moves; zero for an exact energy
-    error_of_all_tets : |x_all - x_full|, what more tets can reach
+    cubature : |x_red - x_all|, the error of summing over few tets; zero for an exact energy
+    error_of_all_tets : |x_all - x_full|, the least error that more tets can reach
     error : |x_red - x_full|, as `Validation.error` without the last registration of blends
 
     subspace^2 + stiffness^2 = error_of_all_tets^2, since the basis is M-orthonormal, and error is
@@ -72,9 +72,9 @@ def split_errors(
     ----------
     model : PosingModel or InterpolationModel
     reference : Snapshots
-        Full solutions that the model has not seen, as for `validate`. A few are enough: for a
+        Full solutions that the model has not seen, as for `validate`. A few are enough. For a
         cubature each takes 2 d evaluations of the full energy, and one for each step of a descent:
-        0.2 to 3.3 times the seconds of its full solution (benchmarks/next_options.py). An exact
+        0.2 to 3.3 times the time of its full solution (benchmarks/next_options.py). An exact
         energy takes none.
     threads : int, optional
         Default: all. The result does not depend on it.
@@ -107,14 +107,14 @@ def split_errors(
             )
         miss = row - (subspace.shape(projection) - subspace.tau)
         size, least = mass_norms(subspace.mass, np.column_stack([row, miss]))
-        inside = [np.linalg.norm(a - b) for a, b in _pairs(projection, every, reduced)]
+        inside = [np.linalg.norm(a - b) for a, b in _part_ends(projection, every, reduced)]
         outside = [np.hypot(least, np.linalg.norm(q - projection)) for q in (every, reduced)]
         target[:] = np.array([least, *inside, *outside]) / size
     return ErrorSplit(*parts.T)
 
 
-def _pairs(
+def _part_ends(
     projection: FloatArray, every: FloatArray, reduced: FloatArray
 ) -> tuple[tuple[FloatArray, FloatArray], tuple[FloatArray, FloatArray]]:
-    """What the middle and the last part lie between."""
+    """End points of the stiffness part and of the cubature part."""
     return (projection, every), (every, reduced)

@@ -1,4 +1,4 @@
-"""Errors of a model's frames against full solutions."""
+"""unseen_errors: errors of a model's frames against full solutions."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def unseen_errors(model: ReducedModel, reference: Snapshots) -> FloatArray:
 def compared(
     model: ReducedModel, reference: Snapshots
 ) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
-    """Errors (k, 2), see `_errors`, reports with the milliseconds of frames, and inverted tets."""
+    """Errors (k, 2), see `_errors`; reports and milliseconds of frames; inverted tets (k,)."""
     session, tets = model.session(), model.problem.mesh.tets
     solutions, frames, inverted = [], [], []
     for w in reference.parameters:
@@ -46,7 +46,7 @@ def compared(
 
 
 def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:
-    """Errors of reduced solutions (k, d) and of projections, (k, 2); one shape at a time."""
+    """Errors (k, 2) of reduced solutions (k, d) and of projections; one shape at a time."""
     problem, subspace = model.problem, model.subspace
     rows = reference.displacements.shifted(problem.base - subspace.tau)
     projections = subspace.row_coordinates(rows)

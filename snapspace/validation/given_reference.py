@@ -1,4 +1,4 @@
-"""check_reference: whether known full solutions can judge a model."""
+"""check_reference: checks that known full solutions can validate a model."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from ..snapshots import Snapshots
 
 
 def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "validate") -> None:
-    """ValueError of `who` unless these are full solutions which the model has not seen.
+    """Raises a ValueError in the name of `who` unless the model has not seen these solutions.
 
-    They must be of the model's problem, at least one, all converged, and at other parameters than
-    those that the model was made of: there its error says nothing about other parameters.
+    There must be at least one, of the model's problem, and all must have converged. None may be at
+    a training parameter of the model, where its error says nothing about other parameters.
     """
     own, theirs = model.problem, reference.problem
     if theirs.fingerprint != own.fingerprint:
@@ -25,15 +25,15 @@ def check_reference(model: ReducedModel, reference: Snapshots, *, who: str = "va
     bad = np.flatnonzero(~reference.converged)
     if bad.size:
         raise ValueError(
-            f"{who}: {bad.size} of {len(reference)} reference samples are no full solutions: "
-            f"sample {bad[0]} is {reference.reports[bad[0]].status}, but all must have converged; "
-            "leave the others out with reference.select(reference.converged)"
+            f"{who}: {bad.size} of {len(reference)} reference samples are not full solutions: the "
+            f"status of sample {bad[0]} is {reference.reports[bad[0]].status}, but all must have "
+            "converged; leave the others out with reference.select(reference.converged)"
         )
     trained = {row.tobytes() for row in model.training_parameters}
     seen = [i for i, row in enumerate(reference.parameters) if row.tobytes() in trained]
     if seen:
         raise ValueError(
             f"{who}: {len(seen)} of {len(reference)} reference samples, the first is {seen[0]}, "
-            "are at parameters that the model was made of, where its error says nothing about "
-            "others; leave them out"
+            "are at training parameters of the model, where its error says nothing about other "
+            "parameters; leave them out"
         )

@@ -1,4 +1,4 @@
-"""with_lower_minima: full solutions that are the lowest known."""
+"""with_lower_minima: full solutions, replaced by lower ones where frames lead to them."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from .unseen import reference_options
 
 FloatArray = NDArray[np.float64]
 
-#: A frame nearer than this share of the displacement is at the same minimum.
+#: A frame closer than this share of the displacement is at the same minimum.
 APART = 0.02
-#: Steps of descent from a frame, which is stiffer than the body and so above its own minimum.
+#: Steps of descent from a frame. A reduced model is stiffer than the body, so a frame is above the
+#: minimum near it.
 STEPS = 30
-#: What is below by less than this share of the energy is rounding, or not solved as tightly.
+#: Smaller differences, as a share of the energy, are rounding errors or errors of solving.
 RESOLVED = 1e-6
 
 
@@ -30,12 +31,11 @@ def with_lower_minima(
     errors: FloatArray | None = None,
     threads: int | None = None,
 ) -> tuple[Snapshots, int]:
-    """Full solutions, solved again where frames of a model lead below them.
+    """Full solutions, solved again where frames of a model lead to lower energies.
 
     An energy may have several minima, and a solve from one start need not find the lowest. Where a
-    frame is apart from the full solution, thirty steps go down from it in the full space. If they
-    come below the full solution, it is not the lowest one, and is solved again from where they
-    ended.
+    frame is far from the full solution, thirty steps descend from it in the full space. If their
+    energy is below that of the full solution, the sample is solved again from there.
 
     Parameters
     ----------
@@ -43,25 +43,25 @@ def with_lower_minima(
     reference : Snapshots
         Tight full solutions of its problem.
     errors : (k,), optional
-        Those of the frames, `unseen_errors`, where they are known.
+        Errors of the frames, `unseen_errors`, if they are known.
     threads : int, optional
         Default: all. The result does not depend on it.
 
     Returns
     -------
     reference : Snapshots
-        The same samples; none has more energy than before.
+        The same samples; none has a higher energy than before.
     lower : int
-        How many have less.
+        Number of samples with a lower energy.
 
     Notes
     -----
-    Nothing is below an only minimum, so that errors to a unique solution never change.
+    There is nothing below a unique minimum, so errors against a unique solution never change.
     """
     if errors is None:
         errors = unseen_errors(model, reference)
     apart = np.flatnonzero(errors > APART)
-    found = _below(model, reference, apart, threads=threads) if len(apart) else {}
+    found = _lower_minima(model, reference, apart, threads=threads) if len(apart) else {}
     if not found:
         return reference, 0
     rows, reports = list(reference.displacements), list(reference.reports)
@@ -71,10 +71,10 @@ def with_lower_minima(
     return Snapshots(model.problem, reference.parameters, displacements, reports), len(found)
 
 
-def _below(
+def _lower_minima(
     model: ReducedModel, reference: Snapshots, apart: NDArray[np.intp], *, threads: int | None
 ) -> dict[int, tuple[FloatArray, SampleReport]]:
-    """Displacements (3n,) and reports of minima below some samples of a reference, by place."""
+    """Displacements (3n,) and reports of minima below samples of a reference, by sample index."""
     values = np.array([reference.reports[i].value for i in apart])
     threshold = values - RESOLVED * np.abs(values)
     parameters, options = reference.parameters[apart], reference_options(model.problem)

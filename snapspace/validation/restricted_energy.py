@@ -11,33 +11,34 @@ from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 
-#: Shapes that are evaluated together at the most, so that memory does not grow with d.
+#: Largest number of shapes that are evaluated together, so that memory does not grow with d.
 TOGETHER = 16
-#: Steps of differences, relative to the coordinates' scale: as for the Hessian at the mean shape.
+#: Step of finite differences relative to the coordinates' scale, as for the Hessian at the mean
+#: shape.
 STEP = 1e-4
-#: A minimiser is found when twice the decrease still predicted is below this share of the energy's
-#: scale: its square root, 1e-6, is far below the errors of any model.
+#: The descent ends when twice the predicted decrease is below this share of the energy's scale. Its
+#: square root, 1e-6, is far below the errors of any model.
 TOLERANCE = 1e-12
 #: Blends without handles have soft directions: those of the helix at d = 70 take hundreds of steps.
 MOST_STEPS = 2000
-#: Curvatures are raised to this share of the largest.
+#: Curvatures are raised to at least this share of the largest.
 LEAST_CURVATURE = 1e-10
-#: Sufficient decrease, and how often a step is halved (Nocedal & Wright, 3.1).
+#: Sufficient decrease, and the largest number of halvings of a step (Nocedal & Wright, 3.1).
 DECREASE, HALVINGS = 1e-4, 30
 
 
 class RestrictedEnergy:
     """F(tau + U q, w) of all tets for one parameter vector, as a function of q.
 
-    A gradient is U^T g of one gradient g of the full problem. That is the energy of a cubature with
-    all tets, weighted by their volumes, without its 36 bytes for each tet and mode.
+    A gradient is U^T g with one gradient g of the full problem. The energy is that of a cubature
+    with all tets, weighted by their volumes, but without its 36 bytes per tet and mode.
 
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace
     parameters : (p,)
-    threads : None for all
+    threads : number of threads, default None for all
     """
 
     def __init__(
@@ -76,14 +77,14 @@ class RestrictedEnergy:
 
     @single_threaded_blas
     def minimiser(self, start: FloatArray, *, value_scale: float, scale: float) -> FloatArray:
-        """The minimiser (d,) that a descent from `start` (d,) ends in.
+        """The minimiser (d,) where a descent from `start` (d,) ends.
 
         BFGS with the inverse Hessian at the start (Nocedal & Wright, 6.1), and backtracking.
 
         Parameters
         ----------
         start : (d,)
-        value_scale, scale : units of the energy and of the coordinates, as the model has them
+        value_scale, scale : the model's scales of the energy and of the coordinates
 
         Raises
         ------
@@ -92,7 +93,7 @@ class RestrictedEnergy:
         """
         q = start.copy()
         inverse = _positive_inverse(self.hessian(q, 1e-3 * STEP * scale))
-        value, gradient = self._at(q)
+        value, gradient = self._value_and_gradient(q)
         for _ in range(MOST_STEPS):
             direction = -inverse @ gradient
             slope = float(gradient @ direction)
@@ -100,26 +101,26 @@ class RestrictedEnergy:
                 return q
             length, after, new_gradient = self._step(q, direction, value, slope)
             if length == 0.0:
-                return q  # the last digits of the energy say no more
+                return q  # rounding hides any further decrease
             move, change = length * direction, new_gradient - gradient
             q, value, gradient = q + move, after, new_gradient
             inverse = _updated(inverse, move, change)
         raise ValueError(
-            f"split_errors: the reduced minimiser of all tets is not found in {MOST_STEPS} steps; "
+            f"split_errors: the reduced minimiser of all tets was not found in {MOST_STEPS} steps; "
             "leave out this reference sample, or choose a smaller domain"
         )
 
-    def _at(self, q: FloatArray) -> tuple[float, FloatArray]:
+    def _value_and_gradient(self, q: FloatArray) -> tuple[float, FloatArray]:
         values, gradients = self.evaluated(q[None])
         return float(values[0]), gradients[0]
 
     def _step(
         self, q: FloatArray, direction: FloatArray, value: float, slope: float
     ) -> tuple[float, float, FloatArray]:
-        """Length of a step that decreases enough, zero if none does, and value and gradient."""
+        """Length of a step with sufficient decrease, zero if there is none; value and gradient."""
         length = 1.0
         for _ in range(HALVINGS):
-            after, gradient = self._at(q + length * direction)
+            after, gradient = self._value_and_gradient(q + length * direction)
             if after <= value + DECREASE * length * slope:
                 return length, after, gradient
             length *= 0.5
@@ -127,7 +128,7 @@ class RestrictedEnergy:
 
 
 def _updated(inverse: FloatArray, move: FloatArray, change: FloatArray) -> FloatArray:
-    """The BFGS update of an inverse Hessian, which stays as it is where curvature is lacking."""
+    """The BFGS update of an inverse Hessian; no update without enough curvature."""
     curvature = float(move @ change)
     if curvature <= 1e-12 * float(np.linalg.norm(move) * np.linalg.norm(change)):
         return inverse
@@ -139,7 +140,7 @@ def _updated(inverse: FloatArray, move: FloatArray, change: FloatArray) -> Float
 
 
 def _positive_inverse(hessian: FloatArray) -> FloatArray:
-    """Inverse of |H|, eigenvalues raised to a share of the largest (Nocedal & Wright, 3.4)."""
+    """Inverse of |H|, with eigenvalues raised to a share of the largest (Nocedal & Wright, 3.4)."""
     values, vectors = np.linalg.eigh(hessian)
     sizes = np.maximum(np.abs(values), LEAST_CURVATURE * np.abs(values).max())
     return np.asarray((vectors / sizes) @ vectors.T, np.float64)

@@ -1,4 +1,4 @@
-"""Tight full solutions at parameters that no model was made of."""
+"""Unseen samples: tight full solutions at parameters that no model is trained with."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..snapshots import Progress, Snapshots, SolverOptions, solve_snapshots
 
 FloatArray = NDArray[np.float64]
 
-#: The reference is solved until twice the predicted decrease is below this share of F, or a
-#: hundredth of the tolerance that snapshots have. On the Dragon its shapes are then within 1e-4 of
-#: the limit, relative to the displacement.
+#: The reference is solved until twice the predicted decrease is below this share of F, or below a
+#: hundredth of the snapshots' tolerance. On the Dragon its shapes are then within 1e-4 of the
+#: limit, relative to the displacement.
 REFERENCE_TOLERANCE = 1e-10
 
 
 def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
-    """Uniform random parameters (count, p) from a stream that `sample` never draws from."""
+    """Uniform random parameters (count, p), from a stream that `sample` never uses."""
     if count < 1:
         raise ValueError(f"validate: the number of samples is {count}, but must be at least 1")
     stream = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
@@ -26,7 +26,7 @@ def unseen_parameters(domain: Domain, count: int, *, seed: int) -> FloatArray:
 
 
 def reference_options(problem: Problem) -> SolverOptions:
-    """How tightly full solutions are solved that models are compared with."""
+    """Solver options for the full solutions with which models are compared."""
     tolerance = min(REFERENCE_TOLERANCE, 0.01 * problem.solving.tolerance)
     return SolverOptions(tolerance=tolerance, max_iterations=5000)
 
@@ -39,14 +39,15 @@ def solved_reference(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Snapshots:
-    """Tightly converged full solutions at unseen parameters; those that converged.
+    """Tightly solved full solutions at unseen parameters, without those that did not converge.
 
     Parameters
     ----------
     problem : Problem
     samples : int, default 30
+        Number of solutions.
     seed : int, default 1
-        See `unseen_parameters`.
+        Seed of `unseen_parameters`.
     threads, progress : as for `solve_snapshots`
 
     Raises

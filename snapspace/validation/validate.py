@@ -1,4 +1,4 @@
-"""validate: a reduced model against full solutions at parameters that it has not seen."""
+"""validate: compares a reduced model with full solutions at unseen parameters."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .lower_minima import with_lower_minima
 from .unseen import solved_reference
 from .validation import Validation
 
-#: Full solutions by default, and the seed of their parameters.
+#: Default number of full solutions, and default seed of their parameters.
 SAMPLES, SEED = 30, 1
 
 
@@ -31,26 +31,27 @@ def validate(
     ----------
     model : ReducedModel
     samples : int, default 30
+        Number of full solutions.
     seed : int, default 1
-        The parameters come from a stream that `sample` never draws from.
+        Seed of the parameters, which come from a stream that `sample` never uses.
     reference : Snapshots, optional
-        Known full solutions of the same problem in place of new ones, such as
-        `Validation.reference`, or those of `load_snapshots`. Errors are no more exact than these
-        are converged.
+        Known full solutions of the same problem instead of new ones, such as
+        `Validation.reference`, or those of `load_snapshots`. The errors are only as accurate as
+        these solutions.
     threads, progress : as for `solve_snapshots`
 
     Returns
     -------
     Validation
-        The same figures for new and for known solutions, apart from milliseconds. New solutions
-        are the lowest known ones, see `with_lower_minima`; `Validation.reference` has them.
+        New and known solutions give the same figures, except milliseconds. New solutions are the
+        lowest known ones, see `with_lower_minima`; `Validation.reference` has them.
 
     Raises
     ------
     ValueError
-        If no full solution converged; for samples or seed beside a reference; for a reference of
-        another problem, of no samples, with one that did not converge, or with one that the model
-        was made of.
+        If no full solution converged; for samples or seed together with a reference; for a
+        reference of another problem, without samples, with a sample that did not converge, or
+        with one at a training parameter of the model.
     """
     reference, lower = given_or_solved(
         model, reference, samples=samples, seed=seed, threads=threads, progress=progress
@@ -79,9 +80,9 @@ def given_or_solved(
     threads: int | None,
     progress: Progress | None,
 ) -> tuple[Snapshots, int]:
-    """The reference that was given, checked, or else a new one; as for `validate`.
+    """The given reference after checks, or else a new one; arguments are as for `validate`.
 
-    With it, how many of its solutions are lower minima that frames led to.
+    Also returns how many of its solutions are lower minima to which frames led.
     """
     if reference is None:
         solved = solved_reference(
@@ -94,8 +95,8 @@ def given_or_solved(
         return with_lower_minima(model, solved, threads=threads)
     if samples is not None or seed is not None:
         raise ValueError(
-            "validate: the parameters come from the reference, so samples and seed are of no "
-            "effect; leave them or the reference out"
+            "validate: the parameters come from the reference, so samples and seed have no effect; "
+            "leave out either them or the reference"
         )
     check_reference(model, reference)
     return reference, 0

@@ -15,18 +15,19 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Validation:
-    """Errors and costs on unseen parameters, (k,) for the k samples whose full solve converged.
+    """Errors and costs at unseen parameters, (k,) for the k samples whose full solve converged.
 
     error : |x_red - x_full|_M / |x_full - tau|_M of the reduced solve from tau, the rest or mean
-    shape; of interpolations after rigid registration
-    projection_error : the same for the M-projection of x_full into the subspace: the least possible
+    shape; for interpolation after rigid registration
+    projection_error : the same for the M-projection of x_full into the subspace, the least possible
+    error
     energy_ratio : objective of the reduced solution over that of the full one
-    iterations : of the session
+    iterations : iterations of the session
     solve_ms, frame_ms : milliseconds of the solve, and of the solve and all vertices
-    inverted_tets : tets of the reduced solution with no positive volume; those of the full
-    solutions are in `reference.reports`
-    reference : the full solutions, for the next validation: `save_snapshots` keeps them
-    lower_minima : how many of them are minima that frames led to, below those found without
+    inverted_tets : number of tets of the reduced solution without positive volume; those of the
+    full solutions are in `reference.reports`
+    reference : the full solutions, for the next validation; `save_snapshots` writes them
+    lower_minima : number of them that are lower minima to which frames led
     """
 
     error: FloatArray

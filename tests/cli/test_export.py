@@ -26,7 +26,8 @@ def test_the_page_holds_the_model(run: Run, model: Path, tmp_path: Path) -> None
 
 
 def test_mistakes_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
-    assert "a page ends in .html" in run("export", model, "--html", tmp_path / "a.pdf").error
+    result = run("export", model, "--html", tmp_path / "a.pdf")
+    assert "name of a page must end in .html" in result.error
     assert "no such model file" in run("export", "none.snapspace", "--html", "a.html").error
     assert "--html" in run("export", model).error
     assert "cannot be written" in run("export", model, "--html", tmp_path / "no" / "a.html").error

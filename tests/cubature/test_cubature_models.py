@@ -137,7 +137,7 @@ def test_solving_anew_never_raises_the_energy(cubature_model: PosingModel) -> No
 
 def test_a_choice_of_precision_is_refused(cubature_model: PosingModel) -> None:
     """Rows always have the same precision; accepting the option would promise another model."""
-    with pytest.raises(ValueError, match="a cubature always keeps its rows so"):
+    with pytest.raises(ValueError, match="a cubature always keeps its rows in single"):
         cubature_model.session(precision="single")
 
 

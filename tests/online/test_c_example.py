@@ -41,4 +41,4 @@ def test_the_example_moves_the_last_handle(
 
     (tmp_path / "short.arrays").write_bytes((tmp_path / "bar.arrays").read_bytes()[:-8])
     refused = subprocess.run([program, "short.arrays", *motion], cwd=tmp_path, capture_output=True)
-    assert refused.returncode == 2 and b"not complete" in refused.stderr
+    assert refused.returncode == 2 and b"incomplete" in refused.stderr

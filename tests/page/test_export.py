@@ -57,7 +57,7 @@ def test_titles_are_escaped(posing_model: PosingModel, tmp_path: Path) -> None:
 
 
 def test_other_extensions_are_refused(posing_model: PosingModel, tmp_path: Path) -> None:
-    with pytest.raises(ValueError, match=r"out\.pdf: a page ends in \.html or \.htm"):
+    with pytest.raises(ValueError, match=r"out\.pdf: the name of a page must end in \.html or"):
         export_html(posing_model, tmp_path / "out.pdf")
     with pytest.raises(ValueError, match="cannot be written"):
         export_html(posing_model, tmp_path / "nowhere" / "out.html")

@@ -94,7 +94,7 @@ def test_models_arrive_and_improve(server: Running, page: Page) -> None:
     stages = [message["stage"] for message in page.seen if message["type"] == "progress"]
     assert list(dict.fromkeys(stages)) == ["snapshots", "subspace", "energy"]
     status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
-    assert status == 404 and b"not kept any more" in text
+    assert status == 404 and b"no longer kept" in text
 
 
 def test_chosen_handles_are_answered_in_the_models_order(server: Running, page: Page) -> None:
@@ -184,7 +184,7 @@ def test_errors_are_answers(page: Page) -> None:
     page.send("compute", request=7, **{**SHORT, "most_samples": 19})
     assert "most_samples is 19, but at least 20" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "most_samples": 20_001})
-    assert "the page takes 20000 at most" in page.take("failed")["message"]
+    assert "the page takes at most 20000" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "poisson": 0.5})
     assert "must be from 0 to 0.49" in page.take("failed")["message"]
     page.send("compute", request=7, **{**SHORT, "material": "mud"})
@@ -193,7 +193,7 @@ def test_errors_are_answers(page: Page) -> None:
     assert page.take("failed") == {
         "type": "failed",
         "request": 8,
-        "message": "model 3 is not kept any more; take the newest one",
+        "message": "model 3 is no longer kept; use the newest one",
     }
     page.socket.send('{"type": "evil", "request": 9}')
     refused = page.take("failed")
@@ -245,7 +245,7 @@ def test_files_are_saved_beside_the_mesh(server: Running, page: Page, folder: Pa
     record = load(saved["model"]).provenance["accurate"]
     assert record["reached"] and saved["mesh"] is None
     page.send("save", request=3, name="../bar")
-    assert "no plain file name" in page.take("failed")["message"]
+    assert "not a plain file name" in page.take("failed")["message"]
 
 
 @pytest.mark.parametrize(

@@ -89,7 +89,7 @@ def test_numbers_that_json_lacks_become_null() -> None:
         ('{"type": "workspace"}', "type is 'workspace'"),
         ('{"type": "cancel"}', "cancel: the entry 'request' is missing"),
         ('{"type": "cancel", "request": 1.0}', "cancel.request must be an integer, got 1.0"),
-        ('{"type": "cancel", "request": 2147483648}', "cancel.request is 2147483648, but must fit"),
+        ('{"type": "cancel", "request": 2147483648}', "cancel.request is 2147483648, but it must"),
         ('{"type": "cancel", "request": true}', "cancel.request must be an integer, got True"),
         ('{"type": "cancel", "request": 1, "x": 2}', "cancel: unknown entry 'x'"),
         ('{"type": "save", "request": 1, "name": 5}', "save.name must be a string, got 5"),
@@ -112,7 +112,7 @@ def test_text_that_is_not_a_message_is_refused(text: str, message: str) -> None:
         ),
         (
             {"handles": [{"name": "a", "vertices": [1, -(2**31) - 1]}]},
-            r"choose.handles\[0\].vertices\[1\] is -2147483649, but must fit 32 bits",
+            r"choose.handles\[0\].vertices\[1\] is -2147483649, but it must fit in 32 bits",
         ),
         ({"translation": [1, 2]}, "choose.translation must have 3 entries, got 2"),
         ({"angle": [1, 2, "3"]}, r"choose.angle\[2\] must be a number, got '3'"),

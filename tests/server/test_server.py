@@ -141,7 +141,7 @@ def test_a_port_in_use_is_reported(posing_model: PosingModel) -> None:
         other.bind(("127.0.0.1", 0))
         other.listen()
         port = other.getsockname()[1]
-        with pytest.raises(ValueError, match=rf"cannot listen at 127.0.0.1:{port}: .*--port"):
+        with pytest.raises(ValueError, match=rf"cannot listen on 127.0.0.1:{port}: .*--port"):
             serve(posing_model, title="", port=port)
-    with pytest.raises(ValueError, match="ports go from 0 to 65535"):
+    with pytest.raises(ValueError, match="must be from 0 to 65535"):
         serve(posing_model, title="", port=70_000)

@@ -108,7 +108,7 @@ def test_handles_without_enough_vertices_are_refused() -> None:
     surface = boundary_surface(MESH)
     regions = SurfaceRegions(MESH, surface)
     few = Handles([[0, 1, 2], [7]], names=["a", "b"])
-    with pytest.raises(ValueError, match=r"'b' has 1 of the surface's vertices, which hold 1 of"):
+    with pytest.raises(ValueError, match=r"'b' has 1 of the surface's vertices, but only 1 of"):
         regions.in_tets(few)
     with pytest.raises(ValueError, match="'b' has vertex index 99999, but the surface has"):
         regions.in_tets(Handles([[0, 1, 2], [99999]], names=["a", "b"]))
@@ -124,5 +124,5 @@ def test_disjoint_handles_stay_disjoint_on_coarse_tets() -> None:
     faces = np.arange(60).reshape(20, 3)
     regions = SurfaceRegions(coarse, embed_surface(points, faces, coarse))
     order = np.argsort(points[:, 0])
-    with pytest.raises(ValueError, match="choose a larger part, or fill the surface with shorter"):
+    with pytest.raises(ValueError, match="choose a larger part, or fill the surface with smaller"):
         regions.in_tets(Handles([order[:30], order[30:]], names=["a", "b"]))

@@ -83,8 +83,8 @@ def test_blends_are_animated_through_weights(blending_model: InterpolationModel)
 @pytest.mark.parametrize(
     ("keys", "options", "message"),
     [
-        ([], {}, "there are no keys"),
-        ([KEY], {"frames": 1}, "frames is 1, but a way has two at least"),
+        ([], {}, "no keys are given"),
+        ([KEY], {"frames": 1}, "frames is 1, but at least two are needed"),
         ([KEY], {"easing": "bouncy"}, "unknown easing 'bouncy'; known are linear, smooth"),
         ([{"nose": KEY["head"]}], {}, "nose"),
         ([{"head": ((0, 0), (0, 0, 0))}], {}, "animate: euler of 'head' needs three numbers"),
@@ -101,5 +101,5 @@ def test_bad_animations_are_refused_before_anything_moves(
 
 def test_affine_maps_cannot_be_animated(session: PosingSession) -> None:
     session.move_affine("head", np.column_stack([1.1 * np.eye(3), np.zeros(3)]))
-    with pytest.raises(ValueError, match="no rigid motion; reset"):
+    with pytest.raises(ValueError, match="that is not rigid; call reset"):
         session.animate([KEY])

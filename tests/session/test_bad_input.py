@@ -28,8 +28,8 @@ WRONG: list[tuple[Callable[[Session], Any], str]] = [
     (lambda s: s.move("head", translation=(0, 0, math.inf)), "of 'head' has [2] = inf, but it"),
     (lambda s: s.move_affine("head", np.eye(4)), "matrix of 'head' needs a (3, 4) matrix, got"),
     (lambda s: s.move_affine("head", NOT_FINITE), "matrix of 'head' has [1, 1] = nan, but it must"),
-    (lambda s: s.move_affine("foot", STRETCH), "'foot' is the reference of all others and takes"),
-    (lambda s: s.move_affine("foot", MIRROR), "'foot' is the reference of all others and takes"),
+    (lambda s: s.move_affine("foot", STRETCH), "'foot' is the reference of all other handles and"),
+    (lambda s: s.move_affine("foot", MIRROR), "'foot' is the reference of all other handles and"),
     (lambda s: s.pose(np.zeros(6)), "parameters have shape (6,), but 2 moving handles need (12,)"),
     (lambda s: s.pose(np.full(12, np.nan)), "parameter 0, translation x of 'head', is not finite"),
 ]

@@ -43,5 +43,5 @@ def test_a_used_model_gives_the_same_frames_after_pickling(
 def test_a_session_says_why_it_cannot_be_pickled(request: pytest.FixtureRequest, name: str) -> None:
     session = request.getfixturevalue(name).session()
     for attempt in (pickle.dumps, copy.copy, copy.deepcopy):
-        with pytest.raises(TypeError, match=r"Session: a session is not .*; pickle session\.model"):
+        with pytest.raises(TypeError, match=r"Session: a session cannot .*; pickle session\.model"):
             attempt(session)

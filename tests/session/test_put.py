@@ -56,8 +56,8 @@ def test_a_blend_of_another_session_is_shown(blending_model: InterpolationModel)
     ("motions", "q", "message"),
     [
         ([REST] * 2, [0.0], "got 2 motions"),
-        ([REST, REST, (2 * np.eye(3), [0, 0, 0])], [0.0], "the matrix of 'belly' is no rotation"),
-        ([REST, REST, (-np.eye(3), [0, 0, 0])], [0.0], "the matrix of 'belly' is no rotation"),
+        ([REST, REST, (2 * np.eye(3), [0, 0, 0])], [0.0], "matrix of 'belly' is not a rotation"),
+        ([REST, REST, (-np.eye(3), [0, 0, 0])], [0.0], "matrix of 'belly' is not a rotation"),
         ([REST, (np.eye(3), [0, np.nan, 0]), REST], [0.0], r"'head' has \[1\] = nan"),
         ([REST, (np.eye(2), [0, 0, 0]), REST], [0.0], r"'head' needs a \(3, 3\) matrix"),
         ([REST] * 3, [], r"q has shape \(0,\), but the model has 20"),

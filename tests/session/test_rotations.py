@@ -40,9 +40,9 @@ def test_a_rotation_is_the_same_motion_as_its_angles(session: PosingSession, rot
     ("options", "message"),
     [
         ({"euler": EULER, "rotation": TURN}, "'head' has both euler and rotation"),
-        ({"rotation": 2 * np.eye(3)}, "'head' is a matrix that is no rotation"),
-        ({"rotation": np.diag([1.0, 1.0, -1.0])}, "no rotation"),
-        ({"rotation": np.zeros(4)}, "the quaternion zero"),
+        ({"rotation": 2 * np.eye(3)}, "'head' is a matrix that is not a rotation"),
+        ({"rotation": np.diag([1.0, 1.0, -1.0])}, "not a rotation"),
+        ({"rotation": np.zeros(4)}, "the zero quaternion"),
         ({"rotation": [np.nan, 0, 0, 1]}, r"\[0\] = nan, but it must be finite"),
         ({"rotation": Rotation.from_rotvec([[0.1, 0, 0], [0, 0.2, 0]])}, "'head' is 2 rotations"),
         ({"rotation": np.eye(2)}, "needs three numbers"),

@@ -130,7 +130,7 @@ def test_a_closed_connection_is_reported(cluster: Any) -> None:
     work.submit(backend, 8)
     client.close()
     # running blocks are cancelled, and later ones refused
-    message = r"executor: (cancelled|does not take) samples .* in the checkpoint"
+    message = r"executor: (cancelled|does not accept) samples .* in the checkpoint"
     with pytest.raises(ValueError, match=message):
         while backend.wait(PATIENCE):
             pass

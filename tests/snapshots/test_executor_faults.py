@@ -15,7 +15,7 @@ from .bars import posing_bar
 from .blocks import DeadlyProblem, Work, backend_of
 from .scripted_executor import ScriptedExecutor
 
-KEPT = "finished samples are in the checkpoint, if there is one, and the same call goes on from it"
+KEPT = "finished samples are in the checkpoint, if there is one; the same call continues from it"
 
 
 def raised_for(error: BaseException, *, size: int = 4) -> BaseException:
@@ -66,7 +66,7 @@ def test_a_worker_that_dies_breaks_its_pool_and_says_so() -> None:
         lost = r"executor: lost the worker that solved samples 4, 6 \(BrokenProcessPool: "
         with pytest.raises(ValueError, match=lost):
             backend.wait(60.0)
-        refused = r"executor: does not take sample 5 \(BrokenProcessPool: .*" + re.escape(KEPT)
+        refused = r"executor: does not accept sample 5 \(BrokenProcessPool: .*" + re.escape(KEPT)
         with pytest.raises(ValueError, match=refused):
             backend.submit([5], work.inputs[:1], work.starts[:1])
         backend.close()
@@ -76,7 +76,7 @@ def test_an_executor_that_was_shut_down_takes_nothing() -> None:
     work, pool = Work.of(posing_bar(), 1), ThreadPoolExecutor(1)
     backend = backend_of(pool, work.problem)
     pool.shutdown()
-    with pytest.raises(ValueError, match=r"does not take sample 0 \(RuntimeError: cannot schedule"):
+    with pytest.raises(ValueError, match=r"does not accept sample 0 \(RuntimeError: cannot"):
         work.submit(backend, 1)
 
 
@@ -87,7 +87,7 @@ def test_dropped_work_is_reported() -> None:
     (_, future) = executor.waiting[0]
     future.cancel()
     future.set_running_or_notify_cancel()
-    with pytest.raises(ValueError, match="executor: cancelled samples 0 to 1, as it does when"):
+    with pytest.raises(ValueError, match="executor: cancelled samples 0 to 1; an executor does"):
         backend.wait(0.0)
 
 

@@ -164,7 +164,7 @@ def test_an_error_of_a_worker_keeps_finished_samples(
 
     samples, options = parameters(posing, 24), SolverOptions(solver="newton", block=4)
     checkpoint = Checkpoint(tmp_path / "run")
-    with Failing(1) as pool, pytest.raises(ValueError, match="does not take samples 12 to 15"):
+    with Failing(1) as pool, pytest.raises(ValueError, match="does not accept samples 12 to 15"):
         solve_snapshots(posing, samples, options=options, executor=pool, checkpoint=checkpoint)
     assert checkpoint.numbers() == set(range(12))
     resumed: Snapshots = solve_snapshots(

@@ -58,7 +58,7 @@ def test_a_full_disk_loses_nothing(tmp_path: Path, size: int) -> None:
         pytest.raises(
             UnsavedSamplesError,
             match=r"run: 4 finished samples, 0\.1 MB, are not saved: cannot be written: .*; 3 "
-            r"samples are kept there, and when they can be written the same call goes on from",
+            r"samples are kept there, and once the cause is removed the same call continues from",
         ) as caught,
     ):
         save(checkpoint, 3, 4)

@@ -65,7 +65,7 @@ def test_a_damaged_file_is_refused(
     with pytest.raises(ValueError, match=r"bar\.samples: (not a|its content has changed)"):
         load_snapshots(path, posing_snapshots.problem)
     path.write_bytes(content[: len(content) // 2])
-    with pytest.raises(ValueError, match="not a complete file of samples"):
+    with pytest.raises(ValueError, match="not a complete samples file"):
         load_snapshots(path, posing_snapshots.problem)
 
 
@@ -73,7 +73,7 @@ def test_other_files_are_refused(
     posing_model: PosingModel, posing_snapshots: Snapshots, tmp_path: Path
 ) -> None:
     other = posing_model.save(tmp_path / "m.snapspace").rename(tmp_path / "m.samples")
-    with pytest.raises(ValueError, match="not a file of samples of this version"):
+    with pytest.raises(ValueError, match="not a samples file of this version"):
         load_snapshots(other, posing_model.problem)
     with pytest.raises(ValueError, match="there is no such file"):
         load_snapshots(tmp_path / "none.samples", posing_model.problem)

@@ -229,7 +229,7 @@ SHAPES = planted(np.array([2.0, 1.0, 0.5]), 5)
         (
             SHAPES,
             {"dimension": 9},
-            "pca: dimension 9 exceeds the 3 independent directions of 5 usable snapshots; take "
+            "pca: dimension 9 exceeds the 3 independent directions of 5 usable snapshots; use "
             "more samples or a smaller dimension",
         ),
         (SHAPES, {"energy_fraction": 0.0}, "energy_fraction is 0.0, but must be in (0, 1]"),

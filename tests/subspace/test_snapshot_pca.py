@@ -59,7 +59,7 @@ def test_unconverged_snapshots_are_left_out_unless_requested(snapshots: Snapshot
     with pytest.raises(
         ValueError,
         match=r"pca: dimension 8 exceeds the 7 independent directions of 7 usable snapshots; "
-        r"take more samples or a smaller dimension",
+        r"use more samples or a smaller dimension",
     ):
         snapshot_pca(failing, dimension=8)
 

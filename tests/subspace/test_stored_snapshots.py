@@ -129,10 +129,10 @@ def peak_memory(problem: Problem, count: int, folder: Path) -> int:
 def test_products_of_other_snapshots_are_refused(snapshots: Snapshots) -> None:
     gram = SnapshotGram.of(snapshots.problem)
     gram.add(snapshots.displacements[:7])
-    with pytest.raises(ValueError, match="the Gram matrix is of 7 snapshots, but there are 20"):
+    with pytest.raises(ValueError, match="the Gram matrix has 7 snapshots, but there are 20"):
         snapshot_pca(snapshots, dimension=3, gram=gram)
     gram.add(snapshots.displacements[7:])
-    message = "snapshot_pca: the Gram matrix has another mass matrix; make it by SnapshotGram.of"
+    message = "snapshot_pca: the Gram matrix has another mass matrix; make it with SnapshotGram.of"
     with pytest.raises(ValueError, match=re.escape(message)):
         snapshot_pca(snapshots, dimension=3, lumped=True, gram=gram)
 

@@ -139,5 +139,5 @@ def test_json_names_the_largest_part(graded_model: PosingModel) -> None:
 def test_a_reference_without_solutions_is_refused(graded_model: PosingModel) -> None:
     full = reference(graded_model)
     reports = [replace(report, status="max_iterations") for report in full.reports]
-    with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are no full"):
+    with pytest.raises(ValueError, match="split_errors: 4 of 4 reference samples are not full"):
         split_errors(graded_model, replace(full, reports=reports))

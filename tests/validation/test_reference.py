@@ -63,7 +63,7 @@ def test_a_curve_is_a_validation_of_each_dimension_with_one_reference(
 def test_a_curve_has_dimensions_of_the_model(
     posing_model: PosingModel, checked: Validation, dimensions: list[int]
 ) -> None:
-    with pytest.raises(ValueError, match=r"error_curve: dimensions are .* each between 1 and 20"):
+    with pytest.raises(ValueError, match=r"error_curve: dimensions are .* and the model.s, 20"):
         error_curve(posing_model, dimensions=dimensions, reference=checked.reference)
 
 
@@ -95,7 +95,7 @@ def test_samples_that_did_not_converge_are_refused(
     reports[2] = replace(reports[2], status="max_iterations")
     broken = replace(checked.reference, reports=reports)
     with pytest.raises(
-        ValueError, match="1 of 5 reference samples are no full solutions: sample 2"
+        ValueError, match="1 of 5 reference samples are not full solutions: the status of sample 2"
     ):
         validate(posing_model, reference=broken)
     kept = validate(posing_model, reference=broken.select(broken.converged))
@@ -106,7 +106,7 @@ def test_training_samples_are_refused(
     posing_model: PosingModel, posing_snapshots: Snapshots, checked: Validation
 ) -> None:
     seen = checked.reference.joined(posing_snapshots.select(np.arange(60) == 7))
-    with pytest.raises(ValueError, match="1 of 6 reference samples, the first is 5, are at param"):
+    with pytest.raises(ValueError, match="1 of 6 reference samples, the first is 5, are at train"):
         validate(posing_model, reference=seen)
 
 
@@ -116,7 +116,7 @@ def test_a_reference_needs_samples_and_excludes_sampling_options(
     none = checked.reference.select(np.zeros(COUNT, bool))
     with pytest.raises(ValueError, match="the reference has no samples"):
         validate(posing_model, reference=none)
-    with pytest.raises(ValueError, match="samples and seed are of no effect"):
+    with pytest.raises(ValueError, match="samples and seed have no effect"):
         validate(posing_model, reference=checked.reference, samples=3)
 
 
