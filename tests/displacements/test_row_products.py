@@ -82,7 +82,7 @@ def test_a_combination_does_not_depend_on_others_nor_on_rows_without_weight() ->
         ([0, 1], [1], "a column is out of range"),
         ([0, 1], [-1], "a column is out of range"),
         ([0, 2], [0], "starts reach beyond the entries"),
-        ([0, -1], [0], "starts must not fall"),
+        ([0, -1], [0], "starts must not decrease"),
         ([1, 1], [0], "from 0"),
         ([0, 1], [0, 0], "one value per column"),
     ],

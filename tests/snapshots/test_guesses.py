@@ -233,7 +233,7 @@ def test_wrong_sizes_are_refused(problem: PosingProblem) -> None:
     inputs = problem.inputs(parameters(problem, 2))
     with pytest.raises(ValueError, match="inputs must be"):
         core.LinearResponse(problem.system, inputs[:, 1:])
-    with pytest.raises(ValueError, match="there must be an input"):
+    with pytest.raises(ValueError, match="at least one input is needed"):
         core.LinearResponse(problem.system, inputs[:0])
     response = core.LinearResponse(problem.system, inputs)
     with pytest.raises(ValueError, match="coordinates must be"):
