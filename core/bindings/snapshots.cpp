@@ -80,7 +80,7 @@ void bind_system(nb::module_& m) {
             return result;
           },
           nb::arg("vector"),
-          "The inverse of the scalar matrix, or what is used as it, applied to x, y and z.")
+          "The inverse of the scalar matrix, or its approximation, applied to x, y and z.")
       .def(
           "value_and_gradient",
           [](const System& self, VectorIn u, VectorIn inputs) {

@@ -71,7 +71,7 @@ inline bool all_finite(const double* numbers, std::size_t count) {
   return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
 }
 
-/// Reads a material for so many tets.
+/// Reads a material for this many tets.
 /// @returns SNAPSPACE_OK or an error, and then `result` is as it was
 inline int read_material(const snapspace_material& given, int tets, TetMaterial& result) {
   if (!given.kind) return SNAPSPACE_BAD_ARGUMENT;
