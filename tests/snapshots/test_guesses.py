@@ -240,5 +240,5 @@ def test_wrong_sizes_are_refused(problem: PosingProblem) -> None:
         response.warped(problem.system, np.zeros((2, 3)), inputs)
     with pytest.raises(ValueError, match="inputs must be"):
         response.warped(problem.system, np.zeros((1, 2)), inputs)
-    with pytest.raises(ValueError, match="of another system"):
+    with pytest.raises(ValueError, match="belong to another system"):
         response.warped(posing_bar(5).system, np.zeros((2, 2)), inputs)
