@@ -1,6 +1,6 @@
 """The compiled core: the widest of its builds that this processor can run.
 
-A wheel has a build for every x86-64 level, `make setup` only the one of its machine.
+A wheel has a build for each x86-64 level; `make setup` makes only that of its machine.
 ``SNAPSPACE_LEVEL`` (``baseline``, ``v3`` or ``v4``) forces one, for tests and comparisons. Results
 agree across levels up to rounding; within a level they are bitwise reproducible.
 """
@@ -14,7 +14,7 @@ from typing import Any
 
 from snapspace._cpu_level import cpu_level
 
-#: Builds by the x86-64 level that they need; other processors have level 0 and take the plain one.
+#: Builds, with the x86-64 level that each needs. Other processors have level 0: the baseline.
 BUILDS = {"v4": 4, "v3": 3, "baseline": 0}
 
 
@@ -33,8 +33,9 @@ def _chosen_level() -> str:
     wanted = os.environ.get("SNAPSPACE_LEVEL")
     if not available:
         raise ImportError(
-            "snapspace: none of the installed builds of the core runs on this processor; it was "
-            "built on another machine for that one only: run `make setup` here, or install a wheel"
+            "snapspace: none of the installed builds of the core runs on this processor; they were "
+            "built on another machine, for that machine only: run `make setup` here, or install a "
+            "wheel"
         )
     if not wanted:
         return available[0]
@@ -42,8 +43,8 @@ def _chosen_level() -> str:
         raise ImportError(f"SNAPSPACE_LEVEL={wanted}: known levels are {', '.join(BUILDS)}")
     if wanted not in available:
         raise ImportError(
-            f"SNAPSPACE_LEVEL={wanted}: {', '.join(available)} can be had here (installed, and "
-            "known to this processor); unset it"
+            f"SNAPSPACE_LEVEL={wanted}: available here are {', '.join(available)} (installed, and "
+            "supported by this processor); unset it"
         )
     return wanted
 
@@ -53,5 +54,5 @@ core = importlib.import_module(f"snapspace._core_{level}")
 
 
 def __getattr__(name: str) -> Any:
-    # the names of the compiled module are this module's; _core.pyi lists them
+    # forwards the names of the compiled module; _core.pyi lists them
     return getattr(core, name)

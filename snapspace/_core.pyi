@@ -1,4 +1,4 @@
-"""The loops of snapspace that must be fast."""
+"""The compiled core: the computations of snapspace that must be fast."""
 
 from collections.abc import Sequence
 import enum
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 lane_count: int
 
 class Material:
-    """A density by name, with its moduli, (1, k) or one row per tet."""
+    """A density, given by its name, with moduli (1, k) or one row per tet."""
 
     def __init__(self, kind: str, moduli: NDArray[numpy.float64]) -> None: ...
 
@@ -24,7 +24,7 @@ def material_moduli() -> dict[str, list[str]]:
     """Names of the moduli of every density, in the order of its rows."""
 
 class Projection(enum.Enum):
-    """What Newton's method takes for the Hessian of a tet."""
+    """The matrix that Newton's method uses for the Hessian of a tet."""
 
     none = 0
 
@@ -46,7 +46,7 @@ class ElasticEnergy:
 
     def tet_stresses(self, u: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Volume times first Piola-Kirchhoff stress of every tet (m, 9), and its energy (m,).
+        Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each tet.
         """
 
     def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
@@ -54,12 +54,12 @@ class ElasticEnergy:
 
     def hessian_blocks(self, u: NDArray[numpy.float64], *, projection: Projection = Projection.none, threshold: float = 0.0) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
         """
-        Hessian at u, every tet's projected, as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)). The threshold is that of Projection.stretches.
+        Hessian at u, projected tet by tet, as block rows: (row_start (n+1,), columns (b,), blocks (b,3,3)). The threshold is for Projection.stretches.
         """
 
     def lane_values_and_gradients(self, shapes: NDArray[numpy.float64], *, single: bool = False) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), twice as many in single precision, one per lane.
+        Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), one per lane; twice as many in single precision.
         """
 
     def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
@@ -71,11 +71,11 @@ def minimum_degree(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> 
     """
 
 def nested_dissection(starts: NDArray[numpy.int32], rows: NDArray[numpy.int32]) -> NDArray[numpy.int32]:
-    """The same by nested dissection."""
+    """The same, by nested dissection."""
 
 class ScalarFactor:
     """
-    Cholesky factor of a sparse matrix (n, n), given by its columns with both triangles; it solves for x, y and z.
+    Cholesky factor of a sparse matrix (n, n), given by its columns with both triangles. It solves for x, y and z.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
@@ -88,16 +88,18 @@ class ScalarFactor:
     def nonzeros(self) -> int: ...
 
     def solve(self, right_hand_side: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Solution of one (1, 3n)."""
+        """Solution for one right-hand side (1, 3n)."""
 
     def solve_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Solutions of up to lane_count (k, 3n), one per lane."""
+        """Solutions for up to lane_count right-hand sides (k, 3n), one per lane."""
 
     def solve_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """The same in single precision, of up to twice as many."""
+        """
+        The same in single precision, for up to twice as many right-hand sides.
+        """
 
 class InverseKind(enum.Enum):
-    """What stands for the inverse of a scalar matrix."""
+    """What is used as the inverse of a scalar matrix."""
 
     automatic = 0
 
@@ -107,7 +109,7 @@ class InverseKind(enum.Enum):
 
 class TwoGridCycle:
     """
-    Multigrid cycle for a sparse matrix (n, n), given by its columns with both triangles, in place of its inverse; for x, y and z.
+    Multigrid cycle that replaces the inverse of a sparse matrix (n, n), given by its columns with both triangles; for x, y and z.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
@@ -117,21 +119,23 @@ class TwoGridCycle:
 
     def lowest_eigenvalue(self, starts: NDArray[numpy.int32], rows: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> float:
         """
-        Of cycle * matrix, from above, for the matrix that the cycle was made for.
+        Estimate from above of the lowest eigenvalue of cycle * matrix, for the matrix of the cycle.
         """
 
     def apply(self, right_hand_side: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Cycle times one (1, 3n)."""
+        """Cycle times one right-hand side (1, 3n)."""
 
     def apply_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """Cycle times up to lane_count (k, 3n), one per lane."""
+        """Cycle times up to lane_count right-hand sides (k, 3n), one per lane."""
 
     def apply_single_lanes(self, right_hand_sides: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-        """The same in single precision, of up to twice as many."""
+        """
+        The same in single precision, for up to twice as many right-hand sides.
+        """
 
 class MassProducts:
     """
-    Products of displacements (3n,) with a scalar matrix (n, n), given row by row, in between. Not for several threads at a time.
+    Inner products of displacements (3n,) with respect to a scalar matrix (n, n), given row by row. Not for several threads at a time.
     """
 
     def __init__(self, starts: NDArray[numpy.int32], columns: NDArray[numpy.int32], values: NDArray[numpy.float64]) -> None: ...
@@ -140,7 +144,7 @@ class MassProducts:
         """Products (i, j) of rows[i] + offset with M (x) I3 times others[j]."""
 
 def combine_rows(rows: Sequence[NDArray[numpy.float64]], size: int, weights: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
-    """weights (j, i) times rows (i of size,): the combinations, (j, size)."""
+    """Combinations (j, size) of i rows (size,): weights (j, i) times rows."""
 
 class SolveStatus(enum.Enum):
     """How a full-space solve ended."""
@@ -183,13 +187,13 @@ class SolveReport:
 
     @property
     def seconds(self) -> float:
-        """Wall time from start to end of this sample."""
+        """Wall time from taking this sample to finishing it."""
 
     @property
     def inverted_tets(self) -> int: ...
 
 class SolveControl:
-    """Shared with a running solve: ends it early, counts what is finished."""
+    """Shared with a running solve: cancels it, and counts finished samples."""
 
     def __init__(self) -> None: ...
 
@@ -215,19 +219,19 @@ class Solution:
         """(3n,) displacement, in the memory of the solution."""
 
 class SampleQueue:
-    """Samples on their way to the threads that solve them, and back."""
+    """Passes samples to the threads that solve them, and solutions back."""
 
     def __init__(self) -> None: ...
 
     def close(self) -> None:
-        """No more samples come."""
+        """No more samples will come."""
 
     def running(self) -> list[tuple[int, int]]:
         """Samples that are being solved, with their evaluations so far."""
 
     def collect(self, into: list[Solution], seconds: float) -> None:
         """
-        Appends the solutions since the last call to a list; waits up to so many seconds for one. Not returned: a KeyboardInterrupt would lose what a call returns.
+        Appends the solutions since the last call to a list; waits up to this many seconds for one. They are not returned, because a KeyboardInterrupt would lose a returned list.
         """
 
 class Batch:
@@ -245,25 +249,27 @@ class Batch:
         """Conjugate gradient iterations of all samples together (Newton only)."""
 
 class SampleSystem:
-    """What all samples of a problem share, with its scalar factor."""
+    """The data that all samples of a problem share, with its scalar factor."""
 
     @property
     def inverse(self) -> InverseKind:
-        """What stands for the inverse of the scalar matrix."""
+        """What is used as the inverse of the scalar matrix."""
 
     @property
     def inverse_products(self) -> int: ...
 
     @property
     def lowest_eigenvalue(self) -> float | None:
-        """Of cycle * scalar matrix, where a cycle was made."""
+        """
+        Lowest eigenvalue of cycle * scalar matrix if a cycle was made, even if unused.
+        """
 
     @property
     def input_size(self) -> int: ...
 
     def precondition(self, vector: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        The inverse of the scalar matrix, or what stands for it, applied to x, y and z.
+        The inverse of the scalar matrix, or its approximation, applied to x, y and z.
         """
 
     def value_and_gradient(self, u: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> tuple[float, NDArray[numpy.float64]]:
@@ -271,7 +277,7 @@ class SampleSystem:
 
     def evaluate(self, shapes: NDArray[numpy.float64], inputs: NDArray[numpy.float64], *, threads: int = 0) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n); together, several to a pack.
+        Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n). Several are computed in one pack.
         """
 
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
@@ -281,24 +287,28 @@ class SampleSystem:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> None:
-        """Newton's method; the same arguments."""
+        """
+        Newton's method on the samples of a queue until it is closed and empty.
+        """
 
     def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
-        """L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
+        """Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> Batch:
-        """Newton's method; the same arguments."""
+        """
+        Solves by Newton's method; inputs (samples, input_size), starts (samples, 3n).
+        """
 
 class PosingSystem(SampleSystem):
     """
-    What all samples of a posing problem share, with its scalar factor. Inputs are displacements of the pinned vertices.
+    The data that all samples of a posing problem share, with its scalar factor. Inputs are target displacements of the pinned vertices.
     """
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material, pinned: NDArray[numpy.int32], weights: NDArray[numpy.float64], *, inverse: InverseKind = InverseKind.automatic) -> None: ...
 
 class InterpolationSystem(SampleSystem):
     """
-    What all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
+    The data that all samples of an interpolation problem share, with its scalar factor. Inputs are the weights; displacements are from pose 0.
     """
 
     def __init__(self, poses: NDArray[numpy.float64], tets: NDArray[numpy.int32], material: Material) -> None: ...
@@ -310,7 +320,7 @@ class InterpolationSystem(SampleSystem):
 
     def tet_stresses(self, u: NDArray[numpy.float64], weights: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), its energy (m,), and the gradient of their sum (3n,).
+        First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each tet, and the gradient (3n,) of the sum of energies.
         """
 
 class SoftModes:
@@ -321,22 +331,24 @@ class SoftModes:
     def __init__(self, system: PosingSystem) -> None: ...
 
     def modes(self, system: PosingSystem) -> NDArray[numpy.float64]:
-        """(8, 3n), each v . A v = 1 with the scalar matrix A of the system."""
+        """
+        Modes v (8, 3n) with v . A v = 1 for the scalar matrix A of the system.
+        """
 
     @property
     def weights(self) -> list[float]:
-        """Of the modes in the seed, 8 numbers; zero where no mode was found."""
+        """The 8 weights of the modes in the seed; zero where no mode was found."""
 
 class LinearResponse:
     """
-    Displacements that a posing system at rest answers with to small displacements (count, input_size) asked of its handles.
+    Displacements of a posing system, linearised at rest, for small displacements (count, input_size) of its handles.
     """
 
     def __init__(self, system: PosingSystem, inputs: NDArray[numpy.float64]) -> None: ...
 
     def warped(self, system: PosingSystem, coordinates: NDArray[numpy.float64], inputs: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """
-        Displacements (samples, 3n) near the solutions for inputs that the combinations with these coordinates are the linear part of.
+        Displacements (samples, 3n) near the solutions for inputs (samples, input_size). The combinations of responses with coordinates (samples, count) are their linear parts.
         """
 
 class CoarseSpace:
@@ -346,7 +358,7 @@ class CoarseSpace:
 
 def polish(system: SampleSystem, coarse: CoarseSpace, inverse: NDArray[numpy.float64], input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl) -> Solution:
     """
-    L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the Hessian on the coarse space. A cancelled one returns the lowest shape so far.
+    L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the Hessian on the coarse space. If it is cancelled, it returns the lowest shape so far.
     """
 
 class FitStatus(enum.Enum):
@@ -383,7 +395,7 @@ class FitReport:
 
     @property
     def stiffness(self) -> float:
-        """Of the last stage."""
+        """Stiffness of the last stage."""
 
     @property
     def deviation(self) -> float:
@@ -393,18 +405,18 @@ class FitReport:
     def seconds(self) -> float: ...
 
 class FittingSystem:
-    """What all poses of a mesh and surface share."""
+    """The data that all poses of a mesh and surface share."""
 
     def __init__(self, vertices: NDArray[numpy.float64], tets: NDArray[numpy.int32], corners: NDArray[numpy.int32], weights: NDArray[numpy.float64], areas: NDArray[numpy.float64]) -> None: ...
 
     def energy(self, u: NDArray[numpy.float64], *, stretch: float) -> tuple[float, NDArray[numpy.float64]]:
         """
-        Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted or stretched by more, and its gradient (3n,).
+        Symmetric Dirichlet energy at displacements u (3n,), infinite if a tet is inverted or reaches the stretch, and its gradient (3n,).
         """
 
     def projected_hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64], *, stretch: float) -> NDArray[numpy.float64]:
         """
-        Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).
+        Hessian of the energy at u, projected tet by tet to a semi-definite one, times v (3n,).
         """
 
     def fit(self, targets: NDArray[numpy.float64], *, deviation: float, first_stiffness: float, stretch: float, max_iterations: int, control: SolveControl) -> tuple[NDArray[numpy.float64], FitReport]:
@@ -414,12 +426,12 @@ class FittingSystem:
 
 def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, threads: int) -> NDArray[numpy.float32]:
     """
-    Displacement gradients of modes (d, 3n) in tets (r, 4), (r, 9, d) float32.
+    Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4).
     """
 
 def training_columns(rows: NDArray[numpy.float32], stresses: NDArray[numpy.float32], along: NDArray[numpy.float32], columns: NDArray[numpy.float32], *, threads: int) -> None:
     """
-    Writes the products of all tets' forces with directions (s, d, k): the first s k entries of every row of columns.
+    Writes the products of all tets' forces with directions (s, d, k) to the first s k entries of each row of columns.
     """
 
 def quartic_coefficients(energy: ElasticEnergy, modes: NDArray[numpy.float64], *, threads: int) -> NDArray[numpy.float64]:
@@ -469,17 +481,17 @@ def reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: N
     """tau + sum of q_i modes_i, (3n,)."""
 
 class ShapeRows:
-    """Shapes tau + U q of one basis for the screen, with modes in 16 bits."""
+    """Shapes tau + U q of one basis for display, with modes in 16 bits."""
 
     def __init__(self, tau: NDArray[numpy.float64], modes: NDArray[numpy.float64]) -> None: ...
 
     @property
     def bytes(self) -> int:
-        """What a shape of all modes reads."""
+        """Bytes that are read for a shape of all modes."""
 
     def shape(self, q: NDArray[numpy.float64], *, threads: int = 0) -> NDArray[numpy.float32]:
         """
-        tau + U q (3n,) of the first coordinates in single precision, on so many threads (0: as many as pay).
+        tau + U q (3n,) of the first coordinates in single precision, on this many threads (0: as many as are worthwhile).
         """
 
 class ReducedFunction:
@@ -538,7 +550,7 @@ class TetFunction(ReducedFunction):
 
     def curvatures(self, q: NDArray[numpy.float64]) -> NDArray[numpy.float32]:
         """
-        Hessians (r, 9, 9) of the tets by their displacement gradients, float32.
+        Weighted Hessians (r, 9, 9) of the tets by their displacement gradients, float32.
         """
 
 class Cubature(TetFunction):
@@ -574,21 +586,21 @@ class ResidualProbe:
         """
 
 def peak_flops(*, single: bool, repeats: int = 20) -> float:
-    """Floating-point operations per second of one thread of this build."""
+    """Peak floating-point operations per second of one thread in this build."""
 
 def read_bandwidth(bytes: int, *, repeats: int = 20) -> float:
     """Bytes per second that one thread reads from an array of this size."""
 
 def time_quartic(dimension: int, coefficients: NDArray[numpy.float64], q: NDArray[numpy.float64], *, single: bool = False, repeats: int = 1000) -> tuple[float, float]:
     """
-    Seconds of value and gradient, and of value, gradient and Hessian, on one thread.
+    Seconds for value and gradient, and for value, gradient and Hessian, on one thread.
     """
 
 def time_reconstruct(tau: NDArray[numpy.float64], modes: NDArray[numpy.float64], q: NDArray[numpy.float64], *, repeats: int = 30) -> float:
-    """Seconds of tau + sum of q_i modes_i, on one thread."""
+    """Seconds for tau + sum of q_i modes_i, on one thread."""
 
 class PartTimes:
-    """Seconds and operations of the parts of an L-BFGS step."""
+    """Seconds and floating-point operations of the parts of an L-BFGS step."""
 
     @property
     def kernel_seconds(self) -> float: ...
@@ -604,7 +616,7 @@ class PartTimes:
 
 def time_parts(system: PosingSystem, u: NDArray[numpy.float64], *, single: bool, repeats: int = 20) -> PartTimes:
     """
-    Times of one thread for the widest pack, all lanes at displacement u (3n,).
+    Times of one thread with the widest pack, all lanes at displacement u (3n,).
     """
 
 BUILDS: dict[str, int]

@@ -18,8 +18,8 @@ namespace snapspace {
 
 namespace nb = nanobind;
 
-// Python checks shapes and values at its own door (snapspace/*); what is checked again here is only
-// what would otherwise read beyond an array.
+// Python validates shapes and values on input (snapspace/*). Only sizes and indices that could read
+// beyond an array are checked again here.
 using VectorIn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using MatrixIn = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using TensorIn = nb::ndarray<const double, nb::ndim<3>, nb::c_contig, nb::device::cpu>;

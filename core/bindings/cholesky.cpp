@@ -27,7 +27,7 @@ ScalarFactor in_order(IndexVectorIn starts, IndexVectorIn rows, VectorIn values,
   std::sort(sorted.begin(), sorted.end());
   bool all = sorted.size() == starts.size() - 1;
   for (std::size_t i = 0; i < sorted.size(); ++i) all = all && sorted[i] == static_cast<int>(i);
-  require(all, "the order must have every vertex once");
+  require(all, "the order must contain every vertex once");
   return {A, Supernodes(A, given)};
 }
 
@@ -45,10 +45,10 @@ void bind_cholesky(nb::module_& m) {
   m.def("minimum_degree", &order<minimum_degree>, nb::arg("starts"), nb::arg("rows"),
         "Order of elimination (n,) of a symmetric pattern, given by its columns.");
   m.def("nested_dissection", &order<nested_dissection>, nb::arg("starts"), nb::arg("rows"),
-        "The same by nested dissection.");
+        "The same, by nested dissection.");
   nb::class_<ScalarFactor>(m, "ScalarFactor",
                            "Cholesky factor of a sparse matrix (n, n), given by its columns with "
-                           "both triangles; it solves for x, y and z.")
+                           "both triangles. It solves for x, y and z.")
       .def(
           "__init__",
           [](ScalarFactor* self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
@@ -58,11 +58,12 @@ void bind_cholesky(nb::module_& m) {
       .def_static("in_order", &in_order, nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
                   nb::arg("order"), "The factor for an order of elimination (n,).")
       .def_prop_ro("nonzeros", &ScalarFactor::nonzeros)
-      .def("solve", &solve<Packing::alone>, nb::arg("right_hand_side"), "Solution of one (1, 3n).")
+      .def("solve", &solve<Packing::alone>, nb::arg("right_hand_side"),
+           "Solution for one right-hand side (1, 3n).")
       .def("solve_lanes", &solve<Packing::lanes>, nb::arg("right_hand_sides"),
-           "Solutions of up to lane_count (k, 3n), one per lane.")
+           "Solutions for up to lane_count right-hand sides (k, 3n), one per lane.")
       .def("solve_single_lanes", &solve<Packing::single_lanes>, nb::arg("right_hand_sides"),
-           "The same in single precision, of up to twice as many.");
+           "The same in single precision, for up to twice as many right-hand sides.");
 }
 
 }  // namespace snapspace

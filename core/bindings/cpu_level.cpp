@@ -1,9 +1,9 @@
-// Compiled without any wide instruction: it runs before it is known what the processor has.
+// Compiled without wide instructions: it runs before the processor's level is known.
 #include "bindings/cpu_level.h"
 
 #include <nanobind/nanobind.h>
 
 NB_MODULE(_cpu_level, m) {
   m.def("cpu_level", &snapspace::cpu_level,
-        "Highest x86-64 level (1 to 4) of this processor, 0 on others.");
+        "Highest x86-64 level (1 to 4) of this processor; 0 on other processors.");
 }

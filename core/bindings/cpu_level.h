@@ -1,4 +1,4 @@
-// The processor's x86-64 level. Plain code: CMake runs it in a program of its own too.
+// The processor's x86-64 level. Plain code, because CMake also runs it in a separate program.
 #pragma once
 
 namespace snapspace {

@@ -12,7 +12,7 @@ live::CubatureArrays cubature_arrays(const RowsIn& rows, const VectorIn& weights
   require(rows.shape(0) >= 1 && rows.shape(1) == 9 && rows.shape(2) >= 1 &&
               weights.size() == rows.shape(0),
           "rows (tets, 9, d) and weights (tets,) do not match");
-  require(material.fits(weights.size()), "the material has moduli for another number of tets");
+  require(material.fits(weights.size()), "the material has moduli for a different number of tets");
   return {static_cast<int>(rows.shape(2)), static_cast<int>(rows.shape(0)), rows.data(),
           weights.data(), material.view()};
 }
@@ -32,10 +32,10 @@ void bind_blended(nb::module_& m) {
           "__init__",
           [](BlendedCubature* self, RowsIn rows, VectorIn weights, const MaterialField& material,
              TensorIn corners) {
-            live::BlendedPointer made = live::blended_cubature(
+            live::BlendedPointer function = live::blended_cubature(
                 cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size()));
-            live::BlendedFunction* blend = made.get();
-            new (self) BlendedCubature{{{std::move(made)}, blend}, blend};
+            live::BlendedFunction* blend = function.get();
+            new (self) BlendedCubature{{{std::move(function)}, blend}, blend};
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"))
       .def(
@@ -75,16 +75,17 @@ void bind_cubature(nb::module_& m) {
             self.sum->curvatures(at, hessians.data());
             return hessians;
           },
-          nb::arg("q"), "Hessians (r, 9, 9) of the tets by their displacement gradients, float32.");
+          nb::arg("q"),
+          "Weighted Hessians (r, 9, 9) of the tets by their displacement gradients, float32.");
 
   nb::class_<Cubature, TetFunction>(m, "Cubature",
                                     "Elastic energy as a weighted sum over few tets.")
       .def(
           "__init__",
           [](Cubature* self, RowsIn rows, VectorIn weights, const MaterialField& material) {
-            live::TetPointer made = live::cubature(cubature_arrays(rows, weights, material));
-            live::TetFunction* sum = made.get();
-            new (self) Cubature{{{std::move(made)}, sum}};
+            live::TetPointer function = live::cubature(cubature_arrays(rows, weights, material));
+            live::TetFunction* sum = function.get();
+            new (self) Cubature{{{std::move(function)}, sum}};
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"));
 

@@ -36,7 +36,7 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
   const Packing packing = single ? Packing::single_lanes : Packing::lanes;
   const std::size_t count = shapes.shape(0), n = size(self);
   require(count <= static_cast<std::size_t>(samples_together(packing)) && shapes.shape(1) == n,
-          "needs (k, 3n), and k no more than lanes");
+          "needs (k, 3n) with k at most the number of lanes");
   DoublesOut values = new_array<double>({count}), gradients = new_array<double>({count, n});
   {
     const nb::gil_scoped_release release;
@@ -47,7 +47,7 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
 
 void bind_material(nb::module_& m) {
   nb::class_<MaterialField>(m, "Material",
-                            "A density by name, with its moduli, (1, k) or one row per tet.")
+                            "A density, given by its name, with moduli (1, k) or one row per tet.")
       .def(
           "__init__",
           [](MaterialField* self, const std::string& kind, MatrixIn moduli) {
@@ -69,7 +69,8 @@ void bind_material(nb::module_& m) {
         return result;
       },
       "Names of the moduli of every density, in the order of its rows.");
-  nb::enum_<Projection>(m, "Projection", "What Newton's method takes for the Hessian of a tet.")
+  nb::enum_<Projection>(m, "Projection",
+                        "The matrix that Newton's method uses for the Hessian of a tet.")
       .value("none", Projection::none)
       .value("stretches", Projection::stretches)
       .value("clamp", Projection::clamp)
@@ -116,7 +117,7 @@ void bind_energy(nb::module_& m) {
             return std::make_pair(stresses, energies);
           },
           nb::arg("u"),
-          "Volume times first Piola-Kirchhoff stress of every tet (m, 9), and its energy (m,).")
+          "Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each tet.")
       .def(
           "hessian_product",
           [](const ElasticEnergy& self, VectorIn u, VectorIn v) {
@@ -134,13 +135,12 @@ void bind_energy(nb::module_& m) {
           },
           nb::arg("u"), nb::kw_only(), nb::arg("projection") = Projection::none,
           nb::arg("threshold") = 0.0,
-          "Hessian at u, every tet's projected, as block rows: (row_start (n+1,), columns (b,), "
-          "blocks (b,3,3)). The threshold is that of Projection.stretches.")
-      .def(
-          "lane_values_and_gradients", &in_lanes, nb::arg("shapes"), nb::kw_only(),
-          nb::arg("single") = false,
-          "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), twice as "
-          "many in single precision, one per lane.")
+          "Hessian at u, projected tet by tet, as block rows: (row_start (n+1,), columns (b,), "
+          "blocks (b,3,3)). The threshold is for Projection.stretches.")
+      .def("lane_values_and_gradients", &in_lanes, nb::arg("shapes"), nb::kw_only(),
+           nb::arg("single") = false,
+           "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), one per "
+           "lane; twice as many in single precision.")
       .def(
           "inverted_tets",
           [](const ElasticEnergy& self, VectorIn u) {

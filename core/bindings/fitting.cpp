@@ -38,7 +38,7 @@ DoublesOut external(const FittingSystem& system, const std::vector<double>& u) {
   return result;
 }
 
-/// The energy of fits, without limits to its growth in a step.
+/// The energy of fits, without the limits to its growth in a step.
 std::pair<double, DoublesOut> energy(const FittingSystem& self, const VectorIn& u, double stretch) {
   std::vector<double> energies, stresses, gradient(self.size());
   const FitEnergy fit(self.energy, stretch);
@@ -89,20 +89,22 @@ void bind_fitting(nb::module_& m) {
       .def_ro("iterations", &FitReport::iterations, "Newton steps of all stages.")
       .def_ro("evaluations", &FitReport::evaluations)
       .def_ro("linear_iterations", &FitReport::linear_iterations)
-      .def_ro("stiffness", &FitReport::stiffness, "Of the last stage.")
+      .def_ro("stiffness", &FitReport::stiffness, "Stiffness of the last stage.")
       .def_ro("deviation", &FitReport::deviation,
               "Root mean square distance of surface and target, weighted by area.")
       .def_ro("seconds", &FitReport::seconds);
 
-  nb::class_<FittingSystem>(m, "FittingSystem", "What all poses of a mesh and surface share.")
+  nb::class_<FittingSystem>(m, "FittingSystem",
+                            "The data that all poses of a mesh and surface share.")
       .def("__init__", &construct, nb::arg("vertices"), nb::arg("tets").noconvert(),
            nb::arg("corners").noconvert(), nb::arg("weights"), nb::arg("areas"))
       .def("energy", &energy, nb::arg("u"), nb::kw_only(), nb::arg("stretch"),
-           "Symmetric Dirichlet energy at displacements u (3n,), infinite where a tet is inverted "
-           "or stretched by more, and its gradient (3n,).")
+           "Symmetric Dirichlet energy at displacements u (3n,), infinite if a tet is inverted or "
+           "reaches the stretch, and its gradient (3n,).")
       .def("projected_hessian_product", &hessian_product, nb::arg("u"), nb::arg("v"), nb::kw_only(),
            nb::arg("stretch"),
-           "Its Hessian at u, each element's projected to a semi-definite one, times v (3n,).")
+           "Hessian of the energy at u, projected tet by tet to a semi-definite one, times v "
+           "(3n,).")
       .def("fit", &fit, nb::arg("targets"), nb::kw_only(), nb::arg("deviation"),
            nb::arg("first_stiffness"), nb::arg("stretch"), nb::arg("max_iterations"),
            nb::arg("control"),

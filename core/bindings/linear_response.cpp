@@ -7,14 +7,14 @@ namespace snapspace {
 
 void bind_linear_response(nb::module_& m) {
   nb::class_<LinearResponse>(m, "LinearResponse",
-                             "Displacements that a posing system at rest answers with to small "
-                             "displacements (count, input_size) asked of its handles.")
+                             "Displacements of a posing system, linearised at rest, for small "
+                             "displacements (count, input_size) of its handles.")
       .def(
           "__init__",
           [](LinearResponse* self, const PosingSystem& system, MatrixIn inputs) {
             require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
                     "inputs must be (count, input_size)");
-            require(inputs.shape(0) > 0, "there must be an input");
+            require(inputs.shape(0) > 0, "at least one input is needed");
             const nb::gil_scoped_release release;
             new (self) LinearResponse(system, inputs.data(), static_cast<int>(inputs.shape(0)));
           },
@@ -24,7 +24,7 @@ void bind_linear_response(nb::module_& m) {
           [](const LinearResponse& self, const PosingSystem& system, MatrixIn coordinates,
              MatrixIn inputs) {
             require(self.size() == static_cast<std::size_t>(system.size()),
-                    "the responses are of another system");
+                    "the responses belong to another system");
             require(coordinates.shape(1) == static_cast<std::size_t>(self.count()),
                     "coordinates must be (samples, count)");
             require(inputs.shape(0) == coordinates.shape(0) &&
@@ -37,8 +37,8 @@ void bind_linear_response(nb::module_& m) {
             return displacements;
           },
           nb::arg("system"), nb::arg("coordinates"), nb::arg("inputs"),
-          "Displacements (samples, 3n) near the solutions for inputs that the combinations with "
-          "these coordinates are the linear part of.");
+          "Displacements (samples, 3n) near the solutions for inputs (samples, input_size). The "
+          "combinations of responses with coordinates (samples, count) are their linear parts.");
 }
 
 }  // namespace snapspace

@@ -36,7 +36,7 @@ inline auto value_and_gradient(live::ReducedFunction& function, const VectorIn& 
   return std::make_pair(value, gradient);
 }
 
-/// A function that the core has made. Python knows the two kinds by their names only.
+/// A function of the core. For Python its kinds differ only in their names.
 struct ReducedFunction {
   live::FunctionPointer function;
 };
@@ -49,26 +49,27 @@ struct BlendedCubature : TetFunction {
   live::BlendedFunction* blend;  // the same function
 };
 
-/// A live solver with its current coordinates, as many as the solver can take.
+/// A live solver with its current coordinates, as many as its capacity.
 struct LiveLoop {
   live::SolverPointer solver;
   std::vector<double> q;
 
   /// @throws std::invalid_argument  with this message if the solver is not valid
-  LiveLoop(live::SolverPointer made, const char* message) : solver(std::move(made)) {
+  LiveLoop(live::SolverPointer valid_solver, const char* message)
+      : solver(std::move(valid_solver)) {
     require(solver->valid(), message);
     q.assign(static_cast<std::size_t>(solver->capacity()), 0.0);
   }
 };
 
-/// By a quartic, or a cubature, which takes offsets alike.
+/// A loop with a quartic, or with a cubature, which takes offsets in the same way.
 struct PosingLoop : LiveLoop {
   using LiveLoop::LiveLoop;
 };
 struct CubatureLoop : PosingLoop {
   using PosingLoop::PosingLoop;
 };
-/// By quartics, or a cubature, which takes weights alike.
+/// A loop with quartics, or with a cubature, which takes weights in the same way.
 struct BlendingLoop : LiveLoop {
   using LiveLoop::LiveLoop;
 };
@@ -76,7 +77,7 @@ struct BlendedCubatureLoop : BlendingLoop {
   using BlendingLoop::BlendingLoop;
 };
 
-/// The arrays of posing's handles; K tells the dimension.
+/// The arrays of the handles of a posing problem; K gives the dimension.
 inline live::HandleArrays handle_arrays(const MatrixIn& K, const TensorIn& L, const TensorIn& S,
                                         const char* message) {
   const std::size_t d = K.shape(0);

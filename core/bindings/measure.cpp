@@ -13,7 +13,7 @@ void bind_measure(nb::module_& m) {
         return peak_flops(single, repeats);
       },
       nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
-      "Floating-point operations per second of one thread of this build.");
+      "Peak floating-point operations per second of one thread in this build.");
   m.def(
       "read_bandwidth",
       [](std::size_t bytes, int repeats) {
@@ -36,7 +36,7 @@ void bind_measure(nb::module_& m) {
       },
       nb::arg("dimension"), nb::arg("coefficients"), nb::arg("q"), nb::kw_only(),
       nb::arg("single") = false, nb::arg("repeats") = 1000,
-      "Seconds of value and gradient, and of value, gradient and Hessian, on one thread.");
+      "Seconds for value and gradient, and for value, gradient and Hessian, on one thread.");
   m.def(
       "time_reconstruct",
       [](VectorIn tau, MatrixIn modes, VectorIn q, int repeats) {
@@ -47,9 +47,10 @@ void bind_measure(nb::module_& m) {
                                 q.data(), repeats);
       },
       nb::arg("tau"), nb::arg("modes"), nb::arg("q"), nb::kw_only(), nb::arg("repeats") = 30,
-      "Seconds of tau + sum of q_i modes_i, on one thread.");
+      "Seconds for tau + sum of q_i modes_i, on one thread.");
 
-  nb::class_<PartTimes>(m, "PartTimes", "Seconds and operations of the parts of an L-BFGS step.")
+  nb::class_<PartTimes>(m, "PartTimes",
+                        "Seconds and floating-point operations of the parts of an L-BFGS step.")
       .def_ro("kernel_seconds", &PartTimes::kernel_seconds)
       .def_ro("solve_seconds", &PartTimes::solve_seconds)
       .def_ro("kernel_flops", &PartTimes::kernel_flops)
@@ -64,7 +65,7 @@ void bind_measure(nb::module_& m) {
         return time_parts(system, shape, single, repeats);
       },
       nb::arg("system"), nb::arg("u"), nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
-      "Times of one thread for the widest pack, all lanes at displacement u (3n,).");
+      "Times of one thread with the widest pack, all lanes at displacement u (3n,).");
 }
 
 }  // namespace snapspace

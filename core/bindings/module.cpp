@@ -21,9 +21,9 @@ void bind_measure(nb::module_& m);
 namespace {
 
 void bind_all(nb::module_& m) {
-  // What outlives the interpreter is not lost memory, and users should not read about it.
+  // Objects that outlive the interpreter are not leaks, and users should not see warnings of them.
   nb::set_leak_warnings(false);
-  m.doc() = "The loops of snapspace that must be fast.";
+  m.doc() = "The compiled core: the computations of snapspace that must be fast.";
   m.attr("lane_count") = samples_together(Packing::lanes);
   bind_energy(m);
   bind_cholesky(m);
@@ -46,8 +46,8 @@ void bind_all(nb::module_& m) {
 
 }  // namespace snapspace
 
-// The same object is linked into the module of every level, and Python calls the function that has
-// the module's name.
+// The same object is linked into the module of each level, and Python calls the function with the
+// module's name.
 NB_MODULE(_core_baseline, m) { snapspace::bind_all(m); }
 NB_MODULE(_core_v3, m) { snapspace::bind_all(m); }
 NB_MODULE(_core_v4, m) { snapspace::bind_all(m); }

@@ -19,13 +19,13 @@ DoublesOut apply(const TwoGridCycle& cycle, MatrixIn right_hand_sides) {
 }  // namespace
 
 void bind_multigrid(nb::module_& m) {
-  nb::enum_<InverseKind>(m, "InverseKind", "What stands for the inverse of a scalar matrix.")
+  nb::enum_<InverseKind>(m, "InverseKind", "What is used as the inverse of a scalar matrix.")
       .value("automatic", InverseKind::automatic)
       .value("factor", InverseKind::factor)
       .value("cycle", InverseKind::cycle);
   nb::class_<TwoGridCycle>(m, "TwoGridCycle",
-                           "Multigrid cycle for a sparse matrix (n, n), given by its columns with "
-                           "both triangles, in place of its inverse; for x, y and z.")
+                           "Multigrid cycle that replaces the inverse of a sparse matrix (n, n), "
+                           "given by its columns with both triangles; for x, y and z.")
       .def(
           "__init__",
           [](TwoGridCycle* self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
@@ -36,16 +36,18 @@ void bind_multigrid(nb::module_& m) {
       .def(
           "lowest_eigenvalue",
           [](const TwoGridCycle& self, IndexVectorIn starts, IndexVectorIn rows, VectorIn values) {
-            require(starts.size() == self.size() + 1, "the cycle is of another matrix");
+            require(starts.size() == self.size() + 1, "the cycle belongs to another matrix");
             return lowest_eigenvalue(sparse_matrix(starts, rows, values), self);
           },
           nb::arg("starts"), nb::arg("rows"), nb::arg("values"),
-          "Of cycle * matrix, from above, for the matrix that the cycle was made for.")
-      .def("apply", &apply<Packing::alone>, nb::arg("right_hand_side"), "Cycle times one (1, 3n).")
+          "Estimate from above of the lowest eigenvalue of cycle * matrix, for the matrix of the "
+          "cycle.")
+      .def("apply", &apply<Packing::alone>, nb::arg("right_hand_side"),
+           "Cycle times one right-hand side (1, 3n).")
       .def("apply_lanes", &apply<Packing::lanes>, nb::arg("right_hand_sides"),
-           "Cycle times up to lane_count (k, 3n), one per lane.")
+           "Cycle times up to lane_count right-hand sides (k, 3n), one per lane.")
       .def("apply_single_lanes", &apply<Packing::single_lanes>, nb::arg("right_hand_sides"),
-           "The same in single precision, of up to twice as many.");
+           "The same in single precision, for up to twice as many right-hand sides.");
 }
 
 }  // namespace snapspace

@@ -49,7 +49,7 @@ void bind_functions(nb::module_& m) {
           nb::arg("dimension"), nb::arg("coefficients"), nb::kw_only(), nb::arg("single") = false);
 }
 
-/// What the loops of all problems have in common.
+/// Binds what the loops of all problems share.
 void bind_loop(nb::module_& m) {
   nb::class_<LiveLoop>(m, "LiveLoop", "Solves frame by frame, each from the last one.")
       .def_prop_rw(
@@ -150,8 +150,8 @@ void bind_blending(nb::module_& m) {
 }
 
 void bind_shape_rows(nb::module_& m) {
-  nb::class_<live::ShapeRows>(
-      m, "ShapeRows", "Shapes tau + U q of one basis for the screen, with modes in 16 bits.")
+  nb::class_<live::ShapeRows>(m, "ShapeRows",
+                              "Shapes tau + U q of one basis for display, with modes in 16 bits.")
       .def(
           "__init__",
           [](live::ShapeRows* self, VectorIn tau, MatrixIn modes) {
@@ -160,7 +160,8 @@ void bind_shape_rows(nb::module_& m) {
                                        modes.data());
           },
           nb::arg("tau"), nb::arg("modes"))
-      .def_prop_ro("bytes", &live::ShapeRows::bytes, "What a shape of all modes reads.")
+      .def_prop_ro("bytes", &live::ShapeRows::bytes,
+                   "Bytes that are read for a shape of all modes.")
       .def(
           "shape",
           [](const live::ShapeRows& self, VectorIn q, int threads) {
@@ -174,8 +175,8 @@ void bind_shape_rows(nb::module_& m) {
             return shape;
           },
           nb::arg("q"), nb::kw_only(), nb::arg("threads") = 0,
-          "tau + U q (3n,) of the first coordinates in single precision, on so many threads (0: as "
-          "many as pay).");
+          "tau + U q (3n,) of the first coordinates in single precision, on this many threads (0: "
+          "as many as are worthwhile).");
 }
 
 }  // namespace

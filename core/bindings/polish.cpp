@@ -49,8 +49,8 @@ void bind_polish(nb::module_& m) {
       nb::arg("system"), nb::arg("coarse"), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
       nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("threads"),
       nb::arg("control"),
-      "L-BFGS on one sample from start (3n,), seeded on two levels; inverse (d, d) is that of the "
-      "Hessian on the coarse space. A cancelled one returns the lowest shape so far.");
+      "L-BFGS on one sample from start (3n,), with a two-level seed; inverse (d, d) is that of the "
+      "Hessian on the coarse space. If it is cancelled, it returns the lowest shape so far.");
 }
 
 }  // namespace snapspace

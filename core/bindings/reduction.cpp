@@ -26,7 +26,7 @@ void bind_training(nb::module_& m) {
         return rows;
       },
       nb::arg("vertices"), nb::arg("modes"), nb::arg("tets"), nb::kw_only(), nb::arg("threads"),
-      "Displacement gradients of modes (d, 3n) in tets (r, 4), (r, 9, d) float32.");
+      "Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4).");
   m.def(
       "training_columns",
       [](FloatsIn rows, FloatsIn stresses, FloatsIn along, FloatsOut columns, int threads) {
@@ -35,17 +35,17 @@ void bind_training(nb::module_& m) {
                     along.shape(0) == states && along.shape(1) == rows.shape(2),
                 "rows (c, 9, d), stresses (s, c, 9) and along (s, d, k) do not match");
         require(columns.shape(0) == candidates && columns.shape(1) >= states * along.shape(2),
-                "columns must be (c, s k) or broader");
-        const TrainingStates asked{static_cast<int>(states), static_cast<int>(along.shape(2)),
-                                   stresses.data(), along.data()};
+                "columns must be (c, s k) or wider");
+        const TrainingStates training{static_cast<int>(states), static_cast<int>(along.shape(2)),
+                                      stresses.data(), along.data()};
         const nb::gil_scoped_release release;
         training_columns(static_cast<int>(rows.shape(2)), static_cast<int>(candidates), rows.data(),
-                         asked, threads, columns.shape(1), columns.data());
+                         training, threads, columns.shape(1), columns.data());
       },
       nb::arg("rows"), nb::arg("stresses"), nb::arg("along"), nb::arg("columns"), nb::kw_only(),
       nb::arg("threads"),
-      "Writes the products of all tets' forces with directions (s, d, k): the first s k entries of "
-      "every row of columns.");
+      "Writes the products of all tets' forces with directions (s, d, k) to the first s k entries "
+      "of each row of columns.");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ void require_all_below(const IndexVectorIn& indices, std::size_t end, const char
     require(indices.data()[i] >= 0 && static_cast<std::size_t>(indices.data()[i]) < end, message);
 }
 
-/// With the number of handles that it reads offsets of; 0 for blending.
+/// A probe with the number of handles whose offsets it reads; 0 for blending.
 struct BoundProbe {
   ResidualProbe probe;
   std::size_t handles;
@@ -31,7 +31,7 @@ ProbeBody body_of(const MatrixIn& tau, const TensorIn& modes, const TensorIn& re
           "tau (c, 3), modes (d, c, 3) and rests (k, c, 3) do not match");
   require(tets.shape(1) == 4, "tets must be (t, 4)");
   require_below(tets, corners, "a tet has a corner out of range");
-  require(material.fits(tets.shape(0)), "the material has moduli for other tets");
+  require(material.fits(tets.shape(0)), "the material has moduli for a different number of tets");
   return {static_cast<int>(modes.shape(0)),
           static_cast<int>(corners),
           static_cast<int>(tets.shape(0)),
@@ -67,7 +67,8 @@ void bind_residual_probe(nb::module_& m) {
              const MaterialField& material, IndexVectorIn sampled, VectorIn sample_weights,
              IndexVectorIn pinned, IndexVectorIn handles, VectorIn pulls, MatrixIn arms) {
             const ProbeBody body = body_of(tau, modes, rests, tets, material);
-            require(sampled.size() == sample_weights.size(), "one weight per sampled corner");
+            require(sampled.size() == sample_weights.size(),
+                    "one weight per sampled corner is needed");
             require_all_below(sampled, tau.shape(0), "a sampled corner is out of range");
             require(pinned.size() == handles.size() && pinned.size() == pulls.size() &&
                         arms.shape(0) == pinned.size() && arms.shape(1) == 3,

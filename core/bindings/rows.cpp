@@ -9,7 +9,7 @@ namespace {
 std::vector<const double*> addresses(const std::vector<VectorIn>& rows, std::size_t size) {
   std::vector<const double*> result;
   for (const VectorIn& row : rows) {
-    require(row.size() == size, "rows must all be as long");
+    require(row.size() == size, "all rows must have the same length");
     result.push_back(row.data());
   }
   return result;
@@ -21,7 +21,7 @@ ScalarRows scalar_rows(const IndexVectorIn& starts, const IndexVectorIn& columns
   require(columns.size() == values.size(), "one value per column is needed");
   const std::size_t size = starts.size() - 1;
   for (std::size_t i = 0; i < size; ++i)
-    require(starts.data()[i] <= starts.data()[i + 1], "starts must not fall");
+    require(starts.data()[i] <= starts.data()[i + 1], "starts must not decrease");
   require(static_cast<std::size_t>(starts.data()[size]) <= values.size(),
           "starts reach beyond the entries");
   for (std::size_t entry = 0; entry < columns.size(); ++entry)
@@ -30,7 +30,7 @@ ScalarRows scalar_rows(const IndexVectorIn& starts, const IndexVectorIn& columns
   return {size, starts.data(), columns.data(), values.data()};
 }
 
-/// With the arrays of the matrix, which it does not copy.
+/// MassProducts does not copy the arrays of the matrix, so this keeps them alive.
 struct HeldMassProducts {
   IndexVectorIn starts, columns;
   VectorIn values;
@@ -51,9 +51,10 @@ struct HeldMassProducts {
 }  // namespace
 
 void bind_rows(nb::module_& m) {
-  nb::class_<HeldMassProducts>(m, "MassProducts",
-                               "Products of displacements (3n,) with a scalar matrix (n, n), given "
-                               "row by row, in between. Not for several threads at a time.")
+  nb::class_<HeldMassProducts>(
+      m, "MassProducts",
+      "Inner products of displacements (3n,) with respect to a scalar matrix (n, n), given row by "
+      "row. Not for several threads at a time.")
       .def(
           "__init__",
           [](HeldMassProducts* self, IndexVectorIn starts, IndexVectorIn columns, VectorIn values) {
@@ -74,7 +75,7 @@ void bind_rows(nb::module_& m) {
         return combined;
       },
       nb::arg("rows"), nb::arg("size"), nb::arg("weights"),
-      "weights (j, i) times rows (i of size,): the combinations, (j, size).");
+      "Combinations (j, size) of i rows (size,): weights (j, i) times rows.");
 }
 
 }  // namespace snapspace

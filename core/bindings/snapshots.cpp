@@ -20,7 +20,7 @@ Sample checked_sample(const SampleSystem& system, int id, VectorIn input, Vector
       id, {input.data(), input.data() + input.size()}, {start.data(), start.data() + start.size()}};
 }
 
-/// Solves rows of samples, all at once, through a queue.
+/// Solves rows of samples together, through a queue.
 template <class Solve>
 Batch solve_batch(const SampleSystem& system, const MatrixIn& inputs, const MatrixIn& starts,
                   Solve solve) {
@@ -50,22 +50,22 @@ Batch solve_batch(const SampleSystem& system, const MatrixIn& inputs, const Matr
 
 void require_fitting(const SampleSystem& system, const SoftModes* modes) {
   require(!modes || modes->size() == static_cast<std::size_t>(system.size()),
-          "the modes are of another system");
+          "the modes belong to another system");
 }
 
 using System = SampleSystem;
 
-/// What the systems of all problems have in common.
+/// Binds what the systems of all problems share.
 void bind_system(nb::module_& m) {
   nb::class_<System>(m, "SampleSystem",
-                     "What all samples of a problem share, with its scalar factor.")
+                     "The data that all samples of a problem share, with its scalar factor.")
       .def_prop_ro(
           "inverse", [](const System& self) { return self.inverse.kind(); },
-          "What stands for the inverse of the scalar matrix.")
+          "What is used as the inverse of the scalar matrix.")
       .def_prop_ro("inverse_products", [](const System& self) { return self.inverse.products(); })
       .def_prop_ro(
           "lowest_eigenvalue", [](const System& self) { return self.inverse.lowest_eigenvalue(); },
-          "Of cycle * scalar matrix, where a cycle was made.")
+          "Lowest eigenvalue of cycle * scalar matrix if a cycle was made, even if unused.")
       .def_prop_ro("input_size", &System::input_size)
       .def(
           "precondition",
@@ -80,7 +80,7 @@ void bind_system(nb::module_& m) {
             return result;
           },
           nb::arg("vector"),
-          "The inverse of the scalar matrix, or what stands for it, applied to x, y and z.")
+          "The inverse of the scalar matrix, or its approximation, applied to x, y and z.")
       .def(
           "value_and_gradient",
           [](const System& self, VectorIn u, VectorIn inputs) {
@@ -115,7 +115,7 @@ void bind_system(nb::module_& m) {
           },
           nb::arg("shapes"), nb::arg("inputs"), nb::kw_only(), nb::arg("threads") = 0,
           "Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their "
-          "gradients (k, 3n); together, several to a pack.")
+          "gradients (k, 3n). Several are computed in one pack.")
       .def(
           "put",
           [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start) {
@@ -150,7 +150,8 @@ void bind_system(nb::module_& m) {
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("projection"),
-          nb::arg("threshold"), nb::arg("control"), "Newton's method; the same arguments.")
+          nb::arg("threshold"), nb::arg("control"),
+          "Newton's method on the samples of a queue until it is closed and empty.")
       .def(
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
@@ -167,7 +168,7 @@ void bind_system(nb::module_& m) {
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, nb::arg("settling") = 0.0,
           nb::arg("modes").none() = nb::none(),
-          "L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
+          "Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
@@ -181,7 +182,8 @@ void bind_system(nb::module_& m) {
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("projection"),
-          nb::arg("threshold"), nb::arg("control"), "Newton's method; the same arguments.");
+          nb::arg("threshold"), nb::arg("control"),
+          "Solves by Newton's method; inputs (samples, input_size), starts (samples, 3n).");
 }
 
 }  // namespace
@@ -202,11 +204,12 @@ void bind_snapshots(nb::module_& m) {
       .def_ro("gradient_norm", &SolveReport::gradient_norm, "Euclidean norm of its gradient.")
       .def_ro("decrement", &SolveReport::decrement,
               "-g.d of the last direction d: twice the decrease that the quadratic model predicts.")
-      .def_ro("seconds", &SolveReport::seconds, "Wall time from start to end of this sample.")
+      .def_ro("seconds", &SolveReport::seconds,
+              "Wall time from taking this sample to finishing it.")
       .def_ro("inverted_tets", &SolveReport::inverted_tets);
 
   nb::class_<SolveControl>(m, "SolveControl",
-                           "Shared with a running solve: ends it early, counts what is finished.")
+                           "Shared with a running solve: cancels it, and counts finished samples.")
       .def(nb::init<>())
       .def("cancel", [](SolveControl& self) { self.cancelled = true; })
       .def_prop_ro("cancelled", [](const SolveControl& self) { return self.cancelled.load(); })
@@ -221,9 +224,9 @@ void bind_snapshots(nb::module_& m) {
           nb::rv_policy::reference_internal, "(3n,) displacement, in the memory of the solution.");
 
   nb::class_<SampleQueue>(m, "SampleQueue",
-                          "Samples on their way to the threads that solve them, and back.")
+                          "Passes samples to the threads that solve them, and solutions back.")
       .def(nb::init<>())
-      .def("close", &SampleQueue::close, "No more samples come.")
+      .def("close", &SampleQueue::close, "No more samples will come.")
       .def("running", &SampleQueue::running,
            "Samples that are being solved, with their evaluations so far.")
       .def(
@@ -237,8 +240,8 @@ void bind_snapshots(nb::module_& m) {
             for (Solution& solution : finished) into.append(std::move(solution));
           },
           nb::arg("into"), nb::arg("seconds"),
-          "Appends the solutions since the last call to a list; waits up to so many seconds for "
-          "one. Not returned: a KeyboardInterrupt would lose what a call returns.");
+          "Appends the solutions since the last call to a list; waits up to this many seconds for "
+          "one. They are not returned, because a KeyboardInterrupt would lose a returned list.");
 
   nb::class_<Batch>(m, "Batch", "Solutions of one call.")
       .def_prop_ro(

@@ -4,10 +4,11 @@
 namespace snapspace {
 
 void bind_soft_modes(nb::module_& m) {
-  nb::class_<SoftModes>(m, "SoftModes",
-                        "Deformations that the scalar factor of a posing system mistakes for "
-                        "stiff, for the seed of L-BFGS: the lowest modes of its Hessian at rest "
-                        "against the scalar matrix.")
+  nb::class_<SoftModes>(
+      m, "SoftModes",
+      "Deformations that the scalar factor of a posing system mistakes for stiff, "
+      "for the seed of L-BFGS: the lowest modes of its Hessian at rest against "
+      "the scalar matrix.")
       .def(
           "__init__",
           [](SoftModes* self, const PosingSystem& system) {
@@ -19,7 +20,7 @@ void bind_soft_modes(nb::module_& m) {
           "modes",
           [](const SoftModes& self, const PosingSystem& system) {
             require(self.size() == static_cast<std::size_t>(system.size()),
-                    "the modes are of another system");
+                    "the modes belong to another system");
             DoublesOut modes = new_array<double>({SoftModes::kCount, self.size()});
             std::vector<double> mode(self.size());
             for (int k = 0; k < SoftModes::kCount; ++k) {
@@ -28,7 +29,8 @@ void bind_soft_modes(nb::module_& m) {
             }
             return modes;
           },
-          nb::arg("system"), "(8, 3n), each v . A v = 1 with the scalar matrix A of the system.")
+          nb::arg("system"),
+          "Modes v (8, 3n) with v . A v = 1 for the scalar matrix A of the system.")
       .def_prop_ro(
           "weights",
           [](const SoftModes& self) {
@@ -36,7 +38,7 @@ void bind_soft_modes(nb::module_& m) {
             for (int k = 0; k < SoftModes::kCount; ++k) weights.push_back(self.weight(k));
             return weights;
           },
-          "Of the modes in the seed, 8 numbers; zero where no mode was found.");
+          "The 8 weights of the modes in the seed; zero where no mode was found.");
 }
 
 }  // namespace snapspace

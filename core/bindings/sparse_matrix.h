@@ -6,7 +6,7 @@
 
 namespace snapspace {
 
-/// A symmetric matrix (n, n) from Python, given by its columns with both triangles.
+/// A symmetric matrix (n, n) from Python, given by its columns with both triangles stored.
 inline Eigen::SparseMatrix<double> sparse_matrix(IndexVectorIn starts, IndexVectorIn rows,
                                                  const double* values) {
   require(starts.size() >= 2 && starts.data()[0] == 0, "starts must be (n + 1,), from 0");

@@ -22,8 +22,8 @@ LocalMesh local_mesh(const double* vertices, std::size_t count, const IndexMatri
 void bind_systems(nb::module_& m) {
   nb::class_<PosingSystem, System> posing(
       m, "PosingSystem",
-      "What all samples of a posing problem share, with its scalar "
-      "factor. Inputs are displacements of the pinned vertices.");
+      "The data that all samples of a posing problem share, with its scalar factor. Inputs are "
+      "target displacements of the pinned vertices.");
   posing.def(
       "__init__",
       [](PosingSystem* self, MatrixIn vertices, IndexMatrixIn tets, const MaterialField& material,
@@ -44,8 +44,8 @@ void bind_systems(nb::module_& m) {
 
   nb::class_<InterpolationSystem, System> interpolation(
       m, "InterpolationSystem",
-      "What all samples of an interpolation problem share, with its scalar factor. Inputs are the "
-      "weights; displacements are from pose 0.");
+      "The data that all samples of an interpolation problem share, with its scalar factor. Inputs "
+      "are the weights; displacements are from pose 0.");
   interpolation.def(
       "__init__",
       [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets,
@@ -105,8 +105,8 @@ void bind_systems(nb::module_& m) {
         return std::make_tuple(stresses, energies, gradient);
       },
       nb::arg("u"), nb::arg("weights"),
-      "First Piola-Kirchhoff stress against pose 0 times its volume, of every tet (m, 9), its "
-      "energy (m,), and the gradient of their sum (3n,).");
+      "First Piola-Kirchhoff stress against pose 0 times its volume (m, 9) and energy (m,) of each "
+      "tet, and the gradient (3n,) of the sum of energies.");
 }
 
 }  // namespace snapspace

@@ -5,17 +5,18 @@
 
 namespace snapspace {
 
-/// The supernodes of A in the order with the fewest non-zeros that is worth its time: minimum
-/// degree, and nested dissection as well where that leaves a dense factor. Both triangles of A and
-/// its diagonal are stored; only the pattern is read.
+/// The supernodes of A in the order with the fewest non-zeros: by minimum degree and, where the
+/// factor is then dense enough for it to pay, by nested dissection too. Both triangles of A and its
+/// diagonal are stored; only the pattern is read.
 [[nodiscard]] Supernodes analysed(const Eigen::SparseMatrix<double>& A);
 
-/// The two halves of this, for those who have something else for matrices with dense factors.
+/// The two steps of `analysed`, for callers with an alternative for matrices with dense factors.
+/// The second returns the better of the two orders.
 [[nodiscard]] Supernodes by_minimum_degree(const Eigen::SparseMatrix<double>& A);
 [[nodiscard]] Supernodes or_by_dissection(const Eigen::SparseMatrix<double>& A,
                                           Supernodes by_degree);
 
-/// Whether the factor has so many entries per column that dissection is worth its time.
+/// Whether the factor has so many entries per column that nested dissection pays.
 [[nodiscard]] bool is_dense(const Supernodes& supernodes);
 
 }  // namespace snapspace

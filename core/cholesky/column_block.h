@@ -2,8 +2,8 @@
 
 namespace snapspace {
 
-/// Columns that a solve keeps in registers while it goes through the rows below them: as many as
-/// there is room for, with x, y and z of a pack each.
+/// Columns that a solve keeps in registers while it passes over the rows below them: as many as
+/// fit, with a pack each for x, y and z.
 #if defined(__AVX512F__) || defined(__aarch64__)
 inline constexpr int kColumnBlock = 8;
 #else

@@ -10,14 +10,14 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// A supernode's columns, and what they leave to the rows below. Only lower triangles count.
+/// A supernode's columns, and their update of the rows below. Only lower triangles count.
 struct Front {
   Matrix panel, rest;
 
   Front(Eigen::Index columns, Eigen::Index below)
       : panel(Matrix::Zero(columns + below, columns)), rest(Matrix::Zero(below, below)) {}
 
-  /// Adds what a child leaves. `places` of its rows in this front, ascending.
+  /// Adds the update of a child. `places` are those of its rows in this front, ascending.
   void add(const Matrix& left, const std::vector<std::int32_t>& places) {
     const Eigen::Index columns = panel.cols();
     for (Eigen::Index j = 0; j < left.cols(); ++j)
@@ -29,11 +29,11 @@ struct Front {
       }
   }
 
-  /// The panel becomes that of the factor. False if a pivot is not positive.
+  /// Replaces the panel by that of the factor. Returns false if a pivot is not positive.
   bool eliminate() {
     Eigen::Ref<Matrix> top = panel.topRows(panel.cols());
     const Eigen::LLT<Eigen::Ref<Matrix>> llt(top);
-    // a pivot that is not a number passes LLT's own test
+    // a NaN pivot passes LLT's own test
     if (llt.info() != Eigen::Success || !(top.diagonal().array() > 0.0).all()) return false;
     if (rest.rows() == 0) return true;
     auto below = panel.bottomRows(rest.rows());
@@ -48,8 +48,8 @@ struct Front {
 bool multifrontal_cholesky(const Eigen::SparseMatrix<double>& A, const Supernodes& supernodes,
                            const PanelSink& sink) {
   const std::vector<std::int32_t> columns = supernodes.places();
-  std::vector<std::int32_t> place(columns.size());  // in the current front, of its rows
-  // What is left by the supernodes whose parent is to come: the last ones are its children's.
+  std::vector<std::int32_t> place(columns.size());  // of each row in the current front
+  // Updates of the supernodes whose parent is still to come; the children of the next one are last.
   std::vector<std::pair<std::int32_t, Matrix>> waiting;
   std::vector<std::int32_t> places;
   for (std::int32_t s = 0; s < supernodes.count(); ++s) {

@@ -13,7 +13,8 @@ namespace {
 using Indices = std::vector<std::int32_t>;
 using Pattern = Eigen::SparseMatrix<double>;
 
-/// The graph of some of the vertices; `local` is -1 everywhere, before and after.
+/// The subgraph induced by some vertices. `local` must be -1 everywhere, and is so again
+/// afterwards.
 WeightedGraph induced(const WeightedGraph& graph, const Indices& vertices, Indices& local) {
   for (std::size_t i = 0; i < vertices.size(); ++i)
     local[vertices[i]] = static_cast<std::int32_t>(i);
@@ -57,7 +58,7 @@ void dissect(const WeightedGraph& graph, const Indices& names, Indices& order) {
   for (int side = 0; side < 2; ++side) {
     if (parts[side].empty()) continue;
     const WeightedGraph within = induced(graph, parts[side], local);
-    // without a separator there is nothing to be won
+    // without a separator, dissection gains nothing
     if (within.size() == graph.size()) return append(leaf_order(graph));
     Indices own;
     for (const std::int32_t v : parts[side]) own.push_back(names[v]);

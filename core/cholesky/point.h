@@ -12,7 +12,7 @@ template <class T, int Width>
 inline constexpr bool kTwoInARegister<Pack<T, Width>> =
     2 * Width * sizeof(T) <= kWideLanes * sizeof(double);
 
-/// x, y and z of a vertex in all lanes, as they lie in memory: in as few registers as they need.
+/// x, y and z of a vertex in all lanes, in memory order and in as few registers as possible.
 template <class Real, bool Paired = kTwoInARegister<Real>>
 class Point {
  public:
@@ -42,8 +42,8 @@ class Point {
   Real xyz_[3];
 };
 
-/// The packs of the last samples are narrow: x and y are a pack of twice the width here, z is one.
-/// Lanes never mix, so the bits are those of three packs.
+/// Packs are narrow when few samples are left. Here x and y share a pack of twice the width, and z
+/// has its own. Lanes never mix, so the bits are those of three packs.
 template <class T, int Width>
 class Point<Pack<T, Width>, true> {
  public:

@@ -33,7 +33,7 @@ ScalarFactor::ScalarFactor(const Eigen::SparseMatrix<double>& A, const Supernode
   single_values_.assign(values_.begin(), values_.end());
 }
 
-/// Adds the blocks of the supernode whose vertices came last.
+/// Adds the blocks of the supernode whose vertices were added last.
 void ScalarFactor::add_panel(const Eigen::MatrixXd& panel) {
   const auto height = static_cast<std::int32_t>(panel.rows());
   const auto columns = static_cast<std::int32_t>(panel.cols());

@@ -15,17 +15,16 @@ namespace snapspace {
 ///
 /// A 3n x 3n system A (x) I is solved with the factor of A: a ninth of the work of a full
 /// elasticity factor, and with one sample per lane the factor is read once for all lanes.
-///
-/// It is kept as L D L^T with a unit diagonal, in blocks of up to kColumnBlock columns of a
-/// supernode. The unknowns of a block stay in registers while the rows below pass by: an entry
-/// costs three products, and a row is loaded and stored once for all columns of the block.
+/// It is stored as L D L^T with a unit diagonal, in blocks of up to kColumnBlock columns of a
+/// supernode. The unknowns of a block stay in registers while a solve passes over the rows below:
+/// an entry costs three products, and a row is loaded and stored once for all columns of the block.
 class ScalarFactor {
  public:
   /// @param A  symmetric positive definite, both triangles and the diagonal stored
   /// @throws std::invalid_argument if A is not positive definite
   explicit ScalarFactor(const Eigen::SparseMatrix<double>& A);
 
-  /// The same for supernodes that are known: of A, or of a matrix whose pattern contains A's.
+  /// The same with known supernodes: those of A, or of a matrix whose pattern contains A's.
   ScalarFactor(const Eigen::SparseMatrix<double>& A, const Supernodes& supernodes);
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -50,15 +49,15 @@ class ScalarFactor {
   }
 
   struct Block {
-    std::int64_t values;    // where those of D^-1 begin; then the triangle, then the rows below
-    std::int64_t vertices;  // where those of the columns begin; then those of the rows below
+    std::int64_t values;    // first of D^-1, followed by the triangle and the rows below
+    std::int64_t vertices;  // first of the columns, followed by the rows below
     std::int32_t columns, below;
   };
 
   void add_panel(const Eigen::MatrixXd& panel);
 
-  /// One block's part of the solve with L, and of that with D and L^T; `all` is 3n. The second
-  /// returns the block's part of w . D^-1 w with the w that it finds.
+  /// One block's part of the solve with L, and of the solve with D and L^T; `all` is 3n. `backward`
+  /// finds the block's part of w in `all`, and returns that of w . D^-1 w.
   template <int Columns, class Real>
   static void forward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
                       Real* all);
@@ -66,30 +65,30 @@ class ScalarFactor {
   static Sum<Real> backward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
                             Real* all);
 
-  /// Rows below a block lie anywhere in a large vector: they are asked for a few rows early.
+  /// Rows below a block are scattered over a large vector, so they are prefetched a few rows early.
   static constexpr int kRowsAhead = 6;
-  /// So do the columns of blocks, a few blocks early. On the way back the entries are asked for as
-  /// well: processors look ahead within a panel, but not to the one before it.
+  /// The columns of blocks likewise, a few blocks early. The backward solve prefetches the entries
+  /// too: processors look ahead within a panel, but not to the panel before it.
   static constexpr int kBlocksAhead = 2;
 
-  /// Compilers drop the call of a function that does nothing else, unless they must inline it.
+  /// Compilers drop calls to a function that does nothing but prefetch, unless they must inline it.
   template <class T>
-  [[gnu::always_inline]] inline static void ask_for([[maybe_unused]] const T* begin,
-                                                    [[maybe_unused]] std::size_t count) {
+  [[gnu::always_inline]] inline static void prefetch([[maybe_unused]] const T* begin,
+                                                     [[maybe_unused]] std::size_t count) {
 #if defined(__GNUC__)
     const auto* bytes = reinterpret_cast<const char*>(begin);
     for (std::size_t at = 0; at < count * sizeof(T); at += 64) __builtin_prefetch(bytes + at);
 #endif
   }
   template <class Real>
-  [[gnu::always_inline]] inline static void ask_for_row(const Real* all, const std::int32_t* rows,
-                                                        int row, int count) {
-    if (row + kRowsAhead < count) ask_for(all + 3 * std::size_t(rows[row + kRowsAhead]), 3);
+  [[gnu::always_inline]] inline static void prefetch_row(const Real* all, const std::int32_t* rows,
+                                                         int row, int count) {
+    if (row + kRowsAhead < count) prefetch(all + 3 * std::size_t(rows[row + kRowsAhead]), 3);
   }
   template <class Real>
-  void ask_for_columns(const Block& block, const Real* all) const {
+  void prefetch_columns(const Block& block, const Real* all) const {
     for (int j = 0; j < block.columns; ++j)
-      ask_for(all + 3 * std::size_t(vertices_[block.vertices + j]), 3);
+      prefetch(all + 3 * std::size_t(vertices_[block.vertices + j]), 3);
   }
 
   std::vector<Block> blocks_;

@@ -9,7 +9,7 @@ namespace snapspace {
 
 namespace {
 
-/// Calls visit with the number of columns as a constant.
+/// Calls visit with the number of columns as a compile-time constant.
 template <int Most = kColumnBlock, class Visit>
 void with_columns(int columns, Visit visit) {
   if constexpr (Most > 1)
@@ -19,8 +19,8 @@ void with_columns(int columns, Visit visit) {
 
 }  // namespace
 
-// The loops over columns are unrolled: otherwise the unknowns are kept in memory and not in
-// registers, and small blocks take longer for their triangles than for the rows below.
+// The loops over columns are unrolled: otherwise compilers keep the unknowns in memory instead of
+// registers, and small blocks spend more time on their triangles than on the rows below.
 
 template <int Columns, class Real>
 void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std::int32_t* vertices,
@@ -39,11 +39,11 @@ void ScalarFactor::forward(const Block& block, const Scalar<Real>* l, const std:
   for (int j = 0; j < Columns; ++j) x[j].store(entries_of(vertices[j]));
   vertices += Columns;
   for (int row = 0; row < block.below; ++row, l += Columns) {
-    ask_for_row(all, vertices, row, block.below);
+    prefetch_row(all, vertices, row, block.below);
     Real* entries = entries_of(vertices[row]);
     Point<Real> y = Point<Real>::at(entries);
     if constexpr (Columns > 4) {
-      // two sums: a product is ready four cycles after it has begun, and two begin in each
+      // two sums, because a product takes four cycles and two can begin in each cycle
       Point<Real> odd = Point<Real>::zero();
 #pragma GCC unroll 8
       for (int j = 0; j < Columns; ++j) (j % 2 ? odd : y).subtract(l[j], x[j]);
@@ -61,7 +61,7 @@ Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
                                  const std::int32_t* vertices, Real* all) {
   const auto entries_of = [&](std::int32_t vertex) { return all + 3 * std::size_t(vertex); };
   Point<Real> x[Columns];
-  Real product(0);  // of a few vertices: it may be added in the precision of the entries
+  Real product(0);  // a few vertices only, so the precision of the entries suffices
 #pragma GCC unroll 8
   for (int j = 0; j < Columns; ++j) {
     Real* entries = entries_of(vertices[j]);
@@ -75,7 +75,7 @@ Sum<Real> ScalarFactor::backward(const Block& block, const Scalar<Real>* l,
   l += Columns;
   const Scalar<Real>* row_entries = l + Columns * (Columns - 1) / 2;
   for (int row = 0; row < block.below; ++row, row_entries += Columns) {
-    ask_for_row(all, vertices + Columns, row, block.below);
+    prefetch_row(all, vertices + Columns, row, block.below);
     const auto y = Point<Real>::at(entries_of(vertices[Columns + row]));
 #pragma GCC unroll 8
     for (int j = 0; j < Columns; ++j) x[j].subtract(row_entries[j], y);
@@ -95,7 +95,7 @@ Sum<Real> ScalarFactor::solve(const Real* right_hand_side, Real* solution) const
   const Scalar<Real>* values = entries<Real>();
   const auto count = static_cast<std::ptrdiff_t>(blocks_.size());
   for (std::ptrdiff_t b = 0; b < count; ++b) {
-    if (b + kBlocksAhead < count) ask_for_columns(blocks_[b + kBlocksAhead], solution);
+    if (b + kBlocksAhead < count) prefetch_columns(blocks_[b + kBlocksAhead], solution);
     const Block& block = blocks_[b];
     with_columns(block.columns, [&](auto columns) {
       forward<columns()>(block, values + block.values, vertices_.data() + block.vertices, solution);
@@ -105,10 +105,10 @@ Sum<Real> ScalarFactor::solve(const Real* right_hand_side, Real* solution) const
   for (std::ptrdiff_t b = count - 1; b >= 0; --b) {
     if (b >= kBlocksAhead) {
       const Block& soon = blocks_[b - kBlocksAhead];
-      ask_for_columns(soon, solution);
-      ask_for(vertices_.data() + soon.vertices,
-              static_cast<std::size_t>(soon.columns + soon.below));
-      ask_for(values + soon.values, static_cast<std::size_t>((&soon)[1].values - soon.values));
+      prefetch_columns(soon, solution);
+      prefetch(vertices_.data() + soon.vertices,
+               static_cast<std::size_t>(soon.columns + soon.below));
+      prefetch(values + soon.values, static_cast<std::size_t>((&soon)[1].values - soon.values));
     }
     const Block& block = blocks_[b];
     with_columns(block.columns, [&](auto columns) {

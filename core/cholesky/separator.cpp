@@ -16,7 +16,8 @@ using Indices = std::vector<std::int32_t>;
 std::vector<std::pair<std::int32_t, std::int32_t>> matching(const WeightedGraph& graph) {
   Indices sequence(graph.size());
   std::iota(sequence.begin(), sequence.end(), 0);
-  // Few neighbours first, they have the least choice: without it separators get 5 % larger.
+  // Vertices with few neighbours go first, as they have the least choice; otherwise separators get
+  // 5 % larger.
   std::stable_sort(sequence.begin(), sequence.end(), [&](std::int32_t a, std::int32_t b) {
     return graph.around(a).size() < graph.around(b).size();
   });
@@ -36,14 +37,15 @@ std::vector<std::pair<std::int32_t, std::int32_t>> matching(const WeightedGraph&
   return pairs;
 }
 
-/// The graph with each pair merged into one vertex, which `merged` becomes of every vertex.
+/// The graph with each pair merged into one vertex. Sets `merged` to the new vertex of each old
+/// one.
 WeightedGraph coarsened(const WeightedGraph& graph, Indices& merged) {
   const auto pairs = matching(graph);
   merged.resize(graph.size());
   for (std::size_t c = 0; c < pairs.size(); ++c)
     merged[pairs[c].first] = merged[pairs[c].second] = static_cast<std::int32_t>(c);
   WeightedGraph result;
-  Indices place(pairs.size(), -1);  // of the edge to a vertex, if it is one of the current vertex
+  Indices place(pairs.size(), -1);  // of the current vertex's edge to another, if it has one
   for (const auto& [v, mate] : pairs) {
     const std::int32_t begin = result.first.back();
     result.weights.push_back(0);
@@ -67,7 +69,7 @@ WeightedGraph coarsened(const WeightedGraph& graph, Indices& merged) {
   return result;
 }
 
-/// Grows one side from a vertex, by breadth, until it has half of the weight.
+/// Grows one side from a vertex, breadth first, until it has half of the weight.
 std::vector<Side> grown(const WeightedGraph& graph, std::int32_t start) {
   std::vector<Side> sides(graph.size(), Side::right);
   const auto total = std::accumulate(graph.weights.begin(), graph.weights.end(), std::int64_t{0});
@@ -83,7 +85,7 @@ std::vector<Side> grown(const WeightedGraph& graph, std::int32_t start) {
     reached += graph.weights[front[head]];
     for (const std::int32_t u : graph.around(front[head])) see(u);
   }
-  // what is seen but not reached lies between
+  // vertices that were seen but not reached separate the sides
   for (; head < front.size(); ++head) sides[front[head]] = Side::separator;
   return sides;
 }
@@ -108,11 +110,11 @@ std::vector<Side> best_grown(const WeightedGraph& graph) {
 
 std::vector<Side> find_separator(const WeightedGraph& graph) {
   constexpr std::int32_t kCoarsest = 100;
-  constexpr double kLeastReduction = 0.95;  // stars have few pairs
+  constexpr double kMinReduction = 0.95;  // graphs like stars have few pairs
   if (graph.size() <= kCoarsest) return best_grown(graph);
   Indices merged;
   const WeightedGraph coarse = coarsened(graph, merged);
-  if (coarse.size() > kLeastReduction * graph.size()) return best_grown(graph);
+  if (coarse.size() > kMinReduction * graph.size()) return best_grown(graph);
   const std::vector<Side> coarse_sides = find_separator(coarse);
   std::vector<Side> sides;
   sides.reserve(merged.size());

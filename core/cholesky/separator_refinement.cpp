@@ -8,9 +8,9 @@ namespace snapspace {
 
 namespace {
 
-/// The side to which a pass moves vertices. A separator that goes to one side only sweeps over
-/// hills that it does not climb while vertices go both ways: a tenth of the factor's entries in
-/// bodies.
+/// The side to which a pass moves vertices. A separator that moves to one side only gets over hills
+/// that it cannot climb while vertices move both ways. That saves a tenth of the factor's entries
+/// in solid bodies.
 enum class MoveSide : std::int8_t { left, right, either };
 
 class Refinement {
@@ -35,7 +35,7 @@ class Refinement {
     return weights_[0] <= weights_[1] ? MoveSide::left : MoveSide::right;
   }
 
-  /// Moves every vertex once at most, also at a loss; what comes after the best state is undone.
+  /// Moves each vertex at most once, even at a loss, and undoes all moves after the best state.
   void run_pass(MoveSide towards) {
     open_[0] = towards != MoveSide::right;
     open_[1] = towards != MoveSide::left;
@@ -55,14 +55,14 @@ class Refinement {
         keep = moves_.size();
       }
     }
-    while (moves_.size() > keep) take_back_last();
+    while (moves_.size() > keep) undo_last();
   }
 
  private:
   struct Move {
     std::int32_t vertex;
     int side;
-    std::size_t pulled;  // where those begin that came into the separator for it
+    std::size_t pulled;  // first of the vertices that entered the separator for it
   };
 
   /// Returns how many moves without a better state are enough.
@@ -92,12 +92,12 @@ class Refinement {
 
   void change_gain(std::int32_t v, int side, std::int32_t change) {
     gains_[side][v] += change;
-    // one that fell is put in its place when it comes to the top
+    // a lowered gain is put in its place when it reaches the top
     if (change > 0) queue(v, side);
   }
 
-  /// Gains of a vertex that is in the separator from now on: its own weight, less that of the
-  /// neighbours that would come in for it.
+  /// Sets the gains of a vertex that joins the separator: its own weight, less that of the
+  /// neighbours that would enter for it.
   void enter(std::int32_t v) {
     std::int32_t pulled[2] = {};
     for (const std::int32_t u : graph_.around(v))
@@ -139,7 +139,7 @@ class Refinement {
     }
   }
 
-  void take_back_last() {
+  void undo_last() {
     const Move last = moves_.back();
     moves_.pop_back();
     put(last.vertex, Side::separator);
@@ -151,7 +151,7 @@ class Refinement {
   std::vector<Side>& sides_;
   std::vector<std::int32_t> moved_;     // the last pass that moved a vertex
   std::vector<std::int32_t> members_;   // of the separator, and some that have left it
-  std::vector<std::int32_t> gains_[2];  // of a vertex of the separator when it moves to a side
+  std::vector<std::int32_t> gains_[2];  // of moving a vertex of the separator to a side
   std::priority_queue<std::pair<std::int32_t, std::int32_t>> queues_[2];  // former gains as well
   std::vector<Move> moves_;
   std::vector<std::int32_t> pulled_;
@@ -169,10 +169,10 @@ double refine_separator(const WeightedGraph& graph, std::vector<Side>& sides) {
   const bool left_first = refinement.lighter() == MoveSide::left;
   const MoveSide turns[] = {left_first ? MoveSide::left : MoveSide::right,
                             left_first ? MoveSide::right : MoveSide::left, MoveSide::either};
-  for (int pass = 0, in_vain = 0; pass < kMaxPasses && in_vain < 3; ++pass) {
+  for (int pass = 0, futile = 0; pass < kMaxPasses && futile < 3; ++pass) {
     const double before = refinement.cost();
     refinement.run_pass(turns[pass % 3]);
-    in_vain = refinement.cost() < before ? 0 : in_vain + 1;
+    futile = refinement.cost() < before ? 0 : futile + 1;
   }
   return refinement.cost();
 }

@@ -11,7 +11,7 @@ namespace {
 using Indices = std::vector<std::int32_t>;
 using Pattern = Eigen::SparseMatrix<double>;
 
-/// Columns with the same rows below them; both numbered by elimination.
+/// Columns with the same rows below them, both numbered in elimination order.
 struct Panel {
   Indices columns, rows;
   std::int32_t parent = -1;
@@ -47,7 +47,7 @@ Indices postorder(const Indices& parent) {
   return order;
 }
 
-/// The first row below the diagonal of every column of the factor [Liu 1990].
+/// The first row below the diagonal in each column of the factor [Liu 1990].
 Indices elimination_tree(const Pattern& A, const Indices& order) {
   const auto n = static_cast<std::int32_t>(order.size());
   const Indices places = inverse(order);
@@ -69,8 +69,8 @@ std::vector<Panel> exact_panels(const Pattern& A, const Indices& order) {
   std::vector<Panel> panels;
   Indices seen(n, -1);     // the last panel that has the row
   Indices waiting(n, -1);  // the first of the closed panels whose first row is the column
-  Indices next;            // of those, after every panel
-  // Whether the test holds for the rows that A and the panels below bring to a column.
+  Indices next;            // the next such panel after each panel
+  // Whether the test holds for all rows that A and the panels below contribute to a column.
   const auto all_rows = [&](std::int32_t j, auto&& test) {
     for (Pattern::InnerIterator entry(A, order[j]); entry; ++entry)
       if (places[entry.row()] > j && !test(places[entry.row()])) return false;
@@ -109,8 +109,8 @@ std::vector<Panel> exact_panels(const Pattern& A, const Indices& order) {
   return panels;
 }
 
-/// Time of a solve with a panel, in products of an entry with a vertex: every block of columns
-/// visits all rows below it, and each visit and each block cost something by themselves.
+/// Time of a solve with a panel, in units of the product of an entry with a vertex. Each block of
+/// columns visits all rows below it; each visit and each block has a fixed cost.
 double solve_cost(double columns, double rows) {
   constexpr double kVisit = 2.0, kBlock = 12.0;
   const double blocks = std::ceil(columns / column_block());
@@ -118,8 +118,8 @@ double solve_cost(double columns, double rows) {
   return columns * (0.5 * columns + rows) + kVisit * visits + kBlock * blocks;
 }
 
-/// Merges panels into their parents where that saves more than the zeros cost that it adds. Returns
-/// the panel into which each went, or -1.
+/// Merges panels into their parents where that saves more than the added zeros cost. Returns the
+/// panel into which each was merged, or -1.
 Indices merge(std::vector<Panel>& panels) {
   const auto count = static_cast<std::int32_t>(panels.size());
   Indices child(count, -1), sibling(count, -1), into(count, -1);
@@ -131,8 +131,8 @@ Indices merge(std::vector<Panel>& panels) {
     const std::size_t rows = panels[p].rows.size();
     for (std::int32_t c = child[p]; c >= 0; c = sibling[c]) {
       const Indices& others = panels[c].columns;
-      const double apart = cost(own.size(), rows) + cost(others.size(), panels[c].rows.size());
-      if (cost(own.size() + others.size(), rows) > apart) continue;
+      const double separate = cost(own.size(), rows) + cost(others.size(), panels[c].rows.size());
+      if (cost(own.size() + others.size(), rows) > separate) continue;
       own.insert(own.end(), others.begin(), others.end());
       into[c] = p;
     }
@@ -150,7 +150,7 @@ Supernodes::Supernodes(const Pattern& A, const Indices& elimination) {
   std::vector<Panel> panels = exact_panels(A, exact);
   const Indices into = merge(panels);
 
-  // What is left of the forest of panels, in a postorder of its own.
+  // The remaining forest of panels, in a new postorder.
   const auto all = static_cast<std::int32_t>(panels.size());
   Indices top(all), left, number(all), above;
   for (std::int32_t p = all - 1; p >= 0; --p) top[p] = into[p] < 0 ? p : top[into[p]];

@@ -6,23 +6,23 @@
 
 namespace snapspace {
 
-/// Columns that a solve of this level takes together.
+/// Number of columns that a solve of this level processes together.
 [[nodiscard]] int column_block();
 
-/// Where the non-zeros of a Cholesky factor are: runs of columns with the same rows below them, so
-/// that each is one dense panel. Columns and rows are numbered by elimination.
+/// The non-zero pattern of a Cholesky factor: runs of columns with the same rows below them, each a
+/// dense panel. Columns and rows are numbered in elimination order.
 struct Supernodes {
   std::vector<std::int32_t> order;            ///< vertex of every column
-  std::vector<std::int32_t> first_column{0};  ///< of each supernode; count + 1 entries
-  std::vector<std::int64_t> first_row{0};     ///< of each in `rows`; count + 1 entries
+  std::vector<std::int32_t> first_column{0};  ///< of each supernode; count() + 1 entries
+  std::vector<std::int64_t> first_row{0};     ///< of each supernode in `rows`; count() + 1 entries
   std::vector<std::int32_t> rows;             ///< below the supernode's own columns, ascending
   std::vector<std::int32_t> parent;           ///< the supernode of the first row; -1 for a root
 
-  /// Children stand before their parents, and subtrees together.
+  /// Children come before their parents, and subtrees are contiguous.
   ///
   /// @param A      both triangles; only the pattern is read
-  /// @param order  vertices as an ordering would eliminate them. Supernodes keep what it fills,
-  ///               and add a few explicit zeros where that makes them larger and solves faster.
+  /// @param order  vertices in the order of elimination. Supernodes keep its fill-in, and add a few
+  ///               explicit zeros where that makes them larger and solves faster.
   Supernodes(const Eigen::SparseMatrix<double>& A, const std::vector<std::int32_t>& order);
 
   [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(parent.size()); }

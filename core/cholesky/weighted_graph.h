@@ -5,8 +5,8 @@
 
 namespace snapspace {
 
-/// An undirected graph without loops, with a weight per vertex and per edge. Edges stand at both of
-/// their ends: those of vertex v are [first[v], first[v + 1]).
+/// An undirected graph without loops, with a weight per vertex and per edge. Each edge is stored at
+/// both of its ends: those of vertex v are [first[v], first[v + 1]).
 struct WeightedGraph {
   std::vector<std::int32_t> first{0}, neighbours, edge_weights, weights;
 

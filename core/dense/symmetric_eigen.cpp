@@ -10,7 +10,7 @@ namespace snapspace {
 namespace {
 
 /// A plane rotation.
-struct Turn {
+struct PlaneRotation {
   double cosine, sine;
 
   void apply(double& p, double& q) const {
@@ -21,32 +21,32 @@ struct Turn {
 };
 
 /// The smaller of the two rotations that make entry (p, q) zero.
-Turn annihilating(double pp, double qq, double pq) {
+PlaneRotation annihilating(double pp, double qq, double pq) {
   const double ratio = (qq - pp) / (2.0 * pq);
   const double tangent = std::copysign(1.0, ratio) / (std::abs(ratio) + std::hypot(1.0, ratio));
   const double cosine = 1.0 / std::hypot(1.0, tangent);
   return {cosine, tangent * cosine};
 }
 
-/// Turns every pair of columns once; whether there was an entry that is not negligible.
+/// Rotates every pair of columns once. Returns whether any entry was not negligible.
 bool sweep(SquareMatrix& A, SquareMatrix& vectors, double negligible) {
-  bool turned = false;
+  bool rotated = false;
   for (int q = 1; q < A.size; ++q)
     for (int p = 0; p < q; ++p) {
       if (!(std::abs(A(p, q)) > negligible)) continue;
-      turned = true;
-      const Turn turn = annihilating(A(p, p), A(q, q), A(p, q));
-      for (int i = 0; i < A.size; ++i) turn.apply(A(i, p), A(i, q));
-      for (int i = 0; i < A.size; ++i) turn.apply(A(p, i), A(q, i));
-      for (int i = 0; i < A.size; ++i) turn.apply(vectors(i, p), vectors(i, q));
+      rotated = true;
+      const PlaneRotation rotation = annihilating(A(p, p), A(q, q), A(p, q));
+      for (int i = 0; i < A.size; ++i) rotation.apply(A(i, p), A(i, q));
+      for (int i = 0; i < A.size; ++i) rotation.apply(A(p, i), A(q, i));
+      for (int i = 0; i < A.size; ++i) rotation.apply(vectors(i, p), vectors(i, q));
     }
-  return turned;
+  return rotated;
 }
 
 }  // namespace
 
 EigenPairs symmetric_eigen(SquareMatrix A) {
-  constexpr int kMostSweeps = 40;  // ten suffice
+  constexpr int kMaxSweeps = 40;  // ten suffice
   double largest = 0.0;
   SquareMatrix vectors(A.size);
   for (int j = 0; j < A.size; ++j) {
@@ -57,7 +57,7 @@ EigenPairs symmetric_eigen(SquareMatrix A) {
     }
   }
   const double negligible = 0.01 * std::numeric_limits<double>::epsilon() * largest;
-  for (int k = 0; k < kMostSweeps && sweep(A, vectors, negligible); ++k) {
+  for (int k = 0; k < kMaxSweeps && sweep(A, vectors, negligible); ++k) {
   }
 
   std::vector<int> order(A.size);

@@ -11,8 +11,8 @@ struct EigenPairs {
   SquareMatrix vectors;
 };
 
-/// Of a symmetric matrix, given by its lower triangle, by Jacobi's method (Golub & Van Loan 2013,
-/// sec. 8.5): short, accurate, and fast enough for a few dozen columns.
+/// The eigenpairs of a symmetric matrix, given by its lower triangle, by Jacobi's method (Golub &
+/// Van Loan 2013, sec. 8.5): short, accurate, and fast enough for a few dozen columns.
 [[nodiscard]] EigenPairs symmetric_eigen(SquareMatrix A);
 
 }  // namespace snapspace

@@ -9,8 +9,8 @@ namespace snapspace {
 
 namespace {
 
-/// M becomes its Cholesky factor, in the lower triangle. False if the root of a pivot is below
-/// `least_pivot`.
+/// Replaces M by its Cholesky factor, in the lower triangle. Returns false if the root of a pivot
+/// is below `least_pivot`.
 bool factorize(SquareMatrix& M, double least_pivot) {
   for (int j = 0; j < M.size; ++j) {
     const double root = std::sqrt(M(j, j));
@@ -32,7 +32,7 @@ SquareMatrix scaled(const SquareMatrix& M, const std::vector<double>& scales) {
   return result;
 }
 
-/// x = L^-1 x and x = L^-T x of a lower triangle.
+/// x = L^-1 x and x = L^-T x for a lower triangle L.
 void solve_lower(const SquareMatrix& L, double* x) {
   for (int j = 0; j < L.size; ++j) {
     x[j] /= L(j, j);

@@ -11,8 +11,9 @@ struct PencilPairs {
   std::vector<double> coefficients;  ///< (columns of the pencil) x pairs, A-orthonormal
 };
 
-/// On the leading `columns` rows and columns, of the lower triangles. No pairs if these columns are
-/// dependent: if A, scaled to a unit diagonal, has a root of a pivot below `least_pivot`.
+/// Solves on the leading `columns` rows and columns; only lower triangles are read. There are no
+/// pairs if these columns are dependent: if A, scaled to a unit diagonal, has a pivot with a root
+/// below `least_pivot`.
 [[nodiscard]] PencilPairs lowest_pairs(const SquareMatrix& hessian, const SquareMatrix& scalar,
                                        int columns, int pairs, double least_pivot);
 

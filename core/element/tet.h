@@ -1,12 +1,12 @@
 #pragma once
 #include "element/rest_tet.h"
 
-/// Geometry of linear tets: displacement gradients out of nodal displacements, and nodal forces out
-/// of stresses. Real is a number, or a pack with one sample per lane.
+/// Geometry of linear tets: displacement gradients from nodal displacements, and nodal forces from
+/// stresses. Real is a number, or a pack with one sample per lane.
 namespace snapspace {
 
 /// Displacement gradient G = sum_j (u_j - u_0) (x) (row j of inverse_edges), constant in the tet.
-/// Differences of nodal values come first: sums over all four vertices would lose digits on
+/// Differences of nodal values are taken first: sums over all four vertices would lose digits on
 /// slivers.
 template <class Real, class T>
 inline void displacement_gradient(const RestTetOf<T>& tet, const Real* u, Real G[3][3]) {
@@ -22,8 +22,8 @@ inline void displacement_gradient(const RestTetOf<T>& tet, const Real* u, Real G
 }
 
 /// Adds the forces P * inverse_edges^T of vertices 1, 2, 3 of a tet, and their negative sum at
-/// vertex 0, to `gradient`. With the first Piola-Kirchhoff stress times volume that is the energy's
-/// gradient, with its differential a Hessian-vector product.
+/// vertex 0, to `gradient`. With the first Piola-Kirchhoff stress times volume this is the energy's
+/// gradient; with the stress's differential it is a Hessian-vector product.
 template <class Real, class T>
 inline void scatter_stress(const RestTetOf<T>& tet, const Real P[3][3], Real* gradient) {
   const T(*B)[3] = tet.inverse_edges;

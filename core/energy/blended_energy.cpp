@@ -40,7 +40,7 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
 void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
   const RestTet& tet = energies_[k].rest.tets[t];
   const TetMaterial material = energies_[k].material.view();
-  double map[3][3], moduli[kMostModuli];
+  double map[3][3], moduli[kMaxModuli];
   displacement_gradient(tet, offsets_[k].data(), map);
   for (int i = 0; i < material_moduli(material.kind); ++i)
     moduli[i] = tet.volume * material.of(t)[i];
@@ -48,16 +48,16 @@ void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
                   [&]<class Density>() { PoseBlend<Density>::fill(moduli, map, result); });
 }
 
-bool BlendedEnergy::in_advance() const { return collapses(kind()) && poses() > kFewPoses; }
+bool BlendedEnergy::keeps_sums() const { return collapses(kind()) && poses() > kFewPoses; }
 
 std::size_t BlendedEnergy::blend_size() const {
-  if (!in_advance()) return poses();
+  if (!keeps_sums()) return poses();
   return static_cast<std::size_t>(tets()) * numbers_of(kind());
 }
 
 template <class Real>
 void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) const {
-  if (!in_advance()) {
+  if (!keeps_sums()) {
     for (int k = 0; k < poses(); ++k) set_lane(blend[k], lane, weights[k]);
     return;
   }

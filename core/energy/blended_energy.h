@@ -9,12 +9,10 @@ namespace snapspace {
 
 /// Sum of weights_k * E_k, with pose k of one mesh as the rest shape of E_k (paper, sec. 3.3), as a
 /// function of displacements u from pose 0.
-///
-/// All poses have the same tets, and a tet's energy against pose k is that of F A_k, see PoseBlend:
-/// a pose needs neither the vertices nor F.
-///
-/// Samples differ in their weights. What evaluations need of these is made once per sample: the
-/// weights themselves, or the numbers of all tets where the density collapses.
+/// All poses have the same tets, and a tet's energy against pose k is that of F A_k, see PoseBlend.
+/// So a pose needs neither its own vertices nor its own F.
+/// Samples differ in their weights. Evaluations need them in a form that is made once per sample:
+/// the weights themselves or, where the density collapses, the numbers of all tets.
 class BlendedEnergy {
  public:
   /// @param poses  count x n x 3, row-major   @param tets  m x 4, none without volume in any pose
@@ -26,10 +24,10 @@ class BlendedEnergy {
   [[nodiscard]] int tets() const { return energies_[0].tets(); }
   /// E_k, which takes displacements from pose k.
   [[nodiscard]] const ElasticEnergy& energy(int pose) const { return energies_[pose]; }
-  /// Pose 0 - this pose, 3n: what is added to u for E_k.
+  /// Pose 0 minus this pose, 3n: it is added to u for E_k.
   [[nodiscard]] const std::vector<double>& offset(int pose) const { return offsets_[pose]; }
 
-  /// Numbers that stand for the weights of a sample.
+  /// How many numbers represent the weights of a sample.
   [[nodiscard]] std::size_t blend_size() const;
 
   /// Sets a lane of `blend` (blend_size()) to a sample's weights (poses).
@@ -42,18 +40,18 @@ class BlendedEnergy {
                                              int begin, int end) const;
 
   /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row),
-  /// energies (tets) and the gradient (3n) that they make, at u for these weights.
+  /// energies (tets) and the resulting gradient (3n), at u for these weights.
   void tet_stresses(const double* weights, const double* u, double* stresses, double* energies,
                     double* gradient) const;
 
  private:
-  /// Up to so many poses the numbers of a tet are added up anew in every evaluation: samples that
-  /// are side by side share those of the poses, and each would have to read its own sums.
+  /// Up to this many poses the numbers of a tet are summed in every evaluation: samples in one pack
+  /// share the numbers of the poses, whereas each would have to read its own sums.
   static constexpr int kFewPoses = 8;
 
   [[nodiscard]] int kind() const { return energies_[0].material.view().kind; }
   /// Whether a sample keeps the sums of all tets.
-  [[nodiscard]] bool in_advance() const;
+  [[nodiscard]] bool keeps_sums() const;
   void fill_numbers(int tet, int pose, double* result) const;
   template <class Density, class Real>
   [[nodiscard]] Sum<Real> tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],

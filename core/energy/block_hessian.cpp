@@ -17,8 +17,8 @@ PrincipalCurvature curvature_of(const TetMaterial& material, int tet, const doub
   return projected(material.curvature(tet, s), projection);
 }
 
-/// Second derivative of psi by the displacements of vertices j and k, with the gradients b of their
-/// hat functions in the frame of V, in the frame of U: dF = u (x) b.
+/// Adds the second derivative of psi by the displacements of vertices j and k: dF = u (x) b, with u
+/// in the frame of U and the gradients b of the hat functions in the frame of V.
 void add_block(const PrincipalCurvature& H, const double (&U)[3][3], const double* b_j,
                const double* b_k, double weight, double* block) {
   double local[3][3], half[3][3];

@@ -9,8 +9,7 @@
 namespace snapspace {
 
 /// Symmetric matrix of 3 x 3 blocks, one per pair of vertices that share a tet, row by row.
-///
-/// The pattern and the place of every element's 16 blocks are found once; assembling again only
+/// The pattern and the places of each element's 16 blocks are found once; assembling again only
 /// writes values.
 class BlockHessian {
  public:
@@ -18,8 +17,8 @@ class BlockHessian {
 
   void clear();
 
-  /// Adds weight * the Hessian of the elastic energy at displacements u, every tet's projected.
-  /// @param threshold  of Projection::stretches
+  /// Adds weight * the Hessian of the elastic energy at displacements u, projected tet by tet.
+  /// @param threshold  least singular value for Projection::stretches
   void add(const ElasticEnergy& energy, const double* u, Projection projection,
            double threshold = 0.0, double weight = 1.0);
 

@@ -10,7 +10,7 @@ namespace snapspace {
 ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
     : rest(std::move(shape)), material(std::move(field)), negligible_(0.0) {
   if (!material.fits(rest.tets.size()))
-    throw std::invalid_argument("the material has moduli for another number of tets");
+    throw std::invalid_argument("the material has moduli for a different number of tets");
   const TetMaterial view = material.view();
   const int count = material_moduli(view.kind);
   moduli_.resize(rest.tets.size() * count);

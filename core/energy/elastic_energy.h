@@ -14,12 +14,11 @@ namespace snapspace {
 
 /// Elastic energy of a mesh: the sum over tets of volume * density, as a function of displacements
 /// u (3n, x0 y0 z0 x1 ...) from the rest shape. Real is double, or a pack with one sample per lane.
-///
-/// This class ends the templates over densities: its sums are compiled here for every density and
-/// pack, and chosen once for some tens of tets. Solvers and all others know no density.
+/// Templates over densities end at this class: its sums are compiled for every density and pack,
+/// and one is chosen for every few dozen tets. Solvers and other callers know no density.
 class ElasticEnergy {
  public:
-  /// @throws std::invalid_argument  if the material has moduli for another number of tets
+  /// @throws std::invalid_argument  if the material has moduli for a different number of tets
   ElasticEnergy(RestShape shape, MaterialField field);
 
   RestShape rest;
@@ -32,8 +31,8 @@ class ElasticEnergy {
   [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
                                                  Real* gradient) const;
 
-  /// Energy at u; `gradient` (3n) is overwritten. What the visitor does with a vertex before it is
-  /// needed comes before u is read and the gradient written there.
+  /// Energy at u; `gradient` (3n) is overwritten. The visitor's `before` is called for a vertex
+  /// before u is read and the gradient is written there.
   template <class Real>
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) const {
     Sum<Real> energy(0.0);
@@ -49,10 +48,11 @@ class ElasticEnergy {
   }
   template <class Real>
   Sum<Real> value_and_gradient(const Real* u, Real* gradient) const {
-    SweepVisitor nobody;
-    return value_and_gradient(u, gradient, nobody);
+    SweepVisitor idle;
+    return value_and_gradient(u, gradient, idle);
   }
-  /// A single sample, in a lane of a narrow pack: it has the same bits in lanes and alone.
+  /// The same for a single sample, in a lane of a narrow pack: it has the same bits in lanes and
+  /// alone.
   double value_and_gradient(const double* u, double* gradient, SweepVisitor& visitor) const;
 
   /// Hessian at rest times v, which is linear elasticity; `product` (3n) is overwritten.
@@ -65,11 +65,11 @@ class ElasticEnergy {
   /// Volume times first Piola-Kirchhoff stress (tets x 9, row by row) and energies (tets) at u.
   void tet_stresses(const double* u, double* stresses, double* energies) const;
 
-  /// 2 mu + lam of every tet: the largest stiffness of its small strains.
+  /// 2 mu + lam of each tet: the largest stiffness of its small strains.
   [[nodiscard]] std::vector<double> stiffnesses() const;
 
-  /// Energy of a strain of 1e-12 everywhere. Where the minimum of an objective is zero, no share of
-  /// it is ever reached: a decrease below this is none.
+  /// Energy of a strain of 1e-12 everywhere. Smaller decreases count as zero: where the minimum of
+  /// an objective is zero, a tolerance relative to it can never be met.
   [[nodiscard]] double negligible() const { return negligible_; }
 
   /// Number of elements with det F <= 0.
@@ -79,8 +79,8 @@ class ElasticEnergy {
   template <class T>
   [[nodiscard]] const StreamedVector<T>& weighted_moduli() const;
 
-  StreamedVector<double> moduli_;        // of every tet, times its volume
-  StreamedVector<float> single_moduli_;  // the same
+  StreamedVector<double> moduli_;        // of each tet, times its volume
+  StreamedVector<float> single_moduli_;  // the same in single precision
   StreamedVector<double> lame_;          // lam and mu of small strains, times volume
   double negligible_;
 };

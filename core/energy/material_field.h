@@ -10,11 +10,11 @@
 
 namespace snapspace {
 
-/// The material of a mesh, with arrays of its own: one row of moduli for all tets, or one per tet.
+/// The material of a mesh, which owns its moduli: one row for all tets, or one per tet.
 class MaterialField {
  public:
   /// @param moduli  rows x material_moduli(kind)
-  /// @throws std::invalid_argument  for a name that is no density's, or other sizes
+  /// @throws std::invalid_argument  if no density has this name, or the sizes do not fit
   MaterialField(const char* name, std::vector<double> moduli, int rows)
       : kind_(material_index(name)), rows_(rows), moduli_(std::move(moduli)) {
     if (kind_ < 0) throw std::invalid_argument("unknown material '" + std::string(name) + "'");
@@ -30,11 +30,11 @@ class MaterialField {
     return rows_ == 1 || static_cast<std::size_t>(rows_) == tets;
   }
 
-  /// The material of the same tets in another order: of tet order[i] at i.
-  /// @throws std::invalid_argument  if it is of another number of tets
+  /// The material of the same tets in another order: entry i is that of tet order[i].
+  /// @throws std::invalid_argument  if the material has moduli for a different number of tets
   [[nodiscard]] MaterialField reordered(const std::vector<std::int32_t>& order) const {
     if (!fits(order.size()))
-      throw std::invalid_argument("the material has moduli for another number of tets");
+      throw std::invalid_argument("the material has moduli for a different number of tets");
     if (rows_ == 1) return *this;
     MaterialField result = *this;
     const int count = material_moduli(kind_);

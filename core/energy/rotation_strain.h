@@ -3,8 +3,8 @@
 
 namespace snapspace {
 
-/// D = exp(W) (I + E) - I for a displacement gradient G = W + E, skew and symmetric: what G stands
-/// for if W is not the linear part of a rotation, but its logarithm (rotation-strain coordinates,
+/// D = exp(W) (I + E) - I for a displacement gradient G = W + E, with W skew and E symmetric. W is
+/// taken for the logarithm of a rotation instead of its linear part (rotation-strain coordinates,
 /// Huang, Tong, Zhou, Bao, Desbrun 2011). D = G + O(G^2).
 template <class Real>
 inline void rotation_strain(const Real G[3][3], Real D[3][3]) {
@@ -12,8 +12,8 @@ inline void rotation_strain(const Real G[3][3], Real D[3][3]) {
   const Real half(T(0.5));
   const Real w[3] = {half * (G[2][1] - G[1][2]), half * (G[0][2] - G[2][0]),
                      half * (G[1][0] - G[0][1])};
-  // Cosine of a fourth of the angle, and sine by the angle, as series of its square: ten digits for
-  // a whole turn, five for two. Doubled twice they are those of the angle.
+  // The cosine of a quarter of the angle, and its sine divided by the angle, as power series of the
+  // square: ten digits for a whole turn, five for two. The angle is then doubled twice.
   const Real x = Real(T(1.0 / 16)) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
   const auto series = [&](auto... divisors) {
     Real sum(T(1));

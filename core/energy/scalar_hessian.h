@@ -9,11 +9,10 @@ namespace snapspace {
 
 /// The Hessian of an elastic energy with each 3 x 3 block replaced by a third of its trace: an n x
 /// n matrix that, applied to x, y and z, preconditions the Hessian. Where strains are small it is a
-/// multiple of the Laplacian; where tets are stretched it is as much stiffer as the material is.
-///
+/// multiple of the Laplacian; where tets are stretched it stiffens as the material does.
 /// In the frame of V the trace is diagonal: the block of vertices j and k with hat gradients b is
 /// volume * b_j^T V D V^T b_k, D_c = (scaling_cc + sum of the two same_ac) / 3. Singular values are
-/// raised to at least one, and the eigenvalues of the curvature to zero: the matrix is
+/// raised to at least one, and eigenvalues of the curvature to at least zero, so the matrix is
 /// semi-definite.
 class ScalarHessian {
  public:

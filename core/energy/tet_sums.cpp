@@ -1,4 +1,4 @@
-// The inner loops over tets: instantiated for every density and pack here, and nowhere else.
+// The inner loops over tets. Only this file instantiates them, for every density and pack.
 #include "energy/elastic_energy.h"
 
 namespace snapspace {

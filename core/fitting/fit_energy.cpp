@@ -15,7 +15,7 @@ void FitEnergy::evaluate(const double* u, std::vector<double>& energies,
   stresses.resize(9 * energies.size());
   energy_.tet_stresses(u, stresses.data(), energies.data());
   for (std::size_t t = 0; t < energies.size(); ++t) {
-    const auto growth = bound_.of(energies[t], energy_.rest.tets[t].volume);
+    const auto growth = bound_.growth(energies[t], energy_.rest.tets[t].volume);
     energies[t] = growth.value;
     for (std::size_t i = 9 * t; i < 9 * t + 9; ++i) stresses[i] *= growth.slope;
   }
@@ -29,15 +29,15 @@ void FitEnergy::add_gradient(const std::vector<double>& stresses, double* gradie
   }
 }
 
-/// With b(e) = e / (1 - e / most) the Hessian is b' d2e + b'' de (x) de, and b, b' and b'' are
-/// positive: of a semi-definite d2e it stays so.
+/// With b(e) = e / (1 - e / bound) the Hessian is b' d2e + b'' de (x) de. Because b' and b'' are
+/// positive, it is semi-definite if d2e is.
 void FitEnergy::add_hessian(const double* u, BlockHessian& hessian) const {
   std::vector<double> energies(energy_.tets()), stresses(9 * energies.size());
   energy_.tet_stresses(u, stresses.data(), energies.data());
   std::vector<double> slopes(energies.size());
   for (std::size_t t = 0; t < energies.size(); ++t) {
     const RestTet& tet = energy_.rest.tets[t];
-    const auto growth = bound_.of(energies[t], tet.volume);
+    const auto growth = bound_.growth(energies[t], tet.volume);
     slopes[t] = growth.slope;
     double forces[4][3] = {};
     for (int j = 0; j < 3; ++j)

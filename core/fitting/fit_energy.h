@@ -7,7 +7,7 @@
 
 namespace snapspace {
 
-/// The symmetric Dirichlet energy of unit shear modulus, tet by tet bounded in stretch.
+/// The symmetric Dirichlet energy of unit shear modulus, with bounded stretch in each tet.
 class FitEnergy {
  public:
   FitEnergy(const ElasticEnergy& energy, double stretch);
@@ -16,11 +16,11 @@ class FitEnergy {
   void evaluate(const double* u, std::vector<double>& energies,
                 std::vector<double>& stresses) const;
 
-  /// Adds the gradient (3n) that stresses make.
+  /// Adds the gradient (3n) of these stresses.
   void add_gradient(const std::vector<double>& stresses, double* gradient) const;
 
-  /// Adds the Hessian at u, every tet's projected. For tets without energies of their own it is
-  /// that of the symmetric Dirichlet energy.
+  /// Adds the Hessian at u, projected tet by tet. For tets at rest it is that of the symmetric
+  /// Dirichlet energy; tets at or beyond the bound add nothing.
   void add_hessian(const double* u, BlockHessian& hessian) const;
 
  private:

@@ -9,7 +9,8 @@
 
 namespace snapspace {
 
-/// What all poses of one mesh and surface share. Only the targets differ from pose to pose.
+/// The data that all poses of one mesh and surface share. Only the targets differ from pose to
+/// pose.
 struct FittingSystem {
   Numbering numbering;
   ElasticEnergy energy;  ///< symmetric Dirichlet, of unit shear modulus

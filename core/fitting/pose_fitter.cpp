@@ -13,19 +13,19 @@ namespace snapspace {
 
 namespace {
 
-/// Relative decrements at which a stage has served as a start of the next, and at which the last
-/// one ends.
+/// Relative decrements at which a stage is good enough as a start of the next, and at which the
+/// last stage ends.
 constexpr double kStageTolerance = 5e-2;
 constexpr double kTolerance = 1e-3;
-/// Growth of the stiffness from stage to stage. The deviation falls about as its square root, so
-/// the last step can be sized to end near the goal: a stiffer surface distorts the tets more.
-constexpr double kMostGrowth = 10.0;
-constexpr double kLeastGrowth = 1.5;
-/// Times the first stiffness; no goal that can be reached needs it.
+/// Growth of the stiffness from stage to stage. The deviation falls roughly with its square root,
+/// so the last growth can be chosen to end near the goal: a stiffer surface distorts the tets more.
+constexpr double kMaxGrowth = 10.0;
+constexpr double kMinGrowth = 1.5;
+/// Largest stiffness relative to the first; no goal that can be reached needs it.
 constexpr double kStiffnessLimit = 1e10;
-/// A step may raise no tet's distortion by more than this factor: tets that a long step crushes
+/// A step must not raise any tet's distortion by more than this factor: tets crushed by a long step
 /// take many steps to recover, and some never do.
-constexpr double kMostDistortionGrowth = 3.0;
+constexpr double kMaxDistortionGrowth = 3.0;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ FitReport PoseFitter::fit(const double* targets, const SolveControl& control) {
   return report_;
 }
 
-/// The rest shape, and the first stage.
+/// Begins the first stage at the rest shape.
 void PoseFitter::start() {
   report_ = {};
   report_.stages = 1;
@@ -66,7 +66,7 @@ void PoseFitter::start() {
   report_.deviation = system_.springs.deviation(targets_, u_.data());
 }
 
-/// One Newton step, and what follows from it: the next stage, or the end.
+/// Takes one Newton step, and begins the next stage or ends if it is time.
 void PoseFitter::take_step(const SolveControl& control) {
   const auto end = [&](FitStatus status) {
     report_.status = status;
@@ -75,7 +75,7 @@ void PoseFitter::take_step(const SolveControl& control) {
   hessian_.clear();
   energy_.add_hessian(u_.data(), hessian_);
   const double decrement = find_direction(control);
-  if (control.cancelled) return;  // the direction may be half done
+  if (control.cancelled) return;  // the direction may be incomplete
   decrement_ = decrement;
   const auto below = [&](double tolerance) {
     return decrement <= std::max(tolerance * value_, system_.energy.negligible());
@@ -95,20 +95,20 @@ void PoseFitter::take_step(const SolveControl& control) {
 
 bool PoseFitter::raise_stiffness() {
   const double ratio = report_.deviation / options_.deviation;
-  report_.stiffness *= std::clamp(1.1 * ratio * ratio, kLeastGrowth, kMostGrowth);
+  report_.stiffness *= std::clamp(1.1 * ratio * ratio, kMinGrowth, kMaxGrowth);
   ++report_.stages;
   value_ = value_and_gradient(u_, gradient_);
   decrement_ = value_;
   return report_.stiffness <= kStiffnessLimit * options_.first_stiffness;
 }
 
-/// Infinite as well where a tet exceeds its limit.
+/// The value is also infinite if a tet exceeds its limit.
 double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
   energy_.evaluate(u.data(), energies_, stresses_);
   std::fill(gradient.begin(), gradient.end(), 0.0);
   double value = 0.0;
   for (std::size_t t = 0; t < energies_.size(); ++t) {
-    // written so that NaN is refused as well
+    // written so that NaN is refused too
     if (!(energies_[t] <= limits_[t])) return std::numeric_limits<double>::infinity();
     value += energies_[t];
   }
@@ -117,12 +117,12 @@ double PoseFitter::value_and_gradient(const std::vector<double>& u, std::vector<
          system_.springs.value_and_gradient(report_.stiffness, targets_, u.data(), gradient.data());
 }
 
-/// The distortion |F|^2 + |F^-1|^2 is 6 at rest, and the energy of a tet volume * (distortion - 6)
-/// / 4.
+/// The distortion |F|^2 + |F^-1|^2 is 6 at rest, and the energy of a tet is volume * (distortion -
+/// 6) / 4.
 void PoseFitter::set_limits() {
   for (std::size_t t = 0; t < limits_.size(); ++t) {
     const double quarter = 0.25 * system_.energy.rest.tets[t].volume;
-    limits_[t] = kMostDistortionGrowth * (energies_[t] + 6.0 * quarter) - 6.0 * quarter;
+    limits_[t] = kMaxDistortionGrowth * (energies_[t] + 6.0 * quarter) - 6.0 * quarter;
   }
 }
 
@@ -158,7 +158,7 @@ double PoseFitter::find_direction(const SolveControl& control) {
 bool PoseFitter::line_search(double slope) {
   constexpr int kMaxShortenings = 40;
   LineTrial last;
-  // a refused tet says nothing about how much shorter a step must be: half
+  // a refused tet does not say how much shorter a step must be, so the step is halved
   const bool found = search_line(value_, slope, kMaxShortenings, 0.5, [&](double step) {
     for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] + step * direction_[i];
     ++report_.evaluations;

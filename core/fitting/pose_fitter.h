@@ -13,7 +13,7 @@ namespace snapspace {
 enum class FitStatus : int {
   converged = 0,
   max_iterations = 1,
-  stiffness_limit = 2,  ///< the target is not reached however hard the surface is pulled
+  stiffness_limit = 2,  ///< the target is not reached even with the stiffest surface
   line_search_failed = 3,
   cancelled = 4,
 };
@@ -21,8 +21,8 @@ enum class FitStatus : int {
 struct FitOptions {
   double deviation = 0.0;        ///< goal: root mean square distance of surface and target
   double first_stiffness = 0.0;  ///< of the surface; see PoseFitter
-  double stretch = 0.0;          ///< that no tet reaches; see BoundedStretch
-  int max_iterations = 300;      ///< Newton steps of all stages together
+  double stretch = 0.0;          ///< bound for every tet; see BoundedStretch
+  int max_iterations = 300;      ///< most Newton steps of all stages together
 };
 
 struct FitReport {
@@ -37,16 +37,14 @@ struct FitReport {
 };
 
 /// Displacements of a tet mesh that bring its surface to a target, without inverted tets.
-///
-/// Minimises F(u) = symmetric Dirichlet energy, bounded in stretch, + springs of a stiffness that
-/// is raised in stages until the surface is near enough. The first stage must be so soft that the
-/// shape bends towards its pose and does not stretch: limbs pulled hard through the body get caught
-/// in folds that no later stage undoes.
-///
-/// Each stage by Newton's method on the projected Hessian. The systems are solved by conjugate
-/// gradients on a scalar matrix: the mean of the diagonal of each 3 x 3 block. It follows the
-/// compressed tets, whose stiffness varies by orders of magnitude, and 5 to 20 iterations suffice;
-/// L-BFGS on the Laplacian of the rest shape does not get over them.
+/// Minimises F(u) = symmetric Dirichlet energy, bounded in stretch, + springs whose stiffness is
+/// raised in stages until the surface is near enough. The first stage must be so soft that the
+/// shape bends towards its pose instead of stretching: limbs that are pulled hard through the body
+/// get caught in folds that no later stage undoes.
+/// Each stage is solved by Newton's method on the projected Hessian. The linear systems are solved
+/// by conjugate gradients, preconditioned by a scalar matrix: the mean of the diagonal of each 3 x
+/// 3 block. It follows the compressed tets, whose stiffness varies by orders of magnitude, so 5 to
+/// 20 iterations suffice; L-BFGS on the Laplacian of the rest shape fails on such tets.
 class PoseFitter {
  public:
   PoseFitter(const FittingSystem& system, const FitOptions& options);
@@ -74,11 +72,11 @@ class PoseFitter {
   ConjugateGradients conjugate_gradients_;
   const double* targets_ = nullptr;
   FitReport report_;
-  Supernodes supernodes_;  // of the scalar matrix, in every step
+  Supernodes supernodes_;  // of the scalar matrix, the same in every step
   double value_ = 0.0;
   double decrement_ = 0.0;  // -g.d of the last direction d
   bool done_ = false;
-  // Per tet: the largest energy that is allowed, the energy of the last trial, and its stress.
+  // Per tet: the largest energy allowed, the energy at the last trial, and the stress there.
   std::vector<double> limits_, energies_, stresses_;
   std::vector<double> u_, gradient_, direction_, trial_, trial_gradient_;
 };

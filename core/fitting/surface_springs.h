@@ -6,8 +6,9 @@
 
 namespace snapspace {
 
-/// Springs from the points of a surface inside of tets to their targets: the energy is stiffness *
-/// sum_i area_i |(W u)_i - target_i|^2, in displacements. Row i of W has the weights of point i.
+/// Springs from points of a surface, which lie inside tets, to their targets: the energy is
+/// stiffness * sum_i area_i |(W u)_i - target_i|^2, in displacements. Row i of W has the weights of
+/// point i.
 class SurfaceSprings {
  public:
   /// @param corners  count x 4 vertices   @param weights  count x 4, rows sum to one
@@ -18,7 +19,7 @@ class SurfaceSprings {
     begin_.reserve(count + 1);
     begin_.push_back(0);
     for (int i = 0; i < count; ++i) {
-      // A point that is a vertex costs no more than one.
+      // A point at a vertex has only one entry.
       for (int j = 4 * i; j < 4 * i + 4; ++j)
         if (weights[j] != 0.0) entries_.push_back({places[corners[j]], weights[j]});
       begin_.push_back(static_cast<std::int32_t>(entries_.size()));

@@ -19,7 +19,7 @@ double lane_of(Pack<T, Width> x, int lane) {
   return x[lane];
 }
 
-/// Vectors (count x size) as one of packs; lanes without one are zero.
+/// Vectors (count x size) as one vector of packs. Unused lanes are zero.
 template <class Real>
 std::vector<Real> packed(std::size_t count, std::size_t size, const double* vectors) {
   std::vector<Real> result(size, Real(0));
@@ -36,7 +36,7 @@ void unpack(const std::vector<Real>& from, std::size_t count, double* vectors) {
       vectors[k * from.size() + i] = lane_of(from[i], static_cast<int>(k));
 }
 
-/// Calls act with a number of the type that a packing stands for.
+/// Calls act with a default value of the type that a packing stands for.
 template <class Act>
 void with_packs(Packing packing, Act act) {
   if (packing == Packing::alone) act(double());
@@ -44,7 +44,7 @@ void with_packs(Packing packing, Act act) {
   if (packing == Packing::single_lanes) act(SingleWide());
 }
 
-/// @param solve  (3n packs), in place
+/// @param solve  function of 3n packs, solves in place
 template <class Solve>
 void in_lanes(Packing packing, std::size_t count, std::size_t size, const double* right_hand_sides,
               double* solutions, Solve solve) {

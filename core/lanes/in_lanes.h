@@ -5,24 +5,25 @@
 #include "energy/elastic_energy.h"
 #include "multigrid/two_grid_cycle.h"
 
-/// What works on one sample per lane, for callers that have plain arrays and know no packs.
+/// Functions that work on one sample per lane, for callers with plain arrays that know no packs.
 namespace snapspace {
 
 /// One sample alone, or as many as the widest pack has lanes, in double or single precision.
 enum class Packing { alone, lanes, single_lanes };
 
-/// How many samples go together at most.
+/// The largest number of samples that are computed together.
 [[nodiscard]] int samples_together(Packing packing);
 
-/// Solutions for right-hand sides, count x 3n both.
+/// Solutions for right-hand sides; both are count x 3n.
 void solve_in_lanes(const ScalarFactor& factor, Packing packing, std::size_t count,
                     const double* right_hand_sides, double* solutions);
 
-/// The cycle times right-hand sides, count x 3n both.
+/// The cycle times right-hand sides; both are count x 3n.
 void apply_in_lanes(const TwoGridCycle& cycle, Packing packing, std::size_t count,
                     const double* right_hand_sides, double* products);
 
-/// Energies (count) and gradients (count x 3n) at displacements (count x 3n); not alone.
+/// Energies (count) and gradients (count x 3n) at displacements (count x 3n). Packing::alone counts
+/// as Packing::lanes.
 void energies_in_lanes(const ElasticEnergy& energy, Packing packing, std::size_t count,
                        const double* shapes, double* values, double* gradients);
 

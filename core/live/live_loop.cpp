@@ -103,20 +103,20 @@ online::Storage storage(bool single) {
   return single ? online::Storage::single_precision : online::Storage::double_precision;
 }
 
-Cubature made(const CubatureArrays& arrays) {
+Cubature make_cubature(const CubatureArrays& arrays) {
   return {arrays.dimension, arrays.tets, arrays.rows, arrays.weights, arrays.material};
 }
 
-BlendedCubature made(const CubatureArrays& arrays, const PoseArrays& poses) {
+BlendedCubature make_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
   return {arrays.dimension, arrays.tets,     arrays.rows,
           arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau}};
 }
 
-/// For a live solve: large evaluations are shared with a second thread.
-template <class Sum>
-Sum shared(Sum sum) {
-  sum.set_halves(SecondThread::instance());
-  return sum;
+/// A cubature for a live solve, which shares large evaluations with a second thread.
+template <class Elastic>
+Elastic with_second_thread(Elastic elastic) {
+  elastic.set_half_runner(SecondThread::instance());
+  return elastic;
 }
 
 template <class Elastic>
@@ -137,11 +137,11 @@ FunctionPointer quartic(int dimension, const double* coefficients, bool single) 
 }
 
 TetPointer cubature(const CubatureArrays& arrays) {
-  return std::make_unique<TetsOf<Cubature, TetFunction>>(made(arrays));
+  return std::make_unique<TetsOf<Cubature, TetFunction>>(make_cubature(arrays));
 }
 
 BlendedPointer blended_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return std::make_unique<BlendedOf>(made(arrays, poses));
+  return std::make_unique<BlendedOf>(make_cubature(arrays, poses));
 }
 
 SolverPointer posing_solver(int dimension, const double* coefficients, bool single,
@@ -150,7 +150,7 @@ SolverPointer posing_solver(int dimension, const double* coefficients, bool sing
 }
 
 SolverPointer posing_solver(const CubatureArrays& arrays, const HandleArrays& handles) {
-  return posing(shared(made(arrays)), handles);
+  return posing(with_second_thread(make_cubature(arrays)), handles);
 }
 
 SolverPointer blending_solver(int dimension, int poses, const double* coefficients, bool single) {
@@ -159,7 +159,8 @@ SolverPointer blending_solver(int dimension, int poses, const double* coefficien
 }
 
 SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(shared(made(arrays, poses)));
+  return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(
+      with_second_thread(make_cubature(arrays, poses)));
 }
 
 }  // namespace snapspace::live

@@ -6,8 +6,8 @@
 #include "material/tet_material.h"
 #include "online/minimizer.h"
 
-/// The reduced energies and live loops of core/online, whose layouts depend on the width of packs,
-/// behind interfaces that do not: who uses them need not be compiled for every level.
+/// The reduced energies and live loops of core/online. Their layouts depend on the width of packs;
+/// these interfaces do not, so code that uses them need not be compiled for every level.
 namespace snapspace::live {
 
 /// A function of d reduced coordinates q.
@@ -17,31 +17,31 @@ class ReducedFunction {
   [[nodiscard]] virtual int dimension() const = 0;
   /// Value at q (d); `gradient` (d) is overwritten.
   virtual double value_and_gradient(const double* q, double* gradient) = 0;
-  /// The lower triangle of the Hessian (d x d), too.
+  /// Also writes the lower triangle of the Hessian (d x d).
   virtual double derivatives(const double* q, double* gradient, double* hessian) = 0;
 };
 
-/// A sum over few tets.
+/// A weighted sum over few tets.
 class TetFunction : public ReducedFunction {
  public:
   [[nodiscard]] virtual int tets() const = 0;
-  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9.
+  /// Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x 9.
   virtual void curvatures(const double* q, float* hessians) = 0;
 };
 
 /// A live solver.
 class LiveSolver : public ReducedFunction {
  public:
-  /// False if the Hessian at rest is not positive definite, or that at the mean shape is far from
-  /// it: a solve has then no matrix to start from.
+  /// False if the Hessian at rest is not positive definite, or the Hessian at the mean shape is far
+  /// from it: a solve then has no matrix to start from.
   [[nodiscard]] virtual bool valid() const = 0;
   [[nodiscard]] virtual int capacity() const = 0;
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity.
   virtual void set_dimension(int dimension) = 0;
-  /// From q, in place.
+  /// Solves from q, in place.
   virtual online::Report solve(double* q, online::Method method,
                                const online::Termination& stop) = 0;
-  /// Offsets (12 numbers) of this many handles, or weights of poses: what a frame changes.
+  /// How many inputs a frame sets: offsets (12 numbers each) of handles, or weights of poses.
   [[nodiscard]] virtual int inputs() const = 0;
   virtual void set_inputs(const double* inputs) = 0;
 };

@@ -32,7 +32,7 @@ bool spin_until(Condition holds) {
 }  // namespace
 
 SecondThread* SecondThread::instance() {
-  // Never destroyed: its thread may not outlive it.
+  // Never destroyed, because its thread must not outlive it.
   static SecondThread* const thread =
       std::thread::hardware_concurrency() > 1 ? new SecondThread : nullptr;
   return thread;
@@ -43,7 +43,7 @@ void SecondThread::start() {
   try {
     std::thread([this] { serve(); }).detach();
   } catch (const std::system_error&) {
-    // The system grants no thread: the caller runs both halves.
+    // The system grants no thread, so the caller runs both halves.
   }
 }
 

@@ -1,19 +1,18 @@
 #pragma once
 #include <atomic>
 
-#include "online/halves.h"
+#include "online/half_runner.h"
 
 namespace snapspace::live {
 
-/// A thread of the process that takes halves of live evaluations off the caller.
-///
-/// Between the evaluations of a solve it spins, since to wake a thread takes as long as an
+/// A thread that runs one half of live evaluations for the caller.
+/// Between the evaluations of a solve it spins, because waking a thread takes as long as an
 /// evaluation; afterwards it sleeps. The caller never waits for it to wake: it runs the second half
-/// itself if nobody has taken it by then. So a process that was forked, and has no such thread, or
-/// a busy machine loses nothing.
-class SecondThread final : public online::Halves {
+/// itself if the thread has not taken it by then. So nothing is lost on a busy machine, or in a
+/// forked process, which has no such thread.
+class SecondThread final : public online::HalfRunner {
  public:
-  /// The only one; null if the machine has one processor. It lasts as long as the process.
+  /// The only instance; null if the machine has one processor. It lasts as long as the process.
   static SecondThread* instance();
 
   void run(Work work, void* context) override;
@@ -24,10 +23,10 @@ class SecondThread final : public online::Halves {
   [[noreturn]] void serve();
   bool take(int ticket);
 
-  std::atomic_flag busy_;        // somebody uses it
-  bool started_ = false;         // whether a thread was asked for; read by the user alone
-  int ticket_ = 0;               // of the last offer; read by the user alone
-  std::atomic<int> offered_{0};  // the ticket of a half that nobody has taken, or 0
+  std::atomic_flag busy_;        // whether a caller uses it
+  bool started_ = false;         // whether a thread was requested; read by the caller only
+  int ticket_ = 0;               // of the last offer; read by the caller only
+  std::atomic<int> offered_{0};  // the ticket of a half that no thread has taken, or 0
   std::atomic<int> ended_{0};    // the last ticket that the thread has served
   Work work_ = nullptr;
   void* context_ = nullptr;

@@ -11,9 +11,9 @@ namespace snapspace::live {
 
 namespace {
 
-/// Coordinates of a block: their sums stay in the first-level cache.
+/// Coordinates per block: their sums stay in the first-level cache.
 constexpr std::size_t kBlock = 2048;
-/// Below so many bytes for each thread, beginning one takes as long as it saves.
+/// With fewer bytes per thread, starting one takes as long as it saves.
 constexpr std::size_t kBytesPerThread = 4u << 20;
 constexpr double kLargestCount = 32767.0;
 
@@ -42,8 +42,8 @@ void ShapeRows::take_block(std::size_t begin, const double* modes) {
     double largest = 0.0;
     for (std::size_t k = 0; k < length; ++k) largest = std::max(largest, std::abs(mode[k]));
     *unit = static_cast<float>(largest / kLargestCount);
-    // Entries too small for a float are nothing. The unit is a float, rounded up or down: its
-    // largest entry must not count more than 32767 of them.
+    // Entries too small for a float count as zero. The unit is a float, rounded up or down, so the
+    // largest entry must be clamped to 32767 units.
     const double per_unit = *unit > 0.0f ? 1.0 / *unit : 0.0;
     coarse = std::transform(mode, mode + length, coarse, [=](double x) {
       const double count = std::nearbyint(x * per_unit);
@@ -72,17 +72,17 @@ void ShapeRows::write_block(std::size_t begin, const double* q, int count, float
     shape[begin + k] = static_cast<float>(tau_[begin + k] + sums[k]);
 }
 
-/// @param q  of the later modes, `count` of them
+/// @param q  coordinates of the later modes, `count` of them
 void ShapeRows::add_coarse(std::size_t begin, const double* q, int count, float* sums) const {
-  constexpr int kMost = 64;
+  constexpr int kChunk = 64;
   const std::size_t length = std::min(kBlock, size() - begin);
   const std::int16_t* modes = coarse_.data() + begin * coarse_count_;
   const float* units = units_.data() + begin / kBlock * coarse_count_;
-  for (int first = 0; first < count; first += kMost) {
-    const int some = std::min(kMost, count - first);
-    double factors[kMost];
-    for (int i = 0; i < some; ++i) factors[i] = q[first + i] * units[first + i];
-    online::add_modes(modes + first * length, length, some, factors, length, sums);
+  for (int first = 0; first < count; first += kChunk) {
+    const int chunk = std::min(kChunk, count - first);
+    double factors[kChunk];
+    for (int i = 0; i < chunk; ++i) factors[i] = q[first + i] * units[first + i];
+    online::add_modes(modes + first * length, length, chunk, factors, length, sums);
   }
 }
 

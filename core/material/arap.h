@@ -30,15 +30,16 @@ struct Arap {
     PrincipalCurvature result = {};
     for (int i = 0; i < 3; ++i) {
       result.scaling[i][i] = result.flip[i] = twice;
-      // The rotation jumps where two singular values cancel; the curvature is finite beside it.
-      const double sum = std::max(s[kPairs[i][0]] + s[kPairs[i][1]], kLeastSum);
+      // The rotation jumps where two singular values cancel; the curvature is kept finite near
+      // there.
+      const double sum = std::max(s[kPairs[i][0]] + s[kPairs[i][1]], kMinSum);
       result.twist[i] = twice - 2.0 * twice / sum;
     }
     return result;
   }
 
  private:
-  static constexpr double kLeastSum = 1e-3;
+  static constexpr double kMinSum = 1e-3;
 };
 
 }  // namespace snapspace

@@ -12,7 +12,7 @@ struct Corotational {
 
   static Lame small_strains(const double* moduli) { return {moduli[0], moduli[1]}; }
 
-  /// J - 1 cancels near rest, by no more digits than F - R does.
+  /// J - 1 cancels near rest, but loses no more digits than F - R does.
   template <class Real>
   static Real value_and_stress(const Real* moduli, const Real G[3][3], Real P[3][3]) {
     const RotationDistance<Real> distance(G);

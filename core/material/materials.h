@@ -18,13 +18,13 @@ namespace snapspace {
 ///                                      for a number or a pack
 ///   curvature(moduli, s)               PrincipalCurvature at signed singular values
 /// It is isotropic, stress-free at rest and linear in its moduli: moduli times a volume give the
-/// energy of that volume. One whose sum over several poses collapses may say so by a nested Blend,
-/// see PoseBlend; without it every pose is evaluated.
+/// energy of that volume. A density whose sum over several poses collapses may declare a nested
+/// Blend, see PoseBlend; otherwise every pose is evaluated.
 template <class... Density>
 struct DensityList {
   static constexpr int kCount = sizeof...(Density);
 
-  /// act.template operator()<Density>() of the density at an index.
+  /// Calls act.template operator()<Density>() with the density at an index.
   template <class Act>
   static auto with(int index, Act&& act) {
     return choose<Act, Density...>(index, act);
@@ -42,8 +42,8 @@ struct DensityList {
 using Densities =
     DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin>;
 
-/// The most moduli that a density may have.
-inline constexpr int kMostModuli = 4;
+/// The largest number of moduli that a density may have.
+inline constexpr int kMaxModuli = 4;
 
 inline const char* material_name(int index) {
   return Densities::with(index, []<class Density>() { return Density::kName; });
@@ -52,7 +52,7 @@ inline const char* material_name(int index) {
 /// Number of a density's moduli.
 inline int material_moduli(int index) {
   return Densities::with(index, []<class Density>() {
-    static_assert(Density::kModuli <= kMostModuli);
+    static_assert(Density::kModuli <= kMaxModuli);
     return Density::kModuli;
   });
 }

@@ -13,7 +13,7 @@ inline void cofactors(const Real M[3][3], Real C[3][3]) {
     }
 }
 
-/// from - (A x B)_rc, where A x B is the change of A's cofactors along B.
+/// from - (A x B)_rc, where A x B is the derivative of A's cofactors along B.
 template <class Real>
 inline Real subtract_crossed(const Real& from, const Real A[3][3], const Real B[3][3], int r,
                              int c) {
@@ -30,8 +30,8 @@ inline Real inner(const Real A[3][3], const Real B[3][3]) {
          (A[2][0] * B[2][0] + A[2][1] * B[2][1] + A[2][2] * B[2][2]);
 }
 
-/// The determinant of I + G less one, and the cofactors of I + G less I, of the displacement
-/// gradient G: both keep their digits where G is small.
+/// det(I + G) - 1 and cof(I + G) - I for a displacement gradient G. Both keep their digits where G
+/// is small.
 template <class Real>
 struct VolumeChange {
   Real determinant;      ///< J - 1

@@ -6,8 +6,9 @@
 namespace snapspace {
 
 /// Mooney-Rivlin: psi = mu1/2 (|F|^2 - 3) + mu2/2 (|cof F|^2 - 3) - (mu1 + 2 mu2) (J - 1) + (lam +
-/// mu1)/2 (J - 1)^2 [Mooney 1940; Rivlin 1948; polyconvex, Ciarlet 1988, sec. 4.10]. Rubber, whose
-/// stress under tension falls below that of neo-Hookean material. With mu2 = 0 it is the latter.
+/// mu1)/2 (J - 1)^2 [Mooney 1940; Rivlin 1948; polyconvex, Ciarlet 1988, sec. 4.10]. A model of
+/// rubber, whose stress under tension is lower than that of neo-Hookean material. With mu2 = 0 it
+/// is stable neo-Hookean.
 struct MooneyRivlin {
   static constexpr const char* kName = "mooney-rivlin";
   static constexpr int kModuli = 3;
@@ -15,7 +16,7 @@ struct MooneyRivlin {
 
   static Lame small_strains(const double* moduli) { return {moduli[0], moduli[1] + moduli[2]}; }
 
-  /// In the displacement gradient, with K = cof F - I, where nothing cancels: the first terms are
+  /// Written in the displacement gradient, with K = cof F - I, nothing cancels: the first terms are
   /// mu1 (|G|^2 / 2 - I_2(G) - det G) + mu2 (|K|^2 / 2 - I_2(G) - 2 det G).
   template <class Real>
   static Real value_and_stress(const Real* moduli, const Real G[3][3], Real P[3][3]) {

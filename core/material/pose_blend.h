@@ -5,17 +5,16 @@
 namespace snapspace {
 
 /// sum_k w_k psi_k(F A_k) of a tet: the energies against several poses of one body, with weights.
-///
 /// F is the deformation gradient against pose 0, and the constant A_k maps the tet's edges in pose
-/// k onto those in pose 0. A pose contributes some numbers to a tet. Most densities need the
-/// numbers of every pose: the map A_k - I, and the moduli times the tet's volume in pose k. One
-/// with a nested `Blend` collapses: its numbers are added up, times the weights, and the sum costs
-/// the same for any number of poses.
+/// k onto those in pose 0. Each pose contributes some numbers to a tet. Most densities need the
+/// numbers of every pose: the map A_k - I, and the moduli times the tet's volume in pose k. A
+/// density with a nested `Blend` collapses: its numbers are summed over the poses, times the
+/// weights, and evaluating the sum costs the same for any number of poses.
 template <class Density>
 struct PoseBlend {
   static constexpr bool kCollapses = requires { typename Density::Blend; };
 
-  /// Numbers of one pose.
+  /// How many numbers a pose contributes to a tet.
   static constexpr int numbers() {
     if constexpr (kCollapses)
       return Density::Blend::kNumbers;
@@ -45,15 +44,15 @@ inline Sum<Real> sum_over_poses(int poses, int moduli_count, const Real* weights
   Sum<Real> value(0.0);
   for (int e = 0; e < 9; ++e) P[e / 3][e % 3] = Real(0.0);
   for (int k = 0; k < poses; ++k, numbers += 9 + moduli_count) {
-    Real map[3][3], there[3][3], stress[3][3], moduli[kMostModuli];
+    Real map[3][3], pose_G[3][3], stress[3][3], moduli[kMaxModuli];
     for (int e = 0; e < 9; ++e) map[e / 3][e % 3] = Real(numbers[e]);
     for (int i = 0; i < moduli_count; ++i) moduli[i] = weights[k] * Real(numbers[9 + i]);
     // F A - I = map + G + G map
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
-        there[r][c] =
+        pose_G[r][c] =
             map[r][c] + G[r][c] + (G[r][0] * map[0][c] + G[r][1] * map[1][c] + G[r][2] * map[2][c]);
-    value += widened(density(moduli, there, stress));
+    value += widened(density(moduli, pose_G, stress));
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c)
         P[r][c] += stress[r][c] +

@@ -6,21 +6,20 @@
 
 namespace snapspace {
 
-/// How far F is from the nearest rotation R = U V^T of F = U diag(s) V^T, where the smallest
-/// singular value has the sign of det F: inverted elements have one rotation too, the one that
-/// turns least.
+/// The distance of F = U diag(s) V^T from the nearest rotation R = U V^T. The smallest singular
+/// value has the sign of det F, so inverted elements also have a rotation: the one with the
+/// smallest angle.
 ///
 /// No decomposition is needed. With f = tr(R^T F) = s_1 + s_2 + s_3 and e = s_1 s_2 + s_2 s_3 +
 /// s_3 s_1, f^2 = |F|^2 + 2 e, and e is the largest root of e^2 - |cof F|^2 - 2 J f(e). From an
-/// upper bound down to it that function is convex, and nearly a quadratic: one step of Cauchy's
-/// method, to the root of the quadratic that touches it, leaves less than 3e-7 of |F|^2, and one of
-/// Newton's method the rounding. Only inverted elements need more steps, a fixed number, so that
-/// lanes do not depend on each other. R is then a polynomial of F over (s_1 + s_2) (s_2 + s_3)
-/// (s_3 + s_1) [Cayley and Hamilton].
-///
-/// Where s_2 + s_3 vanishes R is not unique and the root a double one, found to a few digits only.
-/// There, at mirror images and collapsed needles, R is shortened, all is finite, and |F - R|^2
-/// follows from f, to 2e-3 (2e-2 in single precision).
+/// upper bound down to it that function is convex and nearly quadratic. One step of Cauchy's
+/// method, to the root of the local quadratic model, leaves less than 3e-7 of |F|^2, and one step
+/// of Newton's method then leaves only rounding. Only inverted elements need more steps; their
+/// number is fixed, so that lanes do not depend on each other. R is then a polynomial of F over
+/// (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton].
+/// Where s_2 + s_3 vanishes R is not unique, and e is a double root, found to a few digits only.
+/// There, at mirror images and collapsed needles, R is shortened, everything stays finite, and |F -
+/// R|^2 follows from f, to 2e-3 (2e-2 in single precision).
 template <class Real>
 struct RotationDistance {
   Real difference[3][3];  ///< F - R
@@ -37,16 +36,17 @@ struct RotationDistance {
     const Real norm = inner(F, F);
     const auto [e, f] = sums(norm, inner(cofactor, cofactor));
 
-    const Real scale = (norm + Real(kNothing)) * f, least = Real(kLeastProduct) * scale;
+    const Real scale = (norm + Real(kRounding)) * f, least = Real(kMinProduct) * scale;
     const Real product = max(e * f - J, least + Real(kTiny));
-    // R = (e F + f cof F + F x cof F) / product, and F - R = 0 at rest, to the last bit.
+    // R = (e F + f cof F + F x cof F) / product. At rest F - R is exactly 0.
     const Real over_product = inverse(product), rest = product - e;
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) {
         const Real both = rounded(rest * F[r][c]) - f * cofactor[r][c];
         difference[r][c] = subtract_crossed(both, F, cofactor, r, c) * over_product;
       }
-    // The differences keep their digits near rest, the root near jumps of R, where both are large.
+    // The differences keep their digits near rest; f keeps them near jumps of R, where the
+    // differences are large.
     square = select(is_less(Real(T(0.05)) * scale, product), inner(difference, difference),
                     norm - f - f + Real(T(3)));
   }
@@ -57,14 +57,14 @@ struct RotationDistance {
   static constexpr T kTiny = kFloat ? T(1e-30) : T(1e-300);
   static constexpr int kInvertedSteps = kFloat ? 4 : 5;
   /// Shares of |F|^2 f and |F|^2 below which a product of sums, and a slope, are only rounding.
-  static constexpr T kLeastProduct = kFloat ? T(5e-4) : T(1e-5);
-  static constexpr T kLeastSlope = kFloat ? T(1e-3) : T(1e-8);
-  /// |F|^2 of no matrix: F is a sum that has such an error.
-  static constexpr T kNothing = kFloat ? T(1e-10) : T(1e-24);
-  /// The first e must be no less than the root, though inverses are rough.
+  static constexpr T kMinProduct = kFloat ? T(5e-4) : T(1e-5);
+  static constexpr T kMinSlope = kFloat ? T(1e-3) : T(1e-8);
+  /// An |F|^2 that is only rounding: F is a sum with such an error.
+  static constexpr T kRounding = kFloat ? T(1e-10) : T(1e-24);
+  /// Keeps the first e above the root, although inverses are rough.
   static constexpr T kAbove = kFloat ? T(1.0005) : T(1);
 
-  /// The square root, roughly, and of what is not positive nearly zero.
+  /// Roughly the square root; nearly zero if a is not positive.
   static Real rough_root(const Real& a) {
     const Real positive = max(a, Real(kTiny));
     return positive * rough_inverse_sqrt(positive);
@@ -76,30 +76,32 @@ struct RotationDistance {
     return rough + rough * (Real(T(1)) - a * rough);
   }
 
-  /// The function of e that vanishes, f(e), and halves of the slope and the curvature.
-  struct Touching {
-    Real value, f, over_f, slope, bend;
+  /// The function of e whose root is sought: its value, f and 1 / f, and half its slope and
+  /// curvature.
+  struct LocalQuadratic {
+    Real value, f, over_f, slope, curvature;
 
-    Touching(const Real& e, const Real& norm, const Real& square_of_cofactors, const Real& J) {
+    LocalQuadratic(const Real& e, const Real& norm, const Real& square_of_cofactors,
+                   const Real& J) {
       const Real square = max(norm + e + e, Real(kTiny));
       over_f = rough_inverse_sqrt(square);
       f = square * over_f;
       if constexpr (kFloat) f += (Real(T(0.5)) * over_f) * (square - f * f);
       value = (e * e - square_of_cofactors) - (J + J) * f;
       slope = e - J * over_f;
-      bend = Real(T(1)) + J * over_f * over_f * over_f;
+      curvature = Real(T(1)) + J * over_f * over_f * over_f;
     }
   };
 
   /// e and f. The first e is an upper bound: |F|^2 / 3 <= f^2 <= 3 |F|^2 in e^2 = |cof F|^2 + 2 J
   /// f.
   std::pair<Real, Real> sums(const Real& norm, const Real& square_of_cofactors) const {
-    const Real least_slope = Real(kLeastSlope) * norm + Real(kTiny);
+    const Real least_slope = Real(kMinSlope) * norm + Real(kTiny);
     const Real bound = max(Real(T(3)) * J, J) * rough_root(norm) * Real(T(1.1547));
     Real e = rough_root(square_of_cofactors + bound) * Real(kAbove);
     const auto cauchy_step = [&] {
-      const Touching at(e, norm, square_of_cofactors, J);
-      const Real root = rough_root(at.slope * at.slope - at.value * at.bend);
+      const LocalQuadratic at(e, norm, square_of_cofactors, J);
+      const Real root = rough_root(at.slope * at.slope - at.value * at.curvature);
       return at.value * rough_inverse(max(at.slope + root, least_slope));
     };
     e -= cauchy_step();
@@ -108,7 +110,7 @@ struct RotationDistance {
       for (int step = 0; step < kInvertedSteps; ++step)
         e -= select(inverted, cauchy_step(), Real(T(0)));
     }
-    const Touching at(e, norm, square_of_cofactors, J);
+    const LocalQuadratic at(e, norm, square_of_cofactors, J);
     e -= Real(T(0.5)) * at.value * rough_inverse(max(at.slope, least_slope));
     const Real f = at.f + Real(T(0.5)) * at.over_f * (norm + e + e - at.f * at.f);
     return {e, f};

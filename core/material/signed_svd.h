@@ -6,9 +6,9 @@
 
 namespace snapspace {
 
-/// F = U diag(s) V^T with rotations U and V: singular values fall, and that of an inverted F shows
-/// as a negative last one [Irving, Teran, Fedkiw 2004]. By one-sided Jacobi rotations [Hestenes
-/// 1958], which find small singular values to full relative precision.
+/// F = U diag(s) V^T with rotations U and V. Singular values descend, and the last one is negative
+/// if F is inverted [Irving, Teran, Fedkiw 2004]. Found by one-sided Jacobi rotations [Hestenes
+/// 1958], which give small singular values to full relative precision.
 struct SignedSvd {
   double U[3][3], s[3], V[3][3];
 
@@ -19,26 +19,26 @@ struct SignedSvd {
         A[r][c] = F[r][c];
         V[r][c] = r == c ? 1.0 : 0.0;
       }
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-      const int turns = turn(A, 0, 1) + turn(A, 0, 2) + turn(A, 1, 2);
-      if (turns == 0) break;
+    for (int sweep = 0; sweep < kMaxSweeps; ++sweep) {
+      const int rotations = rotate(A, 0, 1) + rotate(A, 0, 2) + rotate(A, 1, 2);
+      if (rotations == 0) break;
     }
     sort(A);
     make_u(A);
   }
 
  private:
-  static constexpr int kMostSweeps = 20;
+  static constexpr int kMaxSweeps = 20;
   static constexpr double kOrthogonal = 1e-16;
-  /// Singular values below this share of the largest have no direction of their own.
-  static constexpr double kNothing = 1e-14;
+  /// Singular values below this share of the largest have no well-defined direction.
+  static constexpr double kNegligible = 1e-14;
 
   static double product(const double A[3][3], int p, int q) {
     return A[0][p] * A[0][q] + A[1][p] * A[1][q] + A[2][p] * A[2][q];
   }
 
-  /// Makes two columns orthogonal; whether they were not.
-  bool turn(double A[3][3], int p, int q) {
+  /// Makes two columns orthogonal. Returns whether they were not.
+  bool rotate(double A[3][3], int p, int q) {
     const double a = product(A, p, p), b = product(A, q, q), c = product(A, p, q);
     if (!(std::abs(c) > kOrthogonal * std::sqrt(a * b))) return false;
     const double zeta = (b - a) / (2.0 * c);
@@ -58,7 +58,7 @@ struct SignedSvd {
     for (const auto& [p, q] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)}) {
       if (s[p] >= s[q]) continue;
       std::swap(s[p], s[q]);
-      for (int r = 0; r < 3; ++r) {  // a turn by a quarter: V stays a rotation
+      for (int r = 0; r < 3; ++r) {  // a quarter turn: V stays a rotation
         A[r][q] = -std::exchange(A[r][p], A[r][q]);
         V[r][q] = -std::exchange(V[r][p], V[r][q]);
       }
@@ -74,10 +74,10 @@ struct SignedSvd {
     }
     double first[3], second[3];
     for (int r = 0; r < 3; ++r) first[r] = A[r][0] / s[0];
-    if (s[1] > kNothing * s[0]) {
+    if (s[1] > kNegligible * s[0]) {
       for (int r = 0; r < 3; ++r) second[r] = A[r][1] / s[1];
     } else {
-      // any direction that is far from the first, without its part along that
+      // a coordinate axis far from the first direction, made orthogonal to it
       int axis = 0;
       for (int r = 1; r < 3; ++r)
         if (std::abs(first[r]) < std::abs(first[axis])) axis = r;

@@ -6,8 +6,8 @@
 namespace snapspace {
 
 /// Stable neo-Hookean: psi = mu/2 (|F|^2 - 3) - mu (J - 1) + (lam + mu)/2 (J - 1)^2, J = det F
-/// [Smith, de Goes, Kim 2018], without their barrier at F = 0 and with parameters for which small
-/// strains are those of lam and mu. Polyconvex: a coarse mesh finds back from any inversion.
+/// [Smith, de Goes, Kim 2018], without their barrier at F = 0 and with parameters chosen so that
+/// lam and mu are those of small strains. Polyconvex: a coarse mesh recovers from any inversion.
 struct StableNeoHookean {
   static constexpr const char* kName = "stable-neo-hookean";
   static constexpr int kModuli = 2;
@@ -15,7 +15,7 @@ struct StableNeoHookean {
 
   static Lame small_strains(const double* moduli) { return {moduli[0], moduli[1]}; }
 
-  /// In the displacement gradient, where nothing cancels: the first two terms are mu (|G|^2 / 2 -
+  /// Written in the displacement gradient, nothing cancels: the first two terms are mu (|G|^2 / 2 -
   /// I_2(G) - det G), and P = mu (G + I - cof F) + (lam + mu) (J - 1) cof F.
   template <class Real>
   static Real value_and_stress(const Real* moduli, const Real G[3][3], Real P[3][3]) {
@@ -49,8 +49,8 @@ struct StableNeoHookean {
   /// sum_k w_k psi_k(F A_k), collapsed. With weighted moduli and J = det F it is
   ///   tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const,
   ///   M = sum mu A A^T,  alpha = sum (lam + mu) det(A)^2,  beta = sum (lam + 2 mu) det A.
-  /// In the displacement gradient, where little cancels near pose 0, with gamma = alpha - beta and
-  /// N = M + gamma I, which vanishes for pose 0 alone:
+  /// Written in the displacement gradient, little cancels near pose 0. With gamma = alpha - beta
+  /// and N = M + gamma I, which vanishes for pose 0 alone, it is
   ///   tr(G N) + tr(G M G^T) / 2 + gamma (I_2(G) + det G) + alpha/2 (J - 1)^2 + psi(A).
   struct Blend {
     static constexpr int kNumbers = 9;  ///< N (xx, yy, zz, yz, xz, xy), gamma, alpha, psi(A)

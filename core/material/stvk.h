@@ -5,7 +5,7 @@
 namespace snapspace {
 
 /// St.Venant-Kirchhoff: psi = mu |E|^2 + lam/2 tr(E)^2 of the strain E = (F^T F - I) / 2 [Bonet &
-/// Wood 2007]. It cannot tell an inverted element from its mirror image: psi(F) = psi(-F).
+/// Wood 2007]. It does not distinguish an inverted element from its mirror image: psi(F) = psi(-F).
 struct StVK {
   static constexpr const char* kName = "stvk";
   static constexpr int kModuli = 2;

@@ -10,7 +10,7 @@
 namespace snapspace {
 
 /// Symmetric Dirichlet: psi = mu (|F|^2 + |F^-1|^2 - 6) / 4 [Smith & Schaefer 2015], infinite where
-/// det F <= 0: a line search from a shape without inverted tets never leaves those.
+/// det F <= 0: a line search from a shape without inverted tets never inverts one.
 struct SymmetricDirichlet {
   static constexpr const char* kName = "symmetric-dirichlet";
   static constexpr int kModuli = 1;
@@ -56,12 +56,12 @@ struct SymmetricDirichlet {
     return select(valid, value, Real(std::numeric_limits<T>::infinity()));
   }
 
-  /// g = mu/2 (s - s^-3). Smaller stretches count as kLeastStretch: with s^-4 beyond 1e8 the factor
-  /// of a preconditioner would lose its digits.
+  /// g = mu/2 (s - s^-3). Stretches below kMinStretch count as kMinStretch: with s^-4 beyond
+  /// 1e8 the factor of a preconditioner would lose its digits.
   static PrincipalCurvature curvature(const double* moduli, const double stretches[3]) {
     const double half_mu = 0.5 * moduli[0];
     double s[3];
-    for (int i = 0; i < 3; ++i) s[i] = std::max(stretches[i], kLeastStretch);
+    for (int i = 0; i < 3; ++i) s[i] = std::max(stretches[i], kMinStretch);
     PrincipalCurvature result = {};
     for (int i = 0; i < 3; ++i) {
       const double square = s[i] * s[i];
@@ -75,7 +75,7 @@ struct SymmetricDirichlet {
   }
 
  private:
-  static constexpr double kLeastStretch = 0.01;
+  static constexpr double kMinStretch = 0.01;
 };
 
 }  // namespace snapspace

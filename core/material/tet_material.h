@@ -3,8 +3,8 @@
 
 namespace snapspace {
 
-/// The material of some tets: a density, and its moduli, the same for all or tet by tet. It refers
-/// to arrays of others.
+/// The material of some tets: a density and its moduli, the same for all tets or tet by tet. A
+/// view: it does not own the moduli.
 struct TetMaterial {
   int kind;              ///< index among Densities
   int rows;              ///< 1, or the number of tets

@@ -9,13 +9,13 @@ namespace snapspace {
 
 namespace {
 
-/// @param sink  keeps the compiler from leaving the work out
+/// @param sink  keeps the compiler from removing the work
 template <class Real>
 double peak_flops_of(int repeats, volatile double& sink) {
   constexpr int kChains = 12, kSteps = 200'000;
   Real sums[kChains];
   for (int i = 0; i < kChains; ++i) sums[i] = Real(static_cast<typename Real::Scalar>(i));
-  // factors that the compiler does not know
+  // factors unknown to the compiler
   Real factor(static_cast<typename Real::Scalar>(sink)), shift(factor);
   const double seconds = shortest_time(repeats, [&] {
     for (int step = 0; step < kSteps; ++step)
@@ -37,7 +37,7 @@ double read_bandwidth(std::size_t bytes, int repeats) {
   volatile double sink = 0.0;
   using Real = Lanes<kWideLanes>;
   const std::vector<Real> data(bytes / sizeof(Real), Real(1.0));
-  // read anew each time, so that the compiler cannot know that nothing has changed
+  // volatile, so the compiler cannot assume that nothing has changed
   const Real* volatile source = data.data();
   const double seconds = shortest_time(repeats, [&] {
     const Real* from = source;

@@ -3,8 +3,8 @@
 
 namespace snapspace {
 
-/// Floating-point operations per second of one thread: products and sums in registers that do not
-/// wait for each other. The bound of any kernel of this precision on this build.
+/// Floating-point operations per second of one thread: independent products and sums in registers.
+/// An upper bound for any kernel of this precision in this build.
 [[nodiscard]] double peak_flops(bool single, int repeats);
 
 /// Bytes per second that one thread reads from an array of this size.

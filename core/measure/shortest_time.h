@@ -4,7 +4,7 @@
 
 namespace snapspace {
 
-/// Shortest of several runs of work(), in seconds: what the machine can do when nothing disturbs.
+/// Shortest of several runs of work(), in seconds: the time when nothing disturbs the machine.
 template <class Work>
 [[nodiscard]] double shortest_time(int repeats, Work&& work) {
   double best = 1e300;

@@ -23,17 +23,17 @@ PartTimes times_of(const PosingSystem& system, const std::vector<double>& shape,
   std::vector<Single> vector(size, Single(1.0f));
   const LaneObjectives objectives = system.lanes();
   const auto objective = objectives.objective<Real>(1);
-  SweepVisitor nobody;
+  SweepVisitor idle;
   PartTimes times;
   times.kernel_seconds = shortest_time(
-      repeats, [&] { (void)objective->value_and_gradient(u.data(), gradient.data(), nobody); });
+      repeats, [&] { (void)objective->value_and_gradient(u.data(), gradient.data(), idle); });
   times.solve_seconds = shortest_time(repeats, [&] {
     std::fill(vector.begin(), vector.end(), Single(1.0f));
     objective->precondition(vector.data(), vector.data());
   });
   times.kernel_flops =
       kKernelFlopsPerTet * static_cast<double>(system.energy.rest.tets.size()) * Real::kWidth;
-  // a product and a sum each, per component and lane
+  // one product and one sum each, per component and lane
   times.solve_flops = 6.0 * static_cast<double>(system.inverse.products()) * Real::kWidth;
   return times;
 }

@@ -5,8 +5,8 @@
 
 namespace snapspace {
 
-/// Seconds that the two large parts of an L-BFGS step take on one thread for a pack of samples, and
-/// the floating-point operations that they need.
+/// Times in seconds of the two large parts of an L-BFGS step on one thread for a pack of samples,
+/// and their floating-point operations.
 struct PartTimes {
   double kernel_seconds = 0.0;  ///< objective and gradient
   double solve_seconds = 0.0;   ///< both triangular solves, or a multigrid cycle
@@ -14,7 +14,7 @@ struct PartTimes {
   double solve_flops = 0.0;
 };
 
-/// For the widest pack.
+/// Measures the parts with the widest pack.
 /// @param shape  3n displacements in the system's numbering, in all lanes
 [[nodiscard]] PartTimes time_parts(const PosingSystem& system, const std::vector<double>& shape,
                                    bool single, int repeats);

@@ -9,7 +9,7 @@ namespace snapspace {
 /// Memory for intermediate arrays of any type, kept from one use to the next.
 class Scratch {
  public:
-  /// An array with whatever was in it. Invalidates the one before.
+  /// An array with undefined content. Invalidates the one before.
   template <class T>
   [[nodiscard]] T* array(std::size_t count) {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);

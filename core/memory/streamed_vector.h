@@ -9,8 +9,8 @@
 
 namespace snapspace {
 
-/// Asks for huge pages where an array has many: a solver that streams tens of arrays of megabytes
-/// otherwise waits for the translation of addresses. Other systems decide for themselves.
+/// Requests huge pages for large arrays on Linux: a solver that streams dozens of arrays of
+/// megabytes otherwise waits for address translation. Other systems decide for themselves.
 template <class T>
 struct HugePages {
   using value_type = T;

@@ -6,7 +6,7 @@
 
 namespace snapspace {
 
-/// The tets around every vertex, in their order.
+/// The tets around each vertex, in ascending order.
 class Incidence {
  public:
   /// @param corner  corner(tet, k) is the k-th vertex of a tet, k from 0 to 3
@@ -27,7 +27,7 @@ class Incidence {
   }
 
  private:
-  std::vector<std::int32_t> first_, tets_;  // those of v are [first_[v], first_[v + 1])
+  std::vector<std::int32_t> first_, tets_;  // v has tets_[first_[v]] to before tets_[first_[v + 1]]
 };
 
 }  // namespace snapspace

@@ -12,10 +12,10 @@ namespace snapspace {
 
 namespace {
 
-/// Walks from end to end of a component. After two or three the ends are as far apart as they get.
+/// Walks from end to end of a component. After two or three of them the ends no longer move apart.
 constexpr int kWalks = 4;
 
-/// Vertices of one component, breadth first from `root`. Those that are seen have the mark.
+/// Vertices of one component, breadth first from `root`. Every vertex that is found gets the mark.
 std::vector<std::int32_t> breadth_first(std::int32_t root, const Incidence& incidence,
                                         const std::int32_t* corners, std::int32_t mark,
                                         std::vector<std::int32_t>& marks) {
@@ -56,8 +56,8 @@ LocalMesh::LocalMesh(const double* old_vertices, int n, const std::int32_t* old_
     places[order[i]] = i;
     std::copy_n(old_vertices + 3 * order[i], 3, vertices.begin() + 3 * i);
   }
-  // By the last vertex, then the one before: a pass over the tets then needs one vertex after the
-  // other.
+  // Sort by the last vertex, then by the one before it: a pass over the tets then needs one vertex
+  // after the other.
   struct Tet {
     std::array<std::int32_t, 4> key, corners;
     std::int32_t old;
@@ -74,7 +74,7 @@ LocalMesh::LocalMesh(const double* old_vertices, int n, const std::int32_t* old_
   }
   std::partial_sum(next.begin(), next.end(), next.begin());
   for (const Tet& tet : read) sorted[next[tet.key[0]]++] = tet;
-  // next[v] has become the end of the tets whose last vertex is v
+  // next[v] is now the end of the tets whose last vertex is v
   for (int v = 0, begin = 0; v < n; begin = next[v++])
     std::stable_sort(sorted.begin() + begin, sorted.begin() + next[v],
                      [](const Tet& a, const Tet& b) { return a.key < b.key; });

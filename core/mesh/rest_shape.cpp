@@ -55,13 +55,13 @@ Eigen::SparseMatrix<double> RestShape::laplacian(const std::vector<double>& stif
 }
 
 Eigen::SparseMatrix<double> RestShape::assembled(const std::vector<Eigen::Matrix4d>& locals) const {
-  // Column by column from the tets around its vertex: triplets of all entries would be seven times
-  // as many bytes as the matrix, and new memory is slow.
+  // Each column is summed from the tets around its vertex. Triplets of all entries would take seven
+  // times as many bytes as the matrix, and new memory is slow.
   const Incidence incidence(vertex_count, static_cast<int>(tets.size()),
                             [&](int tet, int k) { return tets[tet].vertices[k]; });
   Eigen::SparseMatrix<double> A(vertex_count, vertex_count);
   std::vector<double> sums(vertex_count, 0.0);
-  std::vector<std::int32_t> last(vertex_count, -1), rows;  // the last column that has the row
+  std::vector<std::int32_t> last(vertex_count, -1), rows;  // last: the last column that has the row
   for (std::int32_t column = 0; column < vertex_count; ++column) {
     rows.clear();
     for (const std::int32_t tet : incidence.around(column)) {

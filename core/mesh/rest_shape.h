@@ -15,7 +15,7 @@ namespace snapspace {
 struct RestShape {
   StreamedVector<RestTet> tets;
   StreamedVector<RestTetOf<float>> single_tets;  ///< the same, for packs in single precision
-  std::vector<SweepStop> stops;                  ///< of a pass over the tets
+  std::vector<SweepStop> stops;                  ///< stops of a pass over the tets
   int vertex_count = 0;
 
   /// @param vertices  n x 3, row-major   @param tets  m x 4, row-major, none without volume
@@ -33,11 +33,11 @@ struct RestShape {
   /// Volume of all tets.
   [[nodiscard]] double volume() const;
 
-  /// A fourth of the volume of its tets for every vertex, as a share of the whole.
+  /// A quarter of the volume of the tets at each vertex, as a share of the whole volume.
   [[nodiscard]] std::vector<float> lumped_shares() const;
 
   /// Scalar stiffness matrix of the linear elements (the cotangent Laplacian of tets), n x n,
-  /// positive semi-definite, with a stiffness for every tet.
+  /// positive semi-definite, with one stiffness per tet.
   [[nodiscard]] Eigen::SparseMatrix<double> laplacian(const std::vector<double>& stiffness) const;
 
   /// n x n matrix that is the sum of one 4 x 4 matrix per tet.

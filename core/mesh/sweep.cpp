@@ -6,8 +6,8 @@ namespace snapspace {
 
 namespace {
 
-/// About a dozen vertices come and go between two stops: with all their vectors a part of the
-/// first cache.
+/// About a dozen vertices come and go between two stops. All their vectors together take a part of
+/// the first-level cache.
 constexpr int kTetsPerStop = 64;
 
 }  // namespace
@@ -22,7 +22,7 @@ std::vector<SweepStop> sweep_stops(const std::int32_t* corners, int tet_count, i
     for (int i = 4 * begin; i < 4 * stops[k].tets; ++i) reached = std::max(reached, corners[i] + 1);
     stops[k].reached = reached;
   }
-  stops.back().reached = vertex_count;  // some may be in no tet
+  stops.back().reached = vertex_count;  // some vertices may be in no tet
   std::int32_t complete = vertex_count;
   for (std::size_t k = stops.size(); k-- > 0;) {
     stops[k].complete = std::min(complete, stops[k].reached);

@@ -14,7 +14,7 @@ void each_neighbour(const Matrix& A, std::int32_t v, Visit visit) {
     visit(static_cast<std::int32_t>(entry.row()));
 }
 
-/// A new aggregate of an unknown and those around it that are in none.
+/// Begins an aggregate with an unknown and those of its neighbours that are in none yet.
 void begin_aggregate(const Matrix& A, std::int32_t v, Aggregates& aggregates) {
   each_neighbour(A, v, [&](std::int32_t w) {
     if (aggregates.of[w] == kNone) aggregates.of[w] = aggregates.count;

@@ -9,11 +9,12 @@ namespace snapspace {
 /// unknown of a coarser grid.
 struct Aggregates {
   std::vector<std::int32_t> of;  ///< the aggregate of every unknown
-  std::int32_t count = 0;        ///< numbered by the unknowns that they began with
+  std::int32_t count = 0;        ///< in the order of the unknowns that they began with
 };
 
-/// Unknowns with all their neighbours, as far as they do not overlap; what is between them joins
-/// one of them (Vanek, Mandel, Brezina 1996, sec. 5.1, with all neighbours taken for strong).
+/// Aggregates are unknowns with all their neighbours, where these do not overlap; the unknowns in
+/// between join a neighbouring aggregate (Vanek, Mandel, Brezina 1996, sec. 5.1, with all
+/// neighbours taken for strong).
 /// @param A  both triangles stored; only the pattern is read
 [[nodiscard]] Aggregates aggregated(const Eigen::SparseMatrix<double>& A);
 

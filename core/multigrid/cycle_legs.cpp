@@ -15,7 +15,7 @@ void TwoGridCycle::subtract(const Link* link, const Link* end, const Real* x, Po
   y.add(odd);
 }
 
-/// From x = 0: later neighbours do not count yet.
+/// Starts from x = 0, so later neighbours do not count yet.
 template <class Real>
 void TwoGridCycle::sweep_down(std::int32_t i, const Real* b, Real* x) const {
   Point<Real> y = scaled(b, i);
@@ -23,7 +23,7 @@ void TwoGridCycle::sweep_down(std::int32_t i, const Real* b, Real* x) const {
   y.store(x + 3 * std::size_t(i));
 }
 
-/// The equation held when the sweep was here; only later neighbours have moved since.
+/// The equation held when the sweep passed; only later neighbours have changed since.
 template <class Real>
 void TwoGridCycle::restrict_residual(std::int32_t i, const Real* x, Real* coarse) const {
   auto residual = Point<Real>::zero();  // over a_ii
@@ -51,14 +51,14 @@ Sum<Real> TwoGridCycle::sweep_up(std::int32_t i, const Real* b, Real* x, Real* s
   subtract(links_.data() + rows_[i].links, links_.data() + rows_[i + 1].links, x, y);
   const std::size_t at = 3 * std::size_t(i);
   y.store(x + at);
-  Real product(0);  // of one vertex: it may be added in the precision of the entries
+  Real product(0);  // one vertex only, so the precision of the entries suffices
   for (int c = 0; c < 3; ++c) product += b[at + c] * x[at + c];
-  y.store(solution + at);  // perhaps b's place
+  y.store(solution + at);  // may be b's memory
   return widened(product);
 }
 
-// The two parts of a leg follow each other through the mesh, at the distance of a front of its
-// numbering: a vertex is still in a cache when the second comes to it.
+// The two parts of a leg follow each other through the mesh, one front of its numbering apart: a
+// vertex is still in a cache when the second part reaches it.
 
 template <class Real>
 void TwoGridCycle::descend(const Real* b, Real* x, Real* coarse) const {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kSteps = 16;
 
-/// The entries of x; y and z are zero, as the right-hand side is a scalar one.
+/// The cycle times a scalar vector: its entries are those of x, and y and z are zero.
 Eigen::VectorXd applied(const TwoGridCycle& cycle, const Eigen::VectorXd& vector,
                         Scratch& scratch) {
   std::vector<double> points(3 * vector.size(), 0.0);
@@ -23,7 +23,7 @@ Eigen::VectorXd applied(const TwoGridCycle& cycle, const Eigen::VectorXd& vector
   return Eigen::Map<const Eigen::VectorXd, 0, Eigen::InnerStride<3>>(points.data(), vector.size());
 }
 
-Eigen::VectorXd at_random(Eigen::Index size) {
+Eigen::VectorXd random_vector(Eigen::Index size) {
   Eigen::VectorXd vector(size);
   PseudoRandom next;
   for (double& entry : vector) entry = next();
@@ -34,16 +34,16 @@ Eigen::VectorXd at_random(Eigen::Index size) {
 
 double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A, const TwoGridCycle& cycle) {
   Scratch scratch;
-  Eigen::VectorXd residual = at_random(A.cols()), image = applied(cycle, residual, scratch);
+  Eigen::VectorXd residual = random_vector(A.cols()), image = applied(cycle, residual, scratch);
   Eigen::VectorXd search = image;
-  std::vector<double> diagonal, beside;  // of the tridiagonal matrix of Lanczos' method
+  std::vector<double> diagonal, off_diagonal;  // of the tridiagonal matrix of Lanczos' method
   double norm = residual.dot(image), ratio = 0.0, step = 1.0;
   const double negligible = 1e-20 * norm;
   while (static_cast<int>(diagonal.size()) < kSteps && norm > negligible) {
     const Eigen::VectorXd product = A * search;
     const double before = ratio / step;
     step = norm / search.dot(product);
-    if (!diagonal.empty()) beside.push_back(before / std::sqrt(ratio));
+    if (!diagonal.empty()) off_diagonal.push_back(before / std::sqrt(ratio));
     diagonal.push_back(1.0 / step + before);
     residual -= step * product;
     image = applied(cycle, residual, scratch);
@@ -56,7 +56,7 @@ double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A, const TwoGridCycl
   SquareMatrix lanczos(static_cast<int>(diagonal.size()));
   for (int i = 0; i < lanczos.size; ++i) {
     lanczos(i, i) = diagonal[i];
-    if (i > 0) lanczos(i, i - 1) = beside[i - 1];
+    if (i > 0) lanczos(i, i - 1) = off_diagonal[i - 1];
   }
   return symmetric_eigen(std::move(lanczos)).values.front();
 }

@@ -5,8 +5,8 @@
 
 namespace snapspace {
 
-/// The lowest eigenvalue of cycle * A, from above: the lowest Ritz value of a few steps of
-/// conjugate gradients (Saad 2003, sec. 6.7.3). One over it bounds the condition number.
+/// Estimates the lowest eigenvalue of cycle * A from above: the lowest Ritz value after a few steps
+/// of conjugate gradients (Saad 2003, sec. 6.7.3). Its inverse estimates the condition number.
 [[nodiscard]] double lowest_eigenvalue(const Eigen::SparseMatrix<double>& A,
                                        const TwoGridCycle& cycle);
 

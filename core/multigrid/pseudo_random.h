@@ -3,7 +3,7 @@
 
 namespace snapspace {
 
-/// Numbers in [-1, 1), the same everywhere, for vectors to start an iteration with.
+/// Numbers in [-1, 1), the same on every machine, for the start vectors of iterations.
 class PseudoRandom {
  public:
   double operator()() {

@@ -15,12 +15,11 @@ namespace snapspace {
 /// A multigrid cycle in place of the inverse of a scalar n x n matrix A, applied to x, y, z (and to
 /// all lanes) at once: a Gauss-Seidel sweep, smoothed aggregation to a coarse grid (Vanek, Mandel,
 /// Brezina 1996) with a Cholesky factor there, and a sweep back.
-///
-/// The coarse grid has a fifteenth of the unknowns, so that its factor hardly counts: a cycle costs
-/// the same per vertex in small and large meshes, where the triangular solves of a solid body grow
-/// like n^(4/3). It is symmetric and positive definite, since Gauss-Seidel converges for every such
-/// A, and never further than A^-1: eigenvalues of cycle * A are in (0, 1]. How near to 1 depends on
-/// the shapes of the elements and not on their number.
+/// The coarse grid has a fifteenth of the unknowns, so the cost of its factor is negligible: a
+/// cycle costs the same per vertex in small and large meshes, whereas the triangular solves of a
+/// solid body grow like n^(4/3). The cycle is symmetric and positive definite, since Gauss-Seidel
+/// converges for every such A, and at most A^-1: eigenvalues of cycle * A are in (0, 1]. How near
+/// to 1 they are depends on the shapes of the elements, not on their number.
 class TwoGridCycle {
  public:
   /// @param A  symmetric positive definite, both triangles and the diagonal stored, numbered so
@@ -30,7 +29,7 @@ class TwoGridCycle {
 
   [[nodiscard]] std::size_t size() const { return inverse_diagonal_.size(); }
   [[nodiscard]] std::size_t coarse_size() const { return coarse_.size(); }
-  /// Multiplications per component of a right-hand side, but for the diagonals.
+  /// Multiplications per component of a right-hand side, without those by the diagonals.
   [[nodiscard]] std::size_t products() const {
     return 2 * (links_.size() + parents_.size() + coarse_.nonzeros());
   }
@@ -46,7 +45,7 @@ class TwoGridCycle {
     std::int32_t vertex;
     float weight;
   };
-  /// Where a vertex' links are: those to earlier neighbours, to later ones, and to parents.
+  /// Where a vertex's links begin: those to earlier neighbours, to later ones, and to parents.
   struct Row {
     std::int32_t links, later, parents;
   };
@@ -79,16 +78,16 @@ class TwoGridCycle {
   template <class Real>
   Sum<Real> ascend(const Real* coarse, const Real* b, Real* x, Real* solution) const;
 
-  /// Vertices that the first part of a leg goes ahead with at a time.
+  /// Vertices by which the first part of a leg advances at a time.
   static constexpr std::int32_t kRows = 32;
 
   ScalarFactor coarse_;
   StreamedVector<float> inverse_diagonal_;
-  std::vector<Row> rows_;            // and one behind the last
+  std::vector<Row> rows_;            // and one past the last
   StreamedVector<Link> links_;       // a_ij / a_ii of the neighbours j, ascending
   StreamedVector<Link> parents_;     // the prolongation
-  std::vector<std::int32_t> first_;  // of the neighbours of a vertex and of those behind it
-  std::vector<std::int32_t> last_;   // of a vertex and of those before it
+  std::vector<std::int32_t> first_;  // first neighbour of a vertex and of all later ones
+  std::vector<std::int32_t> last_;   // last neighbour of a vertex and of all earlier ones
 };
 
 #define SNAPSPACE_DECLARED(Real) \

@@ -4,8 +4,8 @@
 
 namespace snapspace::online {
 
-/// Zeros at first, at an address that is a multiple of 64: no pack of its numbers straddles two
-/// cache lines.
+/// An array, initially zero, at an address that is a multiple of 64: no pack of its numbers
+/// straddles two cache lines.
 template <class T>
 class AlignedArray {
  public:

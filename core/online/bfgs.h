@@ -12,8 +12,8 @@
 namespace snapspace::online {
 
 /// BFGS on the inverse Hessian (Nocedal & Wright 2006, alg. 6.1) with a line search for the weak
-/// Wolfe conditions, which keep the inverse positive definite. All memory is taken in the
-/// constructor.
+/// Wolfe conditions, which keep the inverse positive definite. The constructor allocates all
+/// memory.
 class Bfgs {
  public:
   explicit Bfgs(int capacity)
@@ -25,8 +25,8 @@ class Bfgs {
         change_(capacity),
         product_(capacity) {}
 
-  /// Minimises objective.value_and_gradient(q, g) over q (d), in place; q never gets a worse or
-  /// non-finite value.
+  /// Minimises objective.value_and_gradient(q, g) over q (d), in place. The value at q never gets
+  /// worse or non-finite.
   /// @param initial_inverse  d x d, symmetric positive definite
   Report minimize(Objective& objective, int d, double* q, const double* initial_inverse,
                   const Termination& stop);
@@ -66,7 +66,7 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
   };
   reset();
   bool pristine = true;
-  int idle_steps = 0;  // accepted steps in a row that did not change the value
+  int idle_steps = 0;  // consecutive accepted steps that did not change the value
   while (report.iterations < stop.max_iterations) {
     set_direction();
     const double slope = dot(gradient_.data(), direction_.data(), d_);
@@ -79,8 +79,8 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
         report.status = Status::max_evaluations;
         break;
       }
-      // Either the approximation went bad, which a fresh start cures once, or values no longer
-      // resolve a decrease.
+      // Either the approximation is bad, which a restart cures once, or values no longer resolve a
+      // decrease.
       if (pristine) {
         report.status = terminates(stop, report, 0.0, 0.0, std::sqrt(dot(q, q, d_)))
                             ? Status::converged
@@ -105,7 +105,7 @@ inline Report Bfgs::minimize(Objective& objective, int d, double* q, const doubl
       report.status = Status::converged;
       break;
     }
-    if (idle_steps == kMaxIdleSteps) {  // a tolerance below what values resolve
+    if (idle_steps == kMaxIdleSteps) {  // the tolerance is below the resolution of values
       report.status = Status::line_search_failed;
       break;
     }
@@ -135,8 +135,8 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
     const bool finite = std::isfinite(trial_value_) && std::isfinite(trial_slope);
     if (!finite || trial_value_ > report.value + kDecrease * step_ * slope) {
       far = step_;
-      // Minimiser of the parabola through the value and slope at 0 and the value here, while
-      // nothing nearer is known.
+      // Minimiser of the parabola through the value and slope at 0 and the value here, as long as
+      // no nearer point is known.
       const double parabola =
           -0.5 * slope * step_ * step_ / (trial_value_ - report.value - slope * step_);
       const bool usable = finite && near == 0.0 && parabola > 0.1 * step_ && parabola < 0.5 * step_;
@@ -149,7 +149,7 @@ inline bool Bfgs::line_search(Objective& objective, const double* q, Report& rep
     }
   }
   if (near == 0.0) return false;
-  step_ = near;  // enough decrease, though still steep
+  step_ = near;  // sufficient decrease, although still steep
   evaluate(objective, q, step_, report);
   return true;
 }
@@ -166,7 +166,7 @@ inline void Bfgs::update() {
   const double sy = step_ * dot(direction_.data(), change_.data(), d_);
   const double yy = dot(change_.data(), change_.data(), d_);
   const double ss = step_ * step_ * dot(direction_.data(), direction_.data(), d_);
-  // Without enough curvature (possible only where the search ended early) the old inverse is kept.
+  // Without enough curvature (possible only if the search ended early) the old inverse is kept.
   if (!(sy > 1e-14 * std::sqrt(ss * yy))) return;
   for (int i = 0; i < d_; ++i)
     product_[i] = dot(inverse_.data() + static_cast<std::size_t>(i) * d_, change_.data(), d_);

@@ -17,7 +17,8 @@ namespace {
 constexpr int kWidth = TetRows::kWidth;
 constexpr std::int32_t kCorners[4] = {0, 1, 2, 3};
 
-/// Displacement gradient of a tet that moves from one place (4 x 3) to another, against the first.
+/// Displacement gradient of a tet that moves from one position (4 x 3) to another, with respect to
+/// the first.
 void gradient_between(const double* from, const double* to, double G[3][3]) {
   double moved[12];
   for (int i = 0; i < 12; ++i) moved[i] = to[i] - from[i];
@@ -97,7 +98,7 @@ void BlendedCubature::gradients(int block, Tets G[3][3]) const {
 double BlendedCubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
   double values[2] = {0.0, 0.0};
-  run_halves(rows_.size() < kLeastToShare ? nullptr : halves_, [&](int half) {
+  run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
     double value = 0.0;
     for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
       Tets G[3][3], P[3][3];
@@ -118,7 +119,7 @@ BlendedCubature::Tets BlendedCubature::block_value_and_stress(int block, const T
       if constexpr (PoseBlend<Density>::kCollapses)
         return Density::Blend::value_and_stress(blend_.data() + block * numbers_count_, G, P);
       else
-        return Tets(0.0);  // never comes here
+        return Tets(0.0);  // unreachable
     });
   const Tets* numbers = numbers_.data() + static_cast<std::size_t>(block) * poses_ * numbers_count_;
   return sum_over_poses(poses_, moduli_count_, blend_.data(), numbers, G, P,
@@ -133,12 +134,12 @@ void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
                                     double hessian[9][9]) const {
   const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + pose;
   const double* map = maps_.data() + 9 * pair;
-  double A[3][3], there[3][3], change[3][3], stress[3][3];
+  double A[3][3], pose_G[3][3], change[3][3], stress[3][3];
   for (int e = 0; e < 9; ++e) A[e / 3][e % 3] = map[e] + (e % 4 == 0 ? 1.0 : 0.0);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c)
-      there[r][c] = map[3 * r + c] + G[r][0] * A[0][c] + G[r][1] * A[1][c] + G[r][2] * A[2][c];
-  const PrincipalHessian principal({kind_, 1, moduli_.data() + moduli_count_ * pair}, 0, there);
+      pose_G[r][c] = map[3 * r + c] + G[r][0] * A[0][c] + G[r][1] * A[1][c] + G[r][2] * A[2][c];
+  const PrincipalHessian principal({kind_, 1, moduli_.data() + moduli_count_ * pair}, 0, pose_G);
   for (int e = 0; e < 9; ++e) {
     for (int f = 0; f < 9; ++f) change[f / 3][f % 3] = f / 3 == e / 3 ? A[e % 3][f % 3] : 0.0;
     principal.multiply(change, stress);

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "material/tet_material.h"
-#include "online/halves.h"
+#include "online/half_runner.h"
 #include "online/tet_rows.h"
 
 namespace snapspace::online {
@@ -11,21 +11,20 @@ namespace snapspace::online {
 struct PoseTets {
   int poses;
   const double* corners;  ///< poses x tets x 4 x 3: the tets in each pose, none without volume
-  const double* tau;      ///< tets x 4 x 3: the tets where the reduced coordinates vanish
+  const double* tau;      ///< tets x 4 x 3: the tets at zero reduced coordinates
 };
 
-/// The blended energy sum_k w_k E_k of several poses as a weighted sum over few tets, for any
-/// density: the same tets for all poses. See PoseBlend for what a tet's energy is.
-///
+/// The blended energy sum_k w_k E_k of several poses as a weighted sum over few tets, the same for
+/// all poses, and for any density. See PoseBlend for the energy of a tet.
 /// A density that collapses is evaluated once per tet, for any number of poses; the others once per
-/// pose. Takes no memory after construction.
+/// tet and pose. Allocates no memory after construction.
 class BlendedCubature {
  public:
-  static constexpr bool kHessianIsDear = true;
+  static constexpr bool kHessianIsExpensive = true;
 
-  /// Copies its arrays. The weights of the poses are zero at first.
+  /// Copies its arrays. The weights of the poses are initially zero.
   /// @param rows  tets x 9 x dimension, displacement gradients of the modes against pose 0
-  /// @param weights  tets, the volume in pose 0 that each stands for
+  /// @param weights  tets, the volume in pose 0 that each represents
   /// @param material  of these tets
   BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
                   const TetMaterial& material, const PoseTets& poses);
@@ -37,11 +36,11 @@ class BlendedCubature {
   /// Restricts the energy to the first coordinates, 1 <= dimension <= capacity.
   void set_dimension(int dimension) { rows_.set_dimension(dimension); }
 
-  /// Takes the weights of the poses.
+  /// Sets the weights of the poses.
   void set_weights(const double* weights);
 
-  /// Who runs large evaluations from now on; null for this thread alone. The result is the same.
-  void set_halves(Halves* halves) { halves_ = halves; }
+  /// Sets the runner of large evaluations; null for this thread alone. Results are the same.
+  void set_half_runner(HalfRunner* runner) { half_runner_ = runner; }
 
   /// Value at q (d); `gradient` (d) is overwritten.
   double value_and_gradient(const double* q, double* gradient);
@@ -50,7 +49,8 @@ class BlendedCubature {
   double derivatives(const double* q, double* gradient, double* hessian);
 
   [[nodiscard]] int tets() const { return rows_.tets(); }
-  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9, with weights.
+  /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
+  /// 9.
   void curvatures(const double* q, float* hessians);
 
  private:
@@ -64,15 +64,15 @@ class BlendedCubature {
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
 
   TetRows rows_;
-  Halves* halves_ = nullptr;
+  HalfRunner* half_runner_ = nullptr;
   int kind_, poses_;
   bool collapses_;
-  int numbers_count_, moduli_count_;   // of a tet and pose
+  int numbers_count_, moduli_count_;   // per tet and pose
   std::vector<double> weights_;        // of the poses
   std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau
   std::vector<double> maps_, moduli_;  // tet, pose: A - I, and the moduli times volume
   std::vector<Tets> numbers_;          // block, pose: see PoseBlend
-  std::vector<Tets> blend_;            // block: numbers of all poses together, or their weights
+  std::vector<Tets> blend_;            // block: numbers summed over the poses, or the weights
 };
 
 }  // namespace snapspace::online

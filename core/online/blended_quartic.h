@@ -6,14 +6,14 @@
 namespace snapspace::online {
 
 /// The blended energy sum_k w_k E_k of several poses, one quartic per pose. The coefficients are
-/// combined once per change of the weights; from then on a single quartic is evaluated, whatever
-/// the number of poses. Takes no memory after construction.
+/// combined once per change of the weights; then a single quartic is evaluated, for any number of
+/// poses. Allocates no memory after construction.
 class BlendedQuartic {
  public:
-  static constexpr bool kHessianIsDear = Quartic::kHessianIsDear;
+  static constexpr bool kHessianIsExpensive = Quartic::kHessianIsExpensive;
 
   /// Keeps a pointer to the coefficients, poses x quartic_count(dimension + 1). The weights are
-  /// zero at first.
+  /// initially zero.
   BlendedQuartic(int dimension, int poses, const double* coefficients,
                  Storage storage = Storage::double_precision)
       : poses_(poses), coefficients_(coefficients), sum_(dimension, storage) {}
@@ -24,7 +24,7 @@ class BlendedQuartic {
 
   /// Restricts the energy to the first coordinates, 1 <= dimension <= capacity.
   void set_dimension(int dimension) { sum_.set_dimension(dimension); }
-  /// Takes the weights of the poses.
+  /// Sets the weights of the poses.
   void set_weights(const double* weights) { sum_.combine(poses_, weights, coefficients_); }
 
   double value_and_gradient(const double* q, double* gradient) {

@@ -7,32 +7,32 @@
 
 namespace snapspace::online {
 
-/// Minimises the reduced interpolation energy sum_k w_k E_k(q) frame by frame. Takes no memory
+/// Minimises the reduced interpolation energy sum_k w_k E_k(q) frame by frame. Allocates no memory
 /// after construction.
 /// @tparam Elastic  BlendedQuartic or BlendedCubature
 template <class Elastic>
 class BlendingSolver final : public Objective {
  public:
-  /// The weights are equal at first.
+  /// The weights are initially equal.
   explicit BlendingSolver(Elastic elastic)
       : elastic_(std::move(elastic)),
         weights_(elastic_.poses(), 1.0 / elastic_.poses()),
         equal_(weights_),
-        minimizer_(elastic_.dimension(), elastic_.poses(), Elastic::kHessianIsDear) {
+        minimizer_(elastic_.dimension(), elastic_.poses(), Elastic::kHessianIsExpensive) {
     elastic_.set_weights(equal_.data());
     valid_ = minimizer_.prepare(*this, dimension()) != Start::none;
   }
 
-  /// False if no multiple of the identity makes the Hessian at the mean shape, q = 0 at equal
-  /// weights, positive definite: a solve has then no matrix to start from. The mean shape of poses
-  /// that are far apart may be a saddle of the reduced energy, which is no error.
+  /// False if no small multiple of the identity makes the Hessian at the mean shape, q = 0 at equal
+  /// weights, positive definite: a solve then has no matrix to start from. The mean shape of poses
+  /// that are far apart may be a saddle of the reduced energy, which is not an error.
   [[nodiscard]] bool valid() const { return valid_; }
 
   [[nodiscard]] int poses() const { return elastic_.poses(); }
   [[nodiscard]] int dimension() const { return elastic_.dimension(); }
   [[nodiscard]] int capacity() const { return elastic_.capacity(); }
 
-  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights stay.
+  /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights are kept.
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
     elastic_.set_weights(equal_.data());
@@ -40,7 +40,7 @@ class BlendingSolver final : public Objective {
     elastic_.set_weights(weights_.data());
   }
 
-  /// Takes the weights of the poses.
+  /// Sets the weights of the poses.
   void set_weights(const double* weights) {
     weights_.assign(weights, weights + poses());
     elastic_.set_weights(weights);
@@ -50,12 +50,13 @@ class BlendingSolver final : public Objective {
     return elastic_.value_and_gradient(q, gradient);
   }
 
-  /// The lower triangle of the Hessian, too.
+  /// Also writes the lower triangle of the Hessian.
   double derivatives(const double* q, double* gradient, double* hessian) override {
     return elastic_.derivatives(q, gradient, hessian);
   }
 
-  /// From q, in place, or from where a drag that q is the last frame of arrives.
+  /// Solves from q, in place. If q is the last frame of a drag, the solve starts where the drag is
+  /// extrapolated to.
   Report solve(double* q, Method method, const Termination& stop) {
     return minimizer_.minimize(*this, weights_.data(), method, q, stop);
   }

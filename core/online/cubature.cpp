@@ -22,7 +22,7 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
 double Cubature::value_and_gradient(const double* q, double* gradient) {
   rows_.begin(q);
   double values[2] = {0.0, 0.0};
-  run_halves(rows_.size() < kLeastToShare ? nullptr : halves_, [&](int half) {
+  run_halves(rows_.size() < kMinSharedSize ? nullptr : half_runner_, [&](int half) {
     double value = 0.0;
     for (int b = rows_.half_begin(half); b < rows_.half_begin(half + 1); ++b) {
       Tets G[3][3], P[3][3];
@@ -36,14 +36,14 @@ double Cubature::value_and_gradient(const double* q, double* gradient) {
   return values[0] + values[1];
 }
 
-/// Hessians (9 x 9) of a block's tets by their displacement gradients, times weight; zero for lanes
+/// Weighted Hessians (9 x 9) of a block's tets by their displacement gradients; zero for lanes
 /// without a tet.
 void Cubature::block_curvatures(int block, Tets hessian[9][9]) const {
   Tets G[3][3];
   rows_.gradients(block, G);
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
-    double moduli[kMostModuli], gradient[3][3], unit[3][3], column[3][3];
+    double moduli[kMaxModuli], gradient[3][3], unit[3][3], column[3][3];
     for (int k = 0; k < moduli_count_; ++k) moduli[k] = moduli_[block * moduli_count_ + k][lane];
     for (int e = 0; e < 9; ++e) gradient[e / 3][e % 3] = G[e / 3][e % 3][lane];
     const PrincipalHessian tet({kind_, 1, moduli}, 0, gradient);

@@ -2,25 +2,24 @@
 #include <vector>
 
 #include "material/tet_material.h"
-#include "online/halves.h"
+#include "online/half_runner.h"
 #include "online/tet_rows.h"
 
 namespace snapspace::online {
 
-/// An elastic energy as a weighted sum over few tets: E(q) = sum_e w_e psi_e(G_e q), where G_e
-/// (9 x d) makes the displacement gradient of tet e from the reduced coordinates, for any density.
-///
-/// With positive weights (cubature [An, Kim & James 2008]) it is as bounded below as the material.
-/// An evaluation costs 18 r d multiply-adds for r tets, see TetRows. Takes no memory after
+/// An elastic energy as a weighted sum over few tets, for any density: E(q) = sum_e w_e psi_e(G_e
+/// q), where G_e (9 x d) maps the reduced coordinates to the displacement gradient of tet e.
+/// With positive weights (cubature [An, Kim & James 2008]) it is bounded below if the density is.
+/// An evaluation costs 18 r d multiply-adds for r tets, see TetRows. Allocates no memory after
 /// construction.
 class Cubature {
  public:
   /// Whether a Hessian costs much more than a gradient.
-  static constexpr bool kHessianIsDear = true;
+  static constexpr bool kHessianIsExpensive = true;
 
   /// Copies its arrays.
-  /// @param rows  tets x 9 x dimension; entry 3 a + b of the second is d u_a / d x_b
-  /// @param weights  tets, the volume that each stands for
+  /// @param rows  tets x 9 x dimension; entry 3 a + b of the second index is d u_a / d x_b
+  /// @param weights  tets, the volume that each represents
   /// @param material  of these tets
   Cubature(int dimension, int tets, const float* rows, const double* weights,
            const TetMaterial& material);
@@ -31,18 +30,18 @@ class Cubature {
   /// Restricts the energy to the first coordinates, 1 <= dimension <= capacity.
   void set_dimension(int dimension) { rows_.set_dimension(dimension); }
 
-  /// Who runs large evaluations from now on; null for this thread alone. The result is the same.
-  void set_halves(Halves* halves) { halves_ = halves; }
+  /// Sets the runner of large evaluations; null for this thread alone. Results are the same.
+  void set_half_runner(HalfRunner* runner) { half_runner_ = runner; }
 
   /// Value at q (d); `gradient` (d) is overwritten.
   double value_and_gradient(const double* q, double* gradient);
 
-  /// Also the lower triangle of the Hessian (d x d), which is overwritten; 9/2 r d^2 multiply-adds
-  /// more.
+  /// Also overwrites the lower triangle of the Hessian (d x d); takes 9/2 r d^2 more multiply-adds.
   double derivatives(const double* q, double* gradient, double* hessian);
 
   [[nodiscard]] int tets() const { return rows_.tets(); }
-  /// Hessians of the tets at q (d) by their displacement gradients, tets x 9 x 9, with weights.
+  /// Weighted Hessians of the tets' energies at q (d) by their displacement gradients, tets x 9 x
+  /// 9.
   void curvatures(const double* q, float* hessians);
 
  private:
@@ -51,9 +50,9 @@ class Cubature {
   void block_curvatures(int block, Tets hessian[9][9]) const;
 
   TetRows rows_;
-  Halves* halves_ = nullptr;
+  HalfRunner* half_runner_ = nullptr;
   int kind_, moduli_count_;
-  std::vector<Tets> moduli_;  // block, modulus: times the weight; zero for lanes without a tet
+  std::vector<Tets> moduli_;  // block, modulus: times weight; zero for lanes without a tet
 };
 
 }  // namespace snapspace::online

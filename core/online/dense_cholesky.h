@@ -7,7 +7,8 @@
 
 namespace snapspace::online {
 
-/// Cholesky factor of dense symmetric matrices up to a size. Takes its memory in the constructor.
+/// Cholesky factor of dense symmetric matrices up to a given size. The constructor allocates all
+/// memory.
 class DenseCholesky {
  public:
   explicit DenseCholesky(int capacity)
@@ -30,7 +31,7 @@ class DenseCholesky {
     return -1;
   }
 
-  /// x = matrix^-1 b; in place if they are the same.
+  /// x = matrix^-1 b; x and b may be the same array.
   void solve(const double* b, double* x) const {
     for (int i = 0; i < d_; ++i) x[i] = (b[i] - dot(row(i), x, i)) / row(i)[i];
     solve_transposed(d_, x);

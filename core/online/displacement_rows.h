@@ -7,7 +7,7 @@
 namespace snapspace::online {
 
 /// Displacement gradients of modes in some tets: entry 3 a + b of the second index of `rows` is d
-/// u_a / d x_b. Differences of nodal values come first: sums over all four corners would lose
+/// u_a / d x_b. Differences of nodal values are taken first: sums over all four corners would lose
 /// digits on slivers.
 /// @param points  tets x 4 x 3, the corners at rest; no tet without volume
 /// @param modes  tets x 4 x 3 x dimension, displacements of the corners

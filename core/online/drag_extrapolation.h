@@ -5,11 +5,10 @@
 
 namespace snapspace::online {
 
-/// Where a drag along a straight line of inputs arrives next: on the parabola through its last
-/// three frames. Inputs are what a frame sets, in one unit: weights of poses, or the handles' pull.
-/// A solve from there takes about half the evaluations of one from the last frame.
-///
-/// Takes no memory after construction.
+/// Extrapolates a drag along a straight line of inputs, on the parabola through its last three
+/// frames. Inputs are the numbers that a frame sets, in one unit: weights of poses, or the handles'
+/// pull. A solve from there takes about half the evaluations of one from the last frame.
+/// Allocates no memory after construction.
 class DragExtrapolation {
  public:
   DragExtrapolation(int capacity, int inputs)
@@ -19,9 +18,9 @@ class DragExtrapolation {
   /// Forgets all frames.
   void clear() { count_ = 0; }
 
-  /// Moves q (d) on to these inputs, if it is the last frame and the way there goes on as
-  /// it came; otherwise q stays.
-  void go_on(int d, const double* inputs, double* q) const {
+  /// Extrapolates q (d) to these inputs if q is the last frame and the inputs continue its path;
+  /// otherwise q is unchanged.
+  void extrapolate(int d, const double* inputs, double* q) const {
     const auto& [last, first, second] = frames_;
     if (count_ < kFrames || !std::equal(q, q + d, last.q.begin())) return;
     const double a = place(first, inputs), b = place(second, inputs);
@@ -35,14 +34,14 @@ class DragExtrapolation {
       bend += (moved - line) * (moved - line);
       straight += line * line;
     }
-    if (!(bend < kMostBend * kMostBend * straight)) return;
+    if (!(bend < kMaxBend * kMaxBend * straight)) return;
     for (int i = 0; i < d; ++i) q[i] = on_parabola(i, from_last, from_first, from_second);
   }
 
-  /// Takes a solved frame: q (d) for inputs.
+  /// Adds a solved frame: q (d) for inputs.
   void add(int d, const double* inputs, const double* q) {
-    const bool again = count_ > 0 && std::equal(inputs, inputs + size_, frames_[0].inputs.begin());
-    if (!again) {
+    const bool same = count_ > 0 && std::equal(inputs, inputs + size_, frames_[0].inputs.begin());
+    if (!same) {
       std::rotate(frames_, frames_ + kFrames - 1, frames_ + kFrames);
       count_ = std::min(count_ + 1, kFrames);
     }
@@ -52,12 +51,14 @@ class DragExtrapolation {
 
  private:
   static constexpr int kFrames = 3;
-  /// Ratio of steps that follow each other, either way: farther an extrapolation is a guess.
-  static constexpr double kMostRatio = 4.0;
-  /// How far frames may lie beside the line, as a share of their distance.
-  static constexpr double kBeside = 0.05;
-  /// How much the parabola may add to the line: where a shape snaps it knows nothing.
-  static constexpr double kMostBend = 0.5;
+  /// Largest ratio of successive steps, in either direction; beyond it an extrapolation is only a
+  /// guess.
+  static constexpr double kMaxRatio = 4.0;
+  /// How far frames may be off the line, as a share of their distance.
+  static constexpr double kMaxOffLine = 0.05;
+  /// How much the parabola may deviate from the line, as a share of its length: where a shape
+  /// snaps, the parabola is wrong.
+  static constexpr double kMaxBend = 0.5;
 
   struct Frame {
     Frame(int capacity, int inputs) : q(capacity), inputs(inputs) {}
@@ -68,7 +69,8 @@ class DragExtrapolation {
     return last * frames_[0].q[i] + first * frames_[1].q[i] + second * frames_[2].q[i];
   }
 
-  /// Where a frame is on the line from the last frame, at 0, to the inputs, at 1; NaN beside it.
+  /// Position of a frame on the line from the last frame, at 0, to the inputs, at 1; NaN off the
+  /// line.
   [[nodiscard]] double place(const Frame& frame, const double* inputs) const {
     double length = 0.0, along = 0.0, distance = 0.0;
     for (int k = 0; k < size_; ++k) {
@@ -78,14 +80,14 @@ class DragExtrapolation {
       along += step * away;
       distance += away * away;
     }
-    const double beside = distance - along * along / length;
-    return beside <= kBeside * kBeside * distance ? along / length : std::nan("");
+    const double off_line = distance - along * along / length;
+    return off_line <= kMaxOffLine * kMaxOffLine * distance ? along / length : std::nan("");
   }
 
-  /// Whether a step before is about as long as the next one, which is 1.
-  static bool steady(double step) { return step > 1.0 / kMostRatio && step < kMostRatio; }
+  /// Whether a previous step is about as long as the next one, which has length 1.
+  static bool steady(double step) { return step > 1.0 / kMaxRatio && step < kMaxRatio; }
 
-  int size_, count_ = 0;  // frames that are known, the newest first
+  int size_, count_ = 0;  // of inputs, and of known frames; the newest frame is first
   Frame frames_[kFrames];
 };
 

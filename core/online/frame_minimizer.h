@@ -5,28 +5,31 @@
 
 namespace snapspace::online {
 
-/// Minimises frame after frame: from where a drag arrives, and with what is known of the Hessian.
-/// Takes no memory after construction.
+/// Minimises frame after frame: starts where a drag is extrapolated to, and reuses what is known of
+/// the Hessian. Allocates no memory after construction.
 class FrameMinimizer {
  public:
-  /// @param inputs  numbers that a frame sets, see DragExtrapolation
-  /// @param hessian_is_dear  then BFGS keeps its approximation from frame to frame
-  FrameMinimizer(int capacity, int inputs, bool hessian_is_dear)
-      : hessian_is_dear_(hessian_is_dear), minimizers_(capacity), drag_(capacity, inputs) {}
+  /// @param inputs  count of the numbers that a frame sets, see DragExtrapolation
+  /// @param hessian_is_expensive  if so, BFGS keeps its approximation from frame to frame
+  FrameMinimizer(int capacity, int inputs, bool hessian_is_expensive)
+      : hessian_is_expensive_(hessian_is_expensive),
+        minimizers_(capacity),
+        drag_(capacity, inputs) {}
 
-  /// As Minimizers::prepare; a new drag begins.
+  /// The same as Minimizers::prepare; a new drag begins.
   Start prepare(Objective& objective, int d) {
     d_ = d;
     drag_.clear();
     return minimizers_.prepare(objective, d);
   }
 
-  /// From q (d), in place, or from where a drag that q is the last frame of arrives.
+  /// Minimises from q (d), in place. If q is the last frame of a drag, it starts where the drag is
+  /// extrapolated to.
   Report minimize(Objective& objective, const double* inputs, Method method, double* q,
                   const Termination& stop) {
-    drag_.go_on(d_, inputs, q);
-    const Report report = hessian_is_dear_ && method == Method::bfgs
-                              ? minimizers_.minimize_onwards(objective, q, stop)
+    drag_.extrapolate(d_, inputs, q);
+    const Report report = hessian_is_expensive_ && method == Method::bfgs
+                              ? minimizers_.continue_bfgs(objective, q, stop)
                               : minimizers_.minimize(objective, method, q, stop);
     if (report.status == Status::converged)
       drag_.add(d_, inputs, q);
@@ -36,7 +39,7 @@ class FrameMinimizer {
   }
 
  private:
-  bool hessian_is_dear_;
+  bool hessian_is_expensive_;
   int d_ = 0;
   Minimizers minimizers_;
   DragExtrapolation drag_;

@@ -10,13 +10,13 @@ namespace snapspace::online {
 /// offsets D_h (3 x 4) of the handles' affine maps from rest (paper, sec. 6.1):
 ///   q^T K q - 2 sum_h (L_h vec D_h) . q + sum_h tr(D_h S_h D_h^T).
 /// D_h maps (rest position - centroid, 1) to the wanted displacement: (R - I, t) for a rigid motion
-/// about the centroid. Offsets instead of maps, because the differences of large positions would
-/// cancel.
+/// about the centroid. Offsets are used instead of maps because differences of large positions
+/// would cancel.
 class HandleQuadric {
  public:
   /// Copies the arrays.
   /// @param K  d x d
-  /// @param L  handles x d x 12, row-major, D_h row by row
+  /// @param L  handles x d x 12, row-major; the 12 entries of D_h are row by row
   /// @param S  handles x 4 x 4
   HandleQuadric(int dimension, int handles, const double* K, const double* L, const double* S)
       : capacity_(dimension),
@@ -29,10 +29,10 @@ class HandleQuadric {
 
   [[nodiscard]] int handles() const { return handles_; }
 
-  /// Restricts the form to the first coordinates, at most as many as in the constructor.
+  /// Restricts the form to the first coordinates, at most as many as given to the constructor.
   void set_dimension(int dimension) { d_ = dimension; }
 
-  /// Takes new offsets (handles x 12), for all coordinates: O(d * handles).
+  /// Sets the offsets (handles x 12), for all coordinates: O(d * handles).
   void set_offsets(const double* offsets) {
     for (double& entry : linear_) entry = 0.0;
     constant_ = 0.0;

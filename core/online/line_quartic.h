@@ -4,8 +4,8 @@
 namespace snapspace::online {
 
 /// The polynomial of degree four with given value, slope and curvature at 0, and value and slope at
-/// 1. Along a line a quartic objective is one: its minimisers are then known exactly, after a
-/// single evaluation of the objective.
+/// 1. A quartic objective is such a polynomial along any line, so a single evaluation of it gives
+/// the exact minimisers on the line.
 class LineQuartic {
  public:
   LineQuartic(double value, double slope, double curvature, double end_value, double end_slope)
@@ -16,7 +16,7 @@ class LineQuartic {
     quartic_ = tilt - 3.0 * rise;
   }
 
-  /// The first place in (begin, end] where the slope is no longer negative; `end` if there is none.
+  /// The first point in (begin, end] where the slope is no longer negative; `end` if there is none.
   [[nodiscard]] double first_minimum(double begin, double end) const {
     constexpr int kParts = 16, kHalvings = 20;
     for (int part = 1; part <= kParts; ++part) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
-/// What every reduced minimiser says and takes.
+/// Options and reports of the reduced minimisers.
 
 namespace snapspace::online {
 
@@ -23,13 +23,14 @@ struct Report {
   double gradient_norm;
 };
 
-/// The three tests of Gill, Murray & Wright (1981; paper, sec. 6.2) with tolerance eps, all of
-/// which must hold:
+/// The three tests of Gill, Murray & Wright (1981; paper, sec. 6.2) with tolerance eps. All must
+/// hold:
 ///   F_{k-1} - F_k     < eps (1 + |F_k|)
 ///   |q_{k-1} - q_k|   < sqrt(eps) (1 + |q_k|)
 ///   |grad F_k|        < cbrt(eps) (1 + |F_k|)
 /// The "1 +" presumes a problem scaled to unit size, so values are measured in units of value_scale
-/// and coordinates in units of coordinate_scale. The two bounds end a solve that does not converge.
+/// and coordinates in units of coordinate_scale. The limits on iterations and evaluations end a
+/// solve that does not converge.
 struct Termination {
   double tolerance = 1e-7;
   double value_scale = 1.0;

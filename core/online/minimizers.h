@@ -12,12 +12,12 @@
 
 namespace snapspace::online {
 
-/// What a solve starts from: the Hessian at tau as it is, with a multiple of the identity that
-/// makes it positive definite, or nothing, since it is far from that.
+/// The matrix that a solve starts from: the Hessian at tau, the Hessian plus a multiple of the
+/// identity that makes it positive definite, or none, if it is far from positive definite.
 enum class Start { definite, shifted, none };
 
-/// The minimisers of a live solve, and what they know of the objective from the start: its Hessian
-/// at tau, which is q = 0. All memory is taken in the constructor.
+/// The minimisers of a live solve, with the objective's Hessian at tau, which is q = 0. The
+/// constructor allocates all memory.
 class Minimizers {
  public:
   explicit Minimizers(int capacity)
@@ -30,7 +30,7 @@ class Minimizers {
         origin_(capacity),
         gradient_(capacity) {}
 
-  /// Takes the Hessian at tau from objective.derivatives in d dimensions.
+  /// Computes the Hessian at tau by objective.derivatives in d dimensions.
   Start prepare(Objective& objective, int d) {
     d_ = d;
     objective.derivatives(origin_.data(), gradient_.data(), hessian_.data());
@@ -46,16 +46,17 @@ class Minimizers {
     return start;
   }
 
-  /// From q (d), in place: Newton, shifted along the Hessian at tau, or BFGS with its inverse as
-  /// the first approximation (paper, sec. 6.2).
+  /// Minimises from q (d), in place, by Newton's method, shifted along the Hessian at tau, or by
+  /// BFGS with its inverse as the first approximation (paper, sec. 6.2).
   Report minimize(Objective& objective, Method method, double* q, const Termination& stop) {
     if (method == Method::newton) return newton_.minimize(objective, d_, q, hessian_.data(), stop);
     return bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
   }
 
-  /// BFGS from q (d), in place, that goes on with the approximation of the last frame, if that
-  /// converged. Where it leads nowhere, once more from the inverse at tau; the report counts both.
-  Report minimize_onwards(Objective& objective, double* q, const Termination& stop) {
+  /// BFGS from q (d), in place, continued with the approximation of the last frame if that
+  /// converged. If its line search fails, BFGS runs again from the inverse at tau; the report
+  /// counts both runs.
+  Report continue_bfgs(Objective& objective, double* q, const Termination& stop) {
     Report report = bfgs_.minimize(objective, d_, q, last_.data(), stop);
     if (report.status == Status::line_search_failed) {
       Termination rest = stop;
@@ -70,14 +71,14 @@ class Minimizers {
   }
 
  private:
-  // Of the largest entry of the diagonal. A saddle's negative eigenvalues are far smaller.
+  // Shares of the largest diagonal entry. A saddle's negative eigenvalues are far smaller.
   static constexpr double kFirstShift = 1e-8, kShiftFactor = 4.0, kLargestShift = 0.1;
 
   [[nodiscard]] std::size_t diagonal(int i) const {
     return static_cast<std::size_t>(i) * (static_cast<std::size_t>(d_) + 1);
   }
 
-  /// Sets inverse_ to that of hessian_. False if this is not positive definite.
+  /// Sets inverse_ to the inverse of hessian_. Returns false if that is not positive definite.
   bool inverted() {
     std::copy_n(hessian_.data(), static_cast<std::size_t>(d_) * d_, inverse_.data());
     return invert_spd(inverse_.data(), d_, scratch_.data());

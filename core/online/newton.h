@@ -12,15 +12,14 @@
 
 namespace snapspace::online {
 
-/// Newton's method with a shifted Hessian and a line search. All memory is taken in the
-/// constructor.
-///
-/// Where the Hessian H is not positive definite, H + shift * metric takes its place (Nocedal &
-/// Wright 2006, sec. 3.4): with the Hessian at rest as the metric a shift has no unit, and acts
-/// alike on stiff and soft directions. A step is tried at full length. If that does not decrease
-/// the value enough, or ends while the line is still steep, the next trial is the minimiser of the
-/// LineQuartic, which is exact for quartic objectives. A point where the gradient vanishes but the
-/// Hessian is not positive is a saddle, and is left along a direction of negative curvature.
+/// Newton's method with a shifted Hessian and a line search. The constructor allocates all memory.
+/// Where the Hessian H is not positive definite, H + shift * metric replaces it (Nocedal & Wright
+/// 2006, sec. 3.4): with the Hessian at rest as the metric, a shift has no unit and acts alike on
+/// stiff and soft directions. A step is first tried at full length. If that does not decrease the
+/// value sufficiently, or ends where the line is still steep, the next trial is the minimiser of
+/// the LineQuartic, which is exact for quartic objectives. A point where the gradient vanishes but
+/// the Hessian is not positive definite is a saddle, and is left along a direction of negative
+/// curvature.
 class Newton {
  public:
   explicit Newton(int capacity)
@@ -33,11 +32,10 @@ class Newton {
         direction_(capacity),
         trial_(capacity) {}
 
-  /// Minimises objective.derivatives(q, g, H) (H: lower triangle) over q (d), in place; q never
-  /// gets a non-finite value, or one that is worse by more than rounding.
-  ///
-  /// The termination tests are asked about the coming step, with its predicted decrease: it need
-  /// not be taken to know that it is too short.
+  /// Minimises objective.derivatives(q, g, H) (H: lower triangle) over q (d), in place. The value
+  /// at q never gets non-finite, or worse by more than rounding.
+  /// The termination tests are applied to the next step, with its predicted decrease: it need not
+  /// be taken to find that it is too short.
   /// @param metric  d x d, symmetric positive definite; lower triangle read
   Report minimize(Objective& objective, int d, double* q, const double* metric,
                   const Termination& stop) {
@@ -61,7 +59,7 @@ class Newton {
       const double length = std::sqrt(dot(q, q, d_));
       double slope;
       if (is_short(report, stop, length, slope)) {
-        // A shift shortens steps, so only a step without one can tell.
+        // A shift shortens steps, so only a step without a shift is conclusive.
         if (shift_ == 0.0 || (unshifted_direction(0.1 * (stop.coordinate_scale + length)) &&
                               is_short(report, stop, length, slope))) {
           report.status = Status::converged;
@@ -88,7 +86,7 @@ class Newton {
  private:
   static constexpr int kMaxTrials = 12;
   static constexpr double kFirstShift = 1.0 / 64.0, kShiftFactor = 4.0, kLargestShift = 1e12;
-  static constexpr double kEnoughDecrease = 1e-4, kStillSteep = 0.5, kLongestStep = 8.0;
+  static constexpr double kSufficientDecrease = 1e-4, kSteep = 0.5, kLongestStep = 8.0;
   static constexpr double kRounding = 1e-10;
 
   bool accept_gradient(Report& report) const {
@@ -96,8 +94,8 @@ class Newton {
     return std::isfinite(report.value) && std::isfinite(report.gradient_norm);
   }
 
-  /// direction = -(H + shift metric)^-1 gradient, with a shift that makes this possible, near the
-  /// last one. False if none does: the Hessian is not finite.
+  /// direction = -(H + shift metric)^-1 gradient, with a shift near the last one that makes the
+  /// matrix positive definite. Returns false if none does, because the Hessian is not finite.
   bool set_direction(const double* metric) {
     shift_ = shift_ > kFirstShift ? shift_ / kShiftFactor : 0.0;
     while (factor(metric) >= 0) {
@@ -116,15 +114,15 @@ class Newton {
     return cholesky_.factor(shifted_.data(), d_);
   }
 
-  /// Whether the step along the direction would end the iteration; sets its slope.
+  /// Whether the step along the direction would end the iteration; sets the slope.
   bool is_short(const Report& report, const Termination& stop, double length, double& slope) const {
     slope = dot(gradient_.data(), direction_.data(), d_);
     const double step = std::sqrt(dot(direction_.data(), direction_.data(), d_));
     return slope == 0.0 || terminates(stop, report, -0.5 * slope, step, length);
   }
 
-  /// True, with the direction of Newton's method without a shift, if the Hessian is positive
-  /// definite. Else a downhill direction of negative curvature with the given length.
+  /// Sets the Newton direction without a shift and returns true if the Hessian is positive
+  /// definite. Otherwise sets a descent direction of negative curvature with the given length.
   bool unshifted_direction(double length) {
     shift_ = 0.0;
     const int failed = cholesky_.factor(hessian_.data(), d_);
@@ -140,7 +138,7 @@ class Newton {
     return false;
   }
 
-  /// Finds a trial_ with enough decrease. False if there is none among the trials.
+  /// Finds a trial_ with sufficient decrease. Returns false if no trial has one.
   bool search(Objective& objective, const double* q, Report& report, double slope,
               const Termination& stop) {
     double step = 1.0;
@@ -149,14 +147,14 @@ class Newton {
       const double trial_slope = evaluate(objective, q, step, report);
       const bool finite = std::isfinite(trial_value_) && std::isfinite(trial_slope);
       const bool lower = finite && trial_value_ < report.value &&
-                         trial_value_ <= report.value + kEnoughDecrease * step * slope;
+                         trial_value_ <= report.value + kSufficientDecrease * step * slope;
       if (finite && is_level(report, slope, stop)) return true;
       if (trial > 0 || !finite) {
         if (lower) return true;
         step *= finite ? 0.5 : 0.1;
         continue;
       }
-      if (lower && trial_slope > kStillSteep * slope) return true;
+      if (lower && trial_slope > kSteep * slope) return true;
       const LineQuartic line(report.value, slope, curvature(), trial_value_, trial_slope);
       step = lower ? line.first_minimum(1.0, kLongestStep) : line.first_minimum(0.0, 1.0);
       if (step == 1.0) step = 0.5;
@@ -165,8 +163,8 @@ class Newton {
     return false;
   }
 
-  /// Whether the trial has half the gradient where values no longer tell: close to a minimum they
-  /// do not resolve what a step gains along stiff directions.
+  /// Whether the trial has at most half the gradient where values are only rounding: close to a
+  /// minimum they do not resolve the decrease along stiff directions.
   bool is_level(const Report& report, double slope, const Termination& stop) const {
     const double rounding = kRounding * (std::abs(report.value) + stop.value_scale);
     return -slope <= rounding && std::abs(trial_value_ - report.value) <= rounding &&
@@ -174,7 +172,7 @@ class Newton {
                0.25 * report.gradient_norm * report.gradient_norm;
   }
 
-  /// From an acceptable step to a longer one, if that is still better.
+  /// Extends an acceptable step to a longer one if that is better.
   bool extend(Objective& objective, const double* q, Report& report, double step,
               const Termination& stop) {
     if (report.evaluations + 1 >= stop.max_evaluations) return true;

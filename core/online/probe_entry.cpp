@@ -1,4 +1,4 @@
-// The functions of snapspace_online.h about residuals.
+// The functions of snapspace_online.h for residuals.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -25,7 +25,7 @@ bool has_arrays(const snapspace_probe& probe) {
   return probe.pins == 0 || (probe.pinned && probe.pin_handles && probe.pulls && probe.arms);
 }
 
-/// Whether rests and pins are those of the session, and all indices in range.
+/// Whether rests and pins match the session, and all indices are in range.
 bool fits(const snapspace_session& session, const snapspace_probe& probe) {
   const int handles = session.blends() ? 0 : static_cast<int>(session.state.size() / 12);
   const int rests = session.blends() ? static_cast<int>(session.state.size()) : 1;
@@ -42,8 +42,8 @@ int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe
   if (!session || !probe || !has_arrays(*probe) || !fits(*session, *probe))
     return SNAPSPACE_BAD_ARGUMENT;
   TetMaterial material;
-  const int wrong = read_material(probe->material, probe->tets, material);
-  if (wrong != SNAPSPACE_OK) return wrong;
+  const int code = read_material(probe->material, probe->tets, material);
+  if (code != SNAPSPACE_OK) return code;
   const ProbeBody body = {static_cast<int>(session->q.size()),
                           probe->corners,
                           probe->tets,

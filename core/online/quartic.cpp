@@ -47,7 +47,7 @@ Quartic::Quartic(int dimension, const double* coefficients, Storage storage)
   combine(1, &one, coefficients);
 }
 
-/// Writes the coefficients of (k, l), which are `block` with zeros behind, where passes read them.
+/// Writes the coefficients of (k, l), given by `block` with zeros after it, where passes read them.
 template <class Stored>
 void Quartic::write_block(int k, int l, const double* block, Stored* to) {
   const int g = layout_.place(k) / kTile, h = layout_.place(l) / kTile;
@@ -82,7 +82,7 @@ void Quartic::combine(int terms, const double* weights, const double* coefficien
       else
         write_block(k, l, sums, singles_.data());
     }
-  std::fill_n(sums, layout_.form(layout_.groups()), 0.0);  // what evaluations never write is zero
+  std::fill_n(sums, layout_.form(layout_.groups()), 0.0);  // evaluations do not write all of it
 }
 
 void Quartic::set_variables(const double* q) {
@@ -109,7 +109,8 @@ void Quartic::set_variables(const double* q) {
   }
 }
 
-/// Forms, and weights: the sum over k and l of x_k x_l times the coefficients of (k, l).
+/// Computes the forms, and the weights: the sum over k and l of x_k x_l times the coefficients of
+/// (k, l).
 template <class Stored>
 struct Quartic::PairPass {
   Quartic& self;
@@ -133,8 +134,8 @@ struct Quartic::PairPass {
   }
 };
 
-/// Forms, and in cubic_ for each variable a the sum over l of x_l times the coefficients of (a, l)
-/// and over k of x_k times those of (k, a).
+/// Computes the forms and, in cubic_, for each variable a the sum over l of x_l times the
+/// coefficients of (a, l) and over k of x_k times those of (k, a).
 template <class Stored>
 struct Quartic::CubicPass {
   Quartic& self;
@@ -195,11 +196,12 @@ double Quartic::derivatives(const double* q, double* gradient, double* hessian) 
   return value;
 }
 
-/// Adds to the forms what cubic_ means for the Hessian: for variable a and its form c_ij x_i x_j,
-/// the form's gradient to (a, i), and to the weights x_a / 2 times the form itself.
+/// Adds the contribution of cubic_ to the Hessian. For variable a and its form c_ij x_i x_j: adds
+/// the form's gradient to the entries (a, i) of the forms, and x_a / 2 times the form to the
+/// weights.
 void Quartic::add_cubic() {
   const int groups = layout_.groups_of(dimension_ + 1);
-  std::fill_n(&cubic_[layout_.form(groups)], kPack, 0.0);  // read, and perhaps not finite
+  std::fill_n(&cubic_[layout_.form(groups)], kPack, 0.0);  // is read, and may not be finite
   for (int g = 0; g < groups; ++g) {
     const int a = layout_.variable(g);
     const std::size_t size = layout_.form_size(g);
@@ -226,7 +228,7 @@ void Quartic::add_weights() {
     for (int i = 0; i <= j; ++i) row(j)[i] += from[i];
 }
 
-/// Adds a form that has, for the linear part, `factor` times the gradient.
+/// Adds a form that has `factor` times the gradient of the linear part.
 void Quartic::add_linear(double factor) {
   for (int l = 0; l <= dimension_; ++l) {
     row(l)[0] += factor * linear_[l];
@@ -234,7 +236,8 @@ void Quartic::add_linear(double factor) {
   }
 }
 
-/// gradient = factor * that of the form, by q. Returns the value of the polynomial that has it.
+/// gradient = factor * the gradient of the form by q. Returns the value of the polynomial with this
+/// gradient.
 double Quartic::form_gradient(double factor, double* gradient) {
   const int n = dimension_ + 1;
   std::fill_n(gradient_.data(), stride_, 0.0);

@@ -9,9 +9,9 @@
 
 namespace snapspace::online {
 
-/// How coefficients are kept during a live solve. Single halves the memory that an evaluation
-/// reads; all arithmetic is in double precision, so that the polynomial is another one, by 6e-8 of
-/// every coefficient, but as smooth.
+/// How coefficients are stored during a live solve. Single precision halves the memory that an
+/// evaluation reads. All arithmetic is in double precision, so the polynomial changes, by 6e-8 of
+/// each coefficient, but is as smooth.
 enum class Storage : int { double_precision = 0, single_precision = 1 };
 
 /// A polynomial of degree four in d variables q, as one form of degree four in x = (1, q).
@@ -19,20 +19,18 @@ enum class Storage : int { double_precision = 0, single_precision = 1 };
 /// Coefficients of the monomials x_i x_j x_k x_l, i <= j <= k <= l, are given with l slowest and i
 /// fastest. The polynomial restricted to the first d' < d variables is therefore a prefix of the
 /// array. They are copied into PackedLayout, and every evaluation reads the copy once.
-///
-/// Value, gradient and Hessian come out of one pass, because for a form of degree four they are all
-/// the Hessian times x: with H the Hessian by x, the gradient is H x / 3 and the value x . gradient
-/// / 4. The pass makes, for each coefficient, three multiply-adds into sums that stay in registers
-/// and the nearest cache:
+/// One pass gives value, gradient and Hessian, because for a form of degree four all follow from
+/// the Hessian H by x: the gradient is H x / 3 and the value x . gradient / 4. For each coefficient
+/// the pass does three multiply-adds into sums that stay in registers and the first-level cache:
 ///   forms_kl   = sum_ij c_ijkl x_i x_j
 ///   cubic_kij += c_ijkl x_l   and   cubic_lij += c_ijkl x_k
-/// From them H follows at the cost of a form of degree three.
+/// H follows from these at the cost of a form of degree three.
 class Quartic {
  public:
   /// Whether a Hessian costs much more than a gradient.
-  static constexpr bool kHessianIsDear = false;
+  static constexpr bool kHessianIsExpensive = false;
 
-  /// All coefficients are zero until they are set. Takes all its memory here.
+  /// All coefficients are zero until they are set. Allocates all memory.
   explicit Quartic(int dimension, Storage storage = Storage::double_precision);
   /// @param coefficients  quartic_count(dimension + 1) doubles
   Quartic(int dimension, const double* coefficients, Storage storage = Storage::double_precision);
@@ -54,7 +52,7 @@ class Quartic {
   double derivatives(const double* q, double* gradient, double* hessian);
 
  private:
-  /// Where rows first ... of a tile lie.
+  /// Location of the rows first ... of a tile.
   struct Tile {
     int first;
     PairPacks packs;
@@ -76,24 +74,24 @@ class Quartic {
   void add_weights();
   void add_linear(double factor);
   double form_gradient(double factor, double* gradient);
-  /// Row l of the form. Variables that are missing are in front: zeros are added to them.
+  /// Row l of the form. Missing variables come before it; only zeros are added to them.
   double* row(int l) { return forms_.data() + (l + kTile) * stride_; }
 
   int capacity_, dimension_;
   Storage storage_;
   PackedLayout layout_;
-  std::vector<std::vector<Tile>> tiles_;  // by pairs of groups
+  std::vector<std::vector<Tile>> tiles_;  // for each pair of groups
   AlignedArray<double> coefficients_;     // one of the two is empty
   AlignedArray<float> singles_;
   AlignedArray<double> linear_;  // coefficients of x_0^3 x_l
   AlignedArray<double> x_;       // (1, q), then zeros
-  AlignedArray<double> tile_x_;  // by groups, without x_0; zeros where there are none
+  AlignedArray<double> tile_x_;  // in groups, without x_0; zeros for missing variables
   FormVariables<kPack> variables_;
   AlignedArray<double> pairs_;    // x_i x_j, j slowest, then zeros
-  AlignedArray<double> weights_;  // sums of coefficients by pairs
-  AlignedArray<double> cubic_;    // forms of degree two in the pairs, by variables
+  AlignedArray<double> weights_;  // sums of coefficients for each pair
+  AlignedArray<double> cubic_;    // for each variable, a quadratic form in the pairs
   std::size_t stride_;
-  AlignedArray<double> forms_;     // rows l of a form of degree two in x
+  AlignedArray<double> forms_;     // rows l of a quadratic form in x
   AlignedArray<double> gradient_;  // of that form
 };
 

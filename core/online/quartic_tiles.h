@@ -12,11 +12,11 @@ namespace snapspace::online {
 
 using Numbers = Lanes<kPack>;
 
-/// The forms of degree two in the pairs that belong to the variables of a group, and these.
+/// The variables of a group, and their quadratic forms in the pairs.
 struct FormGroup {
   const double* x;
   double* forms;
-  std::size_t size;  // from form to form
+  std::size_t size;  // of a form
 };
 
 /// The sums of a tile, and the variables of its rows k and columns l.
@@ -32,7 +32,7 @@ struct TileSums {
   }
 };
 
-/// For rows First ... of a tile: forms_kl += sum_p c_kl[p] pairs[p], and in the forms of degree two
+/// For rows First ... of a tile: forms_kl += sum_p c_kl[p] pairs[p], and in the quadratic forms
 /// cubic_k[p] += sum_l x_l c_kl[p] and cubic_l[p] += sum_k x_k c_kl[p].
 template <int First, class Stored>
 [[gnu::always_inline]] inline void contract_tile(const Stored* from, PairPacks packs,
@@ -59,8 +59,8 @@ template <int First, class Stored>
   }
 }
 
-/// The same for a tile on the diagonal, k <= l in one group: the first to write into its forms. A
-/// block of the diagonal counts as row and as column.
+/// The same for a tile on the diagonal, k <= l in one group, which is the first to write its forms.
+/// A block on the diagonal counts both as row and as column.
 template <int First, class Stored>
 [[gnu::always_inline]] inline void contract_diagonal(const Stored* from, PairPacks packs,
                                                      const double* pairs, FormGroup k,
@@ -89,8 +89,8 @@ template <int First, class Stored>
   }
 }
 
-/// For rows First ... of a tile, forms_kl as before, and weights[p] += sum_kl x_k x_l c_kl[p].
-/// @tparam Diagonal  whether only k <= l are there
+/// For rows First ... of a tile: forms_kl as above, and weights[p] += sum_kl x_k x_l c_kl[p].
+/// @tparam Diagonal  whether only entries with k <= l exist
 template <int First, bool Diagonal, class Stored>
 [[gnu::always_inline]] inline void contract_pairs(const Stored* from, PairPacks packs,
                                                   const double* pairs, double* weights,
@@ -99,7 +99,7 @@ template <int First, bool Diagonal, class Stored>
     const Numbers pair = load<kPack>(pairs + p);
     Numbers weight = load<kPack>(weights + p);
     unrolled<Diagonal ? First : 0, kTile>([&](auto c) {
-      constexpr bool kFewRegisters = kTile > 2;  // else x_k x_l has one for each entry
+      constexpr bool kFewRegisters = kTile > 2;  // otherwise each x_k x_l has a register
       Numbers column(0.0);
       unrolled<First, Diagonal ? c + 1 : kTile>([&](auto r) {
         Numbers entry = load<kPack>(from);

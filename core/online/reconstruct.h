@@ -4,9 +4,10 @@
 
 namespace snapspace::online {
 
-/// sums (length) += sum_i q_i mode_i. Four modes a pass: fewer reads and writes of the sums.
-/// @param modes  count x length, each `stride` after the one before
-/// @tparam Entry  of a mode; whole numbers may count units that q contains
+/// sums (length) += sum_i q_i mode_i. Takes four modes per pass, to save reads and writes of the
+/// sums.
+/// @param modes  count x length, with `stride` entries from one mode to the next
+/// @tparam Entry  type of a mode's entries; integers may count units that are factors of q
 template <class Entry, class Real>
 inline void add_modes(const Entry* modes, std::size_t stride, int count, const double* q,
                       std::size_t length, Real* __restrict sums) {
@@ -28,9 +29,8 @@ inline void add_modes(const Entry* modes, std::size_t stride, int count, const d
 }
 
 /// shape = tau + sum_i q_i mode_i.
-///
-/// Reads every mode once, in blocks whose sums stay in the first-level cache: the time is that of
-/// reading the basis.
+/// Reads each mode once, in blocks whose sums stay in the first-level cache, and so takes the time
+/// of reading the basis.
 /// @param modes  dimension x size, row-major
 inline void reconstruct(std::size_t size, int dimension, const double* tau, const double* modes,
                         const double* q, double* shape) {

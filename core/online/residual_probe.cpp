@@ -75,7 +75,7 @@ void ResidualProbe::add_pins(const double* offsets) {
     for (int a = 0; a < 3; ++a) {
       const double* row = offsets + 12 * static_cast<std::size_t>(handles_[i]) + 4 * a;
       const double wanted = row[0] * arm[0] + row[1] * arm[1] + row[2] * arm[2] + row[3];
-      // displacement_ is that from the only shape at rest: poses are not pinned
+      // displacement_ is from the only rest shape here, because poses are not pinned
       gradient_[at + a] += pulls_[i] * (displacement_[at + a] - wanted);
     }
   }

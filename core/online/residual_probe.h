@@ -19,7 +19,7 @@ struct ProbeBody {
   TetMaterial material;             ///< of these tets
 };
 
-/// Corners where the residual is read, and what its squares count.
+/// Corners where the residual is evaluated, and the weights of its squares there.
 struct ProbeSample {
   int count;
   const std::int32_t* corners;
@@ -35,8 +35,9 @@ struct ProbePins {
   const double* arms = nullptr;   ///< count x 3, from the handle's centroid at rest
 };
 
-/// The full objective's gradient g at a sample of vertices: exact there if all their tets are
-/// given, and its cost does not depend on the mesh. Takes no memory after construction.
+/// The full objective's gradient g at a sample of vertices. It is exact there if all tets around
+/// them are given, and its cost does not depend on the mesh. Allocates no memory after
+/// construction.
 class ResidualProbe {
  public:
   /// Copies all arrays. Indices must be in range.
@@ -47,7 +48,7 @@ class ResidualProbe {
 
   /// sqrt(sum_v weight_v |g_v|^2) at tau + sum of q_i modes_i over the first `dimension` modes.
   /// @param offsets  handles x 12, [A - I | t] about the centroids; null without pins
-  /// @param weights  rests, of the energies relative to them; null for weights of one
+  /// @param weights  rests, weights of the energies relative to them; null for ones
   double norm(const double* q, int dimension, const double* offsets, const double* weights);
 
  private:
@@ -55,9 +56,9 @@ class ResidualProbe {
   void add_pins(const double* offsets);
 
   int dimension_, corners_, rests_;
-  int kind_, moduli_per_tet_;  // the density, and from one tet's moduli to the next; 0 if all share
+  int kind_, moduli_per_tet_;  // the density, and the stride of moduli; 0 if all tets share them
   std::vector<double> tau_, modes_, rest_shapes_, moduli_;
-  std::vector<RestTet> tets_;  // those of the first shape at rest, then of the next
+  std::vector<RestTet> tets_;  // of the first rest shape, then of the next
   std::vector<std::int32_t> sampled_, pinned_, handles_;
   std::vector<double> sample_weights_, pulls_, arms_;
   std::vector<double> shape_, displacement_, gradient_;  // corners x 3

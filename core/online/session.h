@@ -16,7 +16,7 @@
 #include "online/residual_probe.h"
 #include "online/snapspace_online.h"
 
-/// One of the four solvers, with its coordinates, and what it is told to solve for.
+/// One of the four solvers, with its coordinates and inputs.
 struct snapspace_session {
   using Posing = snapspace::online::PosingSolver<snapspace::online::Quartic>;
   using PosingCubature = snapspace::online::PosingSolver<snapspace::online::Cubature>;
@@ -29,8 +29,8 @@ struct snapspace_session {
   std::unique_ptr<BlendingCubature> blending_cubature;
   std::unique_ptr<snapspace::online::ResidualProbe> probe;
   snapspace_basis basis;
-  std::vector<double> q;         // as many as the model has
-  std::vector<double> gradient;  // as many; of a value that is asked for
+  std::vector<double> q;         // all coordinates of the model
+  std::vector<double> gradient;  // work array of snapspace_value, as long as q
   std::vector<double> state;     // offsets of the handles, or weights of the poses
 
   void take(std::unique_ptr<Posing> solver) {
@@ -50,7 +50,7 @@ struct snapspace_session {
     blending_cubature = std::move(solver);
   }
 
-  /// What `act` returns for the solver that is there.
+  /// Returns act(solver) for the solver of this session.
   template <class Act>
   auto with_solver(Act act) const {
     if (posing) return act(*posing);
@@ -58,7 +58,7 @@ struct snapspace_session {
     if (blending) return act(*blending);
     return act(*blending_cubature);
   }
-  /// Whether it blends poses; else it poses handles.
+  /// Whether the session blends poses; otherwise it poses handles.
   [[nodiscard]] bool blends() const { return blending || blending_cubature; }
   [[nodiscard]] int dimension() const {
     return with_solver([](const auto& solver) { return solver.dimension(); });
@@ -71,7 +71,7 @@ inline bool all_finite(const double* numbers, std::size_t count) {
   return std::all_of(numbers, numbers + count, [](double x) { return std::isfinite(x); });
 }
 
-/// Reads a material for so many tets.
+/// Reads a material for this many tets.
 /// @returns SNAPSPACE_OK or an error, and then `result` is as it was
 inline int read_material(const snapspace_material& given, int tets, TetMaterial& result) {
   if (!given.kind) return SNAPSPACE_BAD_ARGUMENT;

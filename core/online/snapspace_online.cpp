@@ -39,7 +39,7 @@ snapspace_session* fail(int* error, int code) {
   return nullptr;
 }
 
-/// A session at q = 0, if its energy has a minimum there.
+/// A session at q = 0; an error if the solver is not valid.
 template <class Solver>
 snapspace_session* begin(std::unique_ptr<Solver> solver, const snapspace_basis& basis, int* error) {
   if (!solver->valid()) return fail(error, SNAPSPACE_NOT_DEFINITE);
@@ -78,8 +78,8 @@ int snapspace_value_scale(const snapspace_material* material, int tets, const do
                           double* value_scale) {
   if (!material || tets < 1 || !volumes || !value_scale) return SNAPSPACE_BAD_ARGUMENT;
   TetMaterial of_tets;
-  const int wrong = read_material(*material, tets, of_tets);
-  if (wrong != SNAPSPACE_OK) return wrong;
+  const int code = read_material(*material, tets, of_tets);
+  if (code != SNAPSPACE_OK) return code;
   double sum = 0.0;
   for (int t = 0; t < tets; ++t) sum += of_tets.small_strains(t).mu * volumes[t];
   *value_scale = 0.01 * sum;
@@ -110,8 +110,8 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
   if (dimension < 1 || handles < 1 || !is_cubature(cubature) || !K || !L || !S || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
   TetMaterial material;
-  const int wrong = read_material(cubature->material, cubature->tets, material);
-  if (wrong != SNAPSPACE_OK) return fail(error, wrong);
+  const int code = read_material(cubature->material, cubature->tets, material);
+  if (code != SNAPSPACE_OK) return fail(error, code);
   Cubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material);
   return begin(std::make_unique<CubatureSolver>(std::move(elastic), handles, K, L, S), *basis,
                error);
@@ -132,8 +132,8 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
   if (dimension < 1 || poses < 1 || !is_cubature(cubature) || !corners || !tau || !is_basis(basis))
     return fail(error, SNAPSPACE_BAD_ARGUMENT);
   TetMaterial material;
-  const int wrong = read_material(cubature->material, cubature->tets, material);
-  if (wrong != SNAPSPACE_OK) return fail(error, wrong);
+  const int code = read_material(cubature->material, cubature->tets, material);
+  if (code != SNAPSPACE_OK) return fail(error, code);
   BlendedCubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
                           {poses, corners, tau});
   return begin(std::make_unique<BlendingCubatureSolver>(std::move(elastic)), *basis, error);

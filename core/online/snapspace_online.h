@@ -1,14 +1,14 @@
 #pragma once
-/* The live solve of a reduced model for programs in C, and for what is compiled from C.
+/* The live solve of a reduced model for programs in C, or that can call C.
  *
- * A session is made from the arrays of a .snapspace file (safetensors layout): it takes new handle
- * positions or pose weights, solves, and gives coordinates and vertices. No function throws,
- * prints, reads files or starts threads, and only those that create a session or set its probe take
- * memory; they end the program as C++ does if there is none. A session may be used by one thread at
- * a time.
+ * A session is made from the arrays of a .snapspace file (safetensors layout). It takes new handle
+ * positions or pose weights, solves, and returns coordinates and vertices. No function throws,
+ * prints, reads files or starts threads. Only the functions that create a session or set its probe
+ * allocate memory; if there is none, they end the program as C++ does. A session may be used by one
+ * thread at a time.
  *
- * All numbers are doubles, all arrays row-major. Functions return 0, or one of the errors below;
- * after an error the session is as it was.
+ * All numbers are doubles unless declared otherwise, and all arrays are row-major. Functions return
+ * 0, or one of the errors below; after an error the session is unchanged.
  */
 
 #ifdef __cplusplus
@@ -19,7 +19,7 @@ enum snapspace_error {
   SNAPSPACE_OK = 0,
   SNAPSPACE_BAD_ARGUMENT = -1,    /* a null pointer, a size or an option out of range */
   SNAPSPACE_NOT_FINITE = -2,      /* a number is NaN or infinite */
-  SNAPSPACE_NOT_DEFINITE = -3,    /* the Hessian at tau is not positive: the model is damaged */
+  SNAPSPACE_NOT_DEFINITE = -3,    /* the Hessian at tau is not definite: the model is damaged */
   SNAPSPACE_WRONG_KIND = -4,      /* offsets for a blending session, or weights for a posing one */
   SNAPSPACE_UNKNOWN_MATERIAL = -5 /* no density has this name */
 };
@@ -30,14 +30,14 @@ enum snapspace_status {
   SNAPSPACE_CONVERGED = 0,
   SNAPSPACE_MAX_ITERATIONS = 1,
   SNAPSPACE_LINE_SEARCH_FAILED = 2, /* rounding does not resolve the tolerance */
-  SNAPSPACE_ENERGY_NOT_FINITE = 3,  /* handles beyond all numbers; q is as it was */
+  SNAPSPACE_ENERGY_NOT_FINITE = 3,  /* handles too far away for finite energies; q is unchanged */
   SNAPSPACE_MAX_EVALUATIONS = 4
 };
 
 typedef struct snapspace_session snapspace_session;
 
-/* Where the shapes tau + sum_i q_i modes_i are: read in place, so the arrays must outlive the
- * session. With vertices = 0 the session gives coordinates only, and the pointers may be null. */
+/* The basis of the shapes tau + sum_i q_i modes_i. It is read in place, so the arrays must outlive
+ * the session. With vertices = 0 the session has coordinates only, and the pointers may be null. */
 typedef struct snapspace_basis {
   int vertices;
   const double* tau;   /* 3 vertices */
@@ -49,8 +49,8 @@ typedef struct snapspace_options {
   double tolerance;        /* of the termination tests; 1e-7 for posing, 1e-9 for blending */
   double value_scale;      /* unit of energy: 0.01 times the sum of mu * volume */
   double coordinate_scale; /* unit of q: 0.1 * diagonal * sqrt(volume) */
-  int max_iterations;      /* bounds on the work of one solve; 300 */
-  int max_evaluations;     /* 500 */
+  int max_iterations;      /* limit for one solve, such as 300 */
+  int max_evaluations;     /* limit for one solve, such as 500 */
 } snapspace_options;
 
 typedef struct snapspace_report {
@@ -58,36 +58,36 @@ typedef struct snapspace_report {
   int iterations;
   int evaluations;
   double value;         /* reduced objective */
-  double gradient_norm; /* by q */
+  double gradient_norm; /* of the gradient by q */
 } snapspace_report;
 
 /* A posing session, at rest. Copies quartic (C(dimension + 4, 4)), K (dimension x dimension), L
  * (handles x dimension x 12) and S (handles x 4 x 4): the arrays quartic, handle_K, handle_L and
- * handle_S of a file. Null if something is wrong; *error then tells what. */
+ * handle_S of a file. Returns null on an error, and sets *error to its code. */
 snapspace_session* snapspace_create_posing(int dimension, int handles, const double* quartic,
                                            const double* K, const double* L, const double* S,
                                            const snapspace_basis* basis, int* error);
 
-/* What tets are made of. Moduli are energies per volume, none of them negative. */
+/* The material of tets. Moduli are energies per volume, and not negative. */
 typedef struct snapspace_material {
   const char* kind;     /* name of the density, such as "stable-neo-hookean" */
-  int count;            /* rows of moduli: 1, the same in all tets, or one per tet */
+  int count;            /* rows of moduli: 1 if all tets share them, or one per tet */
   const double* moduli; /* count x number of the density's moduli, in its order */
 } snapspace_material;
 
-/* Number of a density's moduli, or SNAPSPACE_UNKNOWN_MATERIAL. */
+/* Number of moduli of a density, or SNAPSPACE_UNKNOWN_MATERIAL. */
 int snapspace_moduli(const char* kind);
 
-/* Name of a modulus, from 0; null if there is none. */
+/* Name of a modulus, counted from 0; null if there is none. */
 const char* snapspace_modulus_name(const char* kind, int modulus);
 
 /* The unit of energy of a body of tets with these volumes, for snapspace_options. */
 int snapspace_value_scale(const snapspace_material* material, int tets, const double* volumes,
                           double* value_scale);
 
-/* The elastic energy as a sum over few tets (cubature). rows (tets x 9 x dimension) make
- * displacement gradients of coordinates, entry 3 a + b of the second is d u_a / d x_b; weights
- * (tets) are the volumes that the tets stand for. */
+/* The elastic energy as a weighted sum over few tets (cubature). rows (tets x 9 x dimension) map
+ * coordinates to displacement gradients; entry 3 a + b of the second index is d u_a / d x_b.
+ * weights (tets) are the volumes that the tets represent. */
 typedef struct snapspace_cubature {
   int tets;
   const float* rows;
@@ -95,28 +95,28 @@ typedef struct snapspace_cubature {
   snapspace_material material;
 } snapspace_cubature;
 
-/* Rows of a cubature: of modes in some tets. points (tets x 4 x 3) are their corners at rest, none
- * without volume, and modes (tets x 4 x 3 x dimension) the displacements there. */
+/* Computes the rows of a cubature. points (tets x 4 x 3) are the corners of its tets at rest, no
+ * tet without volume, and modes (tets x 4 x 3 x dimension) the displacements of the corners. */
 int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
                                 float* rows);
 
-/* A posing session with a cubature instead of a quartic: copies its arrays, too. Its solves are
- * fastest with SNAPSPACE_BFGS, which goes on with the inverse Hessian of the last frame. */
+/* A posing session with a cubature instead of a quartic; copies its arrays too. Its solves are
+ * fastest with SNAPSPACE_BFGS, which continues with the inverse Hessian of the last frame. */
 snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
                                                     const snapspace_cubature* cubature,
                                                     const double* K, const double* L,
                                                     const double* S, const snapspace_basis* basis,
                                                     int* error);
 
-/* A blending session, at the mean shape. Reads quartics (poses x C(dimension + 4, 4)) in place: it
- * must outlive the session. */
+/* A blending session, at the mean shape. Reads quartics (poses x C(dimension + 4, 4)) in place, so
+ * the array must outlive the session. */
 snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,
                                              const snapspace_basis* basis, int* error);
 
-/* A blending session with a cubature instead of quartics: copies its arrays. rows and weights are
- * those of pose 0. corners (poses x tets x 4 x 3) are the cubature's tets in each pose, none
- * without volume, and tau (tets x 4 x 3) at the mean shape. As fast for many poses as for two where
- * the density collapses, which stable neo-Hookean does. */
+/* A blending session with a cubature instead of quartics; copies its arrays. rows and weights are
+ * those of pose 0. corners (poses x tets x 4 x 3) are the cubature's tets in each pose, no tet
+ * without volume, and tau (tets x 4 x 3) are its tets at the mean shape. If the sum of the density
+ * over poses collapses, as for stable neo-Hookean, many poses are as fast as two. */
 snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
                                                       const snapspace_cubature* cubature,
                                                       const double* corners, const double* tau,
@@ -124,15 +124,15 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
 
 void snapspace_destroy(snapspace_session* session);
 
-/* Offsets [A - I | t] of all handles (handles x 3 x 4) about their centroids at rest. Costs
- * O(dimension * handles). */
+/* Sets the offsets [A - I | t] of all handles (handles x 3 x 4) about their centroids at rest.
+ * Costs O(dimension * handles). */
 int snapspace_set_offsets(snapspace_session* session, const double* offsets);
 
-/* Weights (poses) of a blending session. */
+/* Sets the weights (poses) of a blending session. */
 int snapspace_set_weights(snapspace_session* session, const double* weights);
 
-/* Solves in the first coordinates only, 1 <= dimension <= that of the model. Leading coordinates
- * stay, those that come back are zero. */
+/* Restricts solves to the first coordinates, 1 <= dimension <= that of the model. Leading
+ * coordinates are kept; added ones are zero. */
 int snapspace_set_dimension(snapspace_session* session, int dimension);
 int snapspace_dimension(const snapspace_session* session);
 
@@ -140,8 +140,8 @@ int snapspace_dimension(const snapspace_session* session);
 int snapspace_solve(snapspace_session* session, const snapspace_options* options,
                     snapspace_report* report);
 
-/* The reduced objective at coordinates q (dimension), for what is set; the session stays as it is.
- */
+/* The reduced objective at coordinates q (dimension), for the current offsets or weights. The
+ * session is unchanged. */
 int snapspace_value(snapspace_session* session, const double* q, double* value);
 
 /* Coordinates of the present shape (dimension). */
@@ -158,25 +158,26 @@ typedef struct snapspace_probe {
   int tets;
   int rests; /* 1, or the number of poses of a blending session */
   int samples;
-  int pins;                    /* sampled corners that handles hold; 0 for blending */
+  int pins;                    /* number of sampled corners in handles; 0 for blending */
   const double* tau;           /* corners x 3 */
   const double* modes;         /* dimension x 3 corners */
   const double* rest_shapes;   /* rests x corners x 3, no tet without volume */
   const int* tet_corners;      /* tets x 4 */
   snapspace_material material; /* of these tets */
   const int* sampled;          /* samples */
-  const double* weights;       /* samples, what the squares of residuals there count */
+  const double* weights;       /* samples, weights of the squared residuals there */
   const int* pinned;           /* pins */
   const int* pin_handles;      /* pins */
   const double* pulls;         /* pins, twice the weights of their springs */
   const double* arms;          /* pins x 3, from the centroid of the handle at rest */
 } snapspace_probe;
 
-/* Gives a session what snapspace_residual needs. Copies all arrays; takes memory. */
+/* Sets the data that snapspace_residual needs. Copies all arrays; allocates memory. */
 int snapspace_set_probe(snapspace_session* session, const snapspace_probe* probe);
 
 /* sqrt(sum_v weight_v |g_v|^2) over the sampled vertices v, with the gradient g of the full
- * objective at the present shape, for what is set. SNAPSPACE_WRONG_KIND before a probe is set. */
+ * objective at the present shape, for the current offsets or weights. SNAPSPACE_WRONG_KIND before a
+ * probe is set. */
 int snapspace_residual(snapspace_session* session, double* residual);
 
 #ifdef __cplusplus

@@ -5,9 +5,9 @@
 namespace snapspace::online {
 
 /// Replaces a symmetric positive definite d x d matrix (lower triangle read) by its inverse,
-/// through its Cholesky factor. Returns false, with the matrix spoilt, if it is not positive
-/// definite.
-/// @param inverse  room for d x d numbers
+/// through its Cholesky factor. Returns false, and leaves the matrix undefined, if it is not
+/// positive definite.
+/// @param inverse  work array of d x d numbers
 inline bool invert_spd(double* matrix, int d, double* inverse) {
   const auto at = [&](int i, int j) -> double& {
     return matrix[static_cast<std::size_t>(i) * d + j];
@@ -21,7 +21,7 @@ inline bool invert_spd(double* matrix, int d, double* inverse) {
       at(i, j) /= at(j, j);
     }
   }
-  for (int j = 0; j < d; ++j) {  // of the factor, lower
+  for (int j = 0; j < d; ++j) {  // inverse of the factor, lower triangle
     inverse[static_cast<std::size_t>(j) * d + j] = 1.0 / at(j, j);
     for (int i = j + 1; i < d; ++i) {
       double sum = 0.0;

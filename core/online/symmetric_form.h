@@ -8,7 +8,7 @@
 
 namespace snapspace::online {
 
-/// A window of it is a mask of the first lanes of a pack.
+/// Ones followed by zeros; a window of Width of them is a mask of the first lanes of a pack.
 template <int Width>
 struct FirstLanes {
   double ones[2 * Width] = {};
@@ -19,20 +19,20 @@ struct FirstLanes {
 template <int Width>
 inline constexpr FirstLanes<Width> kFirstLanes;
 
-/// The variables x of forms sum_{i <= j} form_ij x_i x_j, as their gradients need them: in square
-/// tiles of rows j and columns i, of which those on the diagonal are triangles.
+/// The variables x of forms sum_{i <= j} form_ij x_i x_j, arranged for their gradients: in square
+/// tiles of rows j and columns i; the tiles on the diagonal are triangles.
 template <int Width>
 class FormVariables {
  public:
   explicit FormVariables(int capacity)
-      : nothing_(padded(capacity)),
-        x_(nothing_ + 1),
+      : zero_index_(padded(capacity)),
+        x_(zero_index_ + 1),
         rows_(Width * x_.size()),
         columns_(rows_.size()) {}
 
   static constexpr int padded(int count) { return (count + Width - 1) / Width * Width; }
 
-  /// Takes x (n); what is behind becomes zero.
+  /// Sets x (n); the padding after it becomes zero.
   void set(const double* x, int n) {
     std::fill(std::copy_n(x, n, x_.data()), x_.data() + padded(n), 0.0);
     const Lanes<Width> zero(0.0);
@@ -45,26 +45,25 @@ class FormVariables {
   }
 
   [[nodiscard]] const double* x() const { return x_.data(); }
-  /// A variable that is zero.
-  [[nodiscard]] int nothing() const { return nothing_; }
-  /// x_j in the lanes i <= j of the last tile of row j, else 0.
+  /// Index of a variable that is always zero.
+  [[nodiscard]] int zero_index() const { return zero_index_; }
+  /// x_j in the lanes i <= j of the last tile of row j; 0 in the others.
   [[nodiscard]] Lanes<Width> row(int j) const { return load<Width>(&rows_[j * Width]); }
-  /// x_i in the same lanes, else 0.
+  /// x_i in the same lanes; 0 in the others.
   [[nodiscard]] Lanes<Width> column(int j) const { return load<Width>(&columns_[j * Width]); }
 
  private:
-  int nothing_;
+  int zero_index_;
   AlignedArray<double> x_, rows_, columns_;
 };
 
-/// gradients[f] += that of form f with rows j = 0 ... last by x_0 ... x_last, f < Forms.
-///
+/// gradients[f] += the gradient of form f, with rows j = 0 ... last, by x_0 ... x_last, f < Forms.
 /// Row j, i <= j, adds row * x_j to entries i of the gradient, and row . x to entry j. Width rows
-/// are taken at once: their sums are in registers, and are added up together. The last row stands
-/// in for those that are missing, times zero, which is faster than a branch.
-/// @param row        row(f, j) is the address of row j; what is behind it up to the next multiple
-///                   of Width is read, and must be finite
-/// @param gradients  what is behind `last` up to the next multiple of Width is spoilt
+/// are processed at once: their sums stay in registers, and are added up together. The last row,
+/// times zero, stands in for missing ones, which is faster than a branch.
+/// @param row        row(f, j) is the address of row j; the padding after it up to the next
+///                   multiple of Width is read, and must be finite
+/// @param gradients  entries after `last` up to the next multiple of Width are undefined afterwards
 template <int Forms, int Width, class Row>
 inline void add_form_gradients(Row&& row, int last, const FormVariables<Width>& x,
                                double* const* gradients) {
@@ -77,7 +76,7 @@ inline void add_form_gradients(Row&& row, int last, const FormVariables<Width>& 
     unrolled<0, Width>([&](auto r) {
       const int j = block + r;
       rows[r] = row(0, std::min(j, last)) - forms[0];
-      variables[r] = j <= last ? j : x.nothing();
+      variables[r] = j <= last ? j : x.zero_index();
       factors[r] = Lanes<Width>(x.x()[variables[r]]);
     });
     unrolled<0, Forms * Width>([&](auto i) { dots[i] = Lanes<Width>(0.0); });

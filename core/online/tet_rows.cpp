@@ -15,9 +15,9 @@ TetRows::TetRows(int dimension, int tets, const float* rows)
   const std::size_t size = static_cast<std::size_t>(tets) * 9 * dimension;
   double largest = 1e-200;
   for (std::size_t i = 0; i < size; ++i) largest = std::max(largest, std::abs(double{rows[i]}));
-  const double least = 1e-30 * largest;  // the first of two numbers must not be zero
+  const double smallest = 1e-30 * largest;  // the first of two numbers must not be zero
   const auto word = [&](double first, double second) {
-    return number_pair(std::abs(first) < least ? least : first, second);
+    return number_pair(std::abs(first) < smallest ? smallest : first, second);
   };
 
   words_.assign(static_cast<std::size_t>(blocks()) * pairs_ * 9, Tets(word(0.0, 0.0)));
@@ -45,7 +45,7 @@ void TetRows::begin(const double* q) {
 }
 
 void TetRows::gradients(int block, Tets G[3][3]) const {
-  // Nine named sums stay in registers, an array might not.
+  // Nine named sums stay in registers; an array might not.
   Tets g0(0.0), g1(0.0), g2(0.0), g3(0.0), g4(0.0), g5(0.0), g6(0.0), g7(0.0), g8(0.0);
   const Tets* row = words(block);
   for (int pair = 0; pair < pairs_; ++pair, row += 9) {
@@ -61,10 +61,10 @@ void TetRows::gradients(int block, Tets G[3][3]) const {
 }
 
 void TetRows::add_stresses(int half, int block, const Tets P[3][3]) {
-  // Copies, which no write to the sums can change: they stay in registers.
+  // Copies stay in registers, because writes to the sums cannot change them.
   const Tets p0 = P[0][0], p1 = P[0][1], p2 = P[0][2], p3 = P[1][0], p4 = P[1][1], p5 = P[1][2],
              p6 = P[2][0], p7 = P[2][1], p8 = P[2][2];
-  // Three sums of three terms: one of nine waits for each addition.
+  // Three sums of three terms: one sum of nine would wait for each addition.
   const auto force = [&](const auto& entry) {
     Tets x = entry(0) * p0, y = entry(1) * p1, z = entry(2) * p2;
     x += entry(3) * p3, y += entry(4) * p4, z += entry(5) * p5;

@@ -6,8 +6,8 @@
 
 namespace snapspace {
 
-/// The columns of a subspace in single precision and in a system's internal numbering, for the
-/// coarse part of a two-level preconditioner: vector -> U B U^T vector.
+/// The basis of a subspace in single precision and in a system's internal numbering, for the coarse
+/// part of a two-level preconditioner: vector -> U B U^T vector.
 class CoarseSpace {
  public:
   /// @param modes  dimension x size, row-major, in the caller's numbering

@@ -23,10 +23,10 @@ struct OneSample final : SampleExchange {
 
   std::optional<Sample> take(int) override { return std::exchange(waiting, std::nullopt); }
   [[nodiscard]] bool exhausted() const override { return !waiting.has_value(); }
-  void tell(int, int) override {}
-  void finish(int, SolveReport how, std::vector<double> solution) override {
+  void report_evaluations(int, int) override {}
+  void finish(int, SolveReport solve_report, std::vector<double> solution) override {
     finished = true;
-    report = how;
+    report = solve_report;
     shape = std::move(solution);
   }
 };
@@ -40,7 +40,7 @@ Solution polish(const SampleSystem& system, const CoarseSpace& coarse,
   OneSample exchange(sample);
   system.numbering.to_internal(sample.start.data(), exchange.waiting->start.data());
   LowestShape lowest;
-  // B has the right scale already: the seed is not scaled.
+  // B already has the right scale, so the seed is not scaled.
   run_lanes(kLongMemory, on_two_levels(system.lanes(), coarse, inverse, lowest), 2, options,
             options.threads, exchange, control);
 
@@ -49,7 +49,7 @@ Solution polish(const SampleSystem& system, const CoarseSpace& coarse,
   if (exchange.finished) {
     result.report = exchange.report;
     internal = std::move(exchange.shape);
-  } else {  // cancelled: not every evaluation was a step
+  } else {  // cancelled; not every evaluation was a step
     result.report.value = lowest.value;
     result.report.evaluations = lowest.evaluations;
   }

@@ -6,12 +6,12 @@
 
 namespace snapspace {
 
-/// A few full-space iterations from a shape that is close to the solution, as that of a reduced
-/// model is: the L-BFGS of the snapshots on one sample, seeded on two levels.
+/// A few full-space iterations from a shape close to the solution, such as that of a reduced model:
+/// the L-BFGS of the snapshots on one sample, with a two-level seed.
 ///
 /// @param inverse  inverse of the Hessian on the coarse space near the start, positive definite
 /// @param sample   in the caller's numbering
-/// @return  in the caller's numbering; of a solve that the control cancels the lowest shape so far
+/// @return  in the caller's numbering; the lowest shape so far if the control cancels the solve
 [[nodiscard]] Solution polish(const SampleSystem& system, const CoarseSpace& coarse,
                               const Eigen::MatrixXf& inverse, const Sample& sample,
                               const SolveOptions& options, const SolveControl& control);

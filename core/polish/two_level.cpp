@@ -36,7 +36,7 @@ class TwoLevelObjective final : public LaneObjective<Real> {
     return value;
   }
 
-  /// The other lanes hold nothing.
+  /// The other lanes are unused.
   Sum<Single> precondition(const Single* vector, Single* result) override {
     for (int i = 0; i < size(); ++i) vector_[i] = vector[i][0];
     const double along = coarse_.solve(inverse_, vector_, correction_);

@@ -8,7 +8,7 @@
 
 namespace snapspace {
 
-/// The lowest shape that a solve has evaluated so far: what is left of one that is cancelled.
+/// The lowest shape that a solve has evaluated so far: the result of a cancelled solve.
 struct LowestShape {
   std::vector<double> shape;  ///< empty before the first finite value
   double value = std::numeric_limits<double>::infinity();
@@ -16,9 +16,9 @@ struct LowestShape {
 };
 
 /// Objectives of one sample, in lane 0, with the seed A^{-1} + U B U^T of a two-level additive
-/// method (Dryja & Widlund 1990): the scalar factor A for what is local, and the inverse Hessian B
-/// on a subspace for what is soft and smooth, which A mistakes for stiff. They refer to what is
-/// given.
+/// method (Dryja & Widlund 1990): the scalar factor A for local deformations, and the inverse
+/// Hessian B on a subspace for the soft and smooth ones, which A mistakes for stiff. The objectives
+/// refer to the arguments.
 [[nodiscard]] LaneObjectives on_two_levels(LaneObjectives objectives, const CoarseSpace& coarse,
                                            const Eigen::MatrixXf& inverse, LowestShape& lowest);
 

@@ -7,7 +7,7 @@ namespace snapspace {
 
 namespace {
 
-/// Place of a pair of groups I <= J.
+/// Index of a pair of groups I <= J.
 std::size_t pair_of(int I, int J) { return static_cast<std::size_t>(J) * (J + 1) / 2 + I; }
 
 }  // namespace

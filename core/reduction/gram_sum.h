@@ -6,22 +6,22 @@
 
 namespace snapspace {
 
-/// The Gram matrix A^T A of a tall matrix whose rows come panel by panel: what BLAS calls syrk, for
-/// rows that are made where the product wants them.
-///
+/// The Gram matrix A^T A of a tall matrix whose rows come panel by panel: like syrk of BLAS, but
+/// for rows that are written where the product reads them.
 /// Columns are in groups of three packs. A tile of the Gram matrix, a few columns of one group by
-/// another group, stays in registers while the rows of a panel pass by. With about a hundred rows
-/// a group of a panel stays in the first-level cache, and the panel in the second.
+/// another group, stays in registers while it is summed over the rows of a panel. With about a
+/// hundred rows, a group of a panel stays in the first-level cache, and the panel in the
+/// second-level cache.
 class GramSum {
  public:
-  /// @param rows  of a panel, at most
+  /// @param rows  most rows of a panel
   GramSum(int columns, int rows);
 
-  /// Row r of the panel.
+  /// Sets row r of the panel.
   void set_row(int r, const double* row);
   /// Adds the products of the panel's first `rows` rows.
   void add(int rows);
-  /// Adds another sum of as many columns.
+  /// Adds another sum with the same number of columns.
   void add(const GramSum& other);
 
   /// The sum of the products of columns a and b, a <= b.

@@ -10,8 +10,8 @@ namespace snapspace {
 
 namespace {
 
-/// Tets at a time: their rows stay in the second-level cache while mode follows mode (d = 120: 276
-/// KB).
+/// Tets at a time: their rows stay in the second-level cache during the loop over modes (d = 120:
+/// 276 kB).
 constexpr int kChunk = 64;
 
 void one_gradient(const RestTet& tet, const double* mode, std::size_t stride, float* to) {

@@ -20,20 +20,21 @@ namespace {
 
 constexpr int kPanelTets = 24;
 
-/// Into how many parts the tets are divided, each with a sum of its own: as many as many threads
-/// want, but no more than there is memory for. The same for any number of threads, since sums in
-/// another order round differently.
+/// Number of parts into which the tets are divided, each with its own sum: enough for many threads,
+/// but limited by memory. It does not depend on the number of threads, because sums in another
+/// order round differently.
 int part_count(int columns, int tets) {
-  constexpr double kMost = 8.0, kMemory = 256e6;  // parts, and bytes of all their sums
+  constexpr double kMaxParts = 8.0, kMaxBytes = 256e6;  // the bytes are those of all sums
   const double each = 4.0 * columns * columns;
   const int panels = (tets + kPanelTets - 1) / kPanelTets;
-  return std::clamp(static_cast<int>(std::min(kMost, kMemory / each)), 1, std::max(1, panels));
+  return std::clamp(static_cast<int>(std::min(kMaxParts, kMaxBytes / each)), 1,
+                    std::max(1, panels));
 }
 
-/// Column of the pair (i, j), i <= j, behind the constant and the d linear columns.
+/// Column of the pair (i, j), i <= j, after the constant and the d linear columns.
 int pair_column(int dimension, int i, int j) { return 1 + dimension + j * (j + 1) / 2 + i; }
 
-/// Adds the rows of the tets from begin to end.
+/// Adds the rows of the tets from `begin` to before `end`.
 void add_tets(const ElasticEnergy& energy, const VertexModes& modes, int dimension, int begin,
               int end, GramSum& gram) {
   StrainRows strain(modes, dimension);
@@ -62,7 +63,8 @@ GramSum gram_matrix(const ElasticEnergy& energy, const double* modes, int dimens
   return std::move(sums[0]);
 }
 
-/// Place of the monomial x_i x_j x_k x_l in online::Quartic's order; the indices come in any order.
+/// Position of the monomial x_i x_j x_k x_l in online::Quartic's order; its indices are in any
+/// order.
 std::size_t monomial(std::array<int, 4> index) {
   std::sort(index.begin(), index.end());
   const std::size_t i = index[0], j = index[1], k = index[2], l = index[3];
@@ -74,11 +76,11 @@ std::size_t monomial(std::array<int, 4> index) {
 std::vector<double> quartic_coefficients(const ElasticEnergy& energy, const double* modes,
                                          int dimension, int threads) {
   if (energy.material.view().kind != material_index(StVK::kName))
-    throw std::invalid_argument("the energy is no polynomial of degree four: it is that of " +
+    throw std::invalid_argument("the energy is not a polynomial of degree four: its material is " +
                                 std::string(energy.material.name()));
   const int columns = 1 + dimension + static_cast<int>(online::pair_count(dimension));
   const GramSum gram = gram_matrix(energy, modes, dimension, columns, threads);
-  // Factors (i, j) of x = (1, q) that each column of A stands for.
+  // The factors (i, j) of x = (1, q) for each column of A.
   std::vector<std::array<int, 2>> factors(columns);
   for (int j = 0; j <= dimension; ++j)
     for (int i = 0; i <= j; ++i)

@@ -38,7 +38,7 @@ void StrainRows::fill_gradients(const RestTet& tet) {
 }
 
 /// Strain component (a, b): 1/2 (G + G^T + G^T G)_ab with G = G_offset + sum_i q_i G_i. Packs reach
-/// beyond the end of what they are for; what comes next writes over it.
+/// beyond the end of their columns; the next columns overwrite the excess.
 void StrainRows::fill_strain(int a, int b, double* row) const {
   const auto cross = [&](int i, int j) {  // 1/2 (G_i^T G_j + G_j^T G_i)_ab
     double sum = 0.0;
@@ -71,9 +71,8 @@ void StrainRows::fill_strain(int a, int b, double* row) const {
   }
 }
 
-/// By the square root of the density: strains E become rows shear * E_rc and diagonal * E_rr +
-/// trace
-/// * tr(E), whose squares add up to volume * (mu |E|^2 + lam/2 tr(E)^2).
+/// Scales by the square root of the density: strains E become rows shear * E_rc and diagonal * E_rr
+/// + trace * tr(E), whose squares add up to volume * (mu |E|^2 + lam/2 tr(E)^2).
 void StrainRows::scale(double volume, const Lame& lame) {
   const double diagonal = std::sqrt(volume * lame.mu), shear = std::sqrt(2.0 * volume * lame.mu);
   const double trace = (std::sqrt(volume * (lame.mu + 1.5 * lame.lam)) - diagonal) / 3.0;

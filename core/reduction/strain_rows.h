@@ -9,15 +9,15 @@
 namespace snapspace {
 
 /// The six rows of A for a tet of St.Venant-Kirchhoff material: its strain, a quadratic function of
-/// q, with coefficients for 1, the q_i, and the q_i q_j with i <= j, by j. Squares of the rows add
-/// up to the energy of the tet.
+/// q, with coefficients for 1, the q_i, and the q_i q_j with i <= j, sorted by j. The squares of
+/// the rows add up to the energy of the tet.
 class StrainRows {
  public:
   StrainRows(const VertexModes& modes, int dimension);
 
   [[nodiscard]] int columns() const { return columns_; }
 
-  /// Row s of the tet, s < 6: columns() numbers, until the next call.
+  /// Row s of the tet, s < 6: columns() numbers, valid until the next fill().
   const double* row(int s) const { return &rows_[s * stride_]; }
   void fill(const RestTet& tet, const Lame& lame);
 
@@ -38,7 +38,7 @@ class StrainRows {
 
   const VertexModes& modes_;
   int dimension_, packs_, columns_;
-  std::size_t stride_;  // with room for a pack behind the columns
+  std::size_t stride_;  // with space for a pack after the columns
   std::vector<Wide> gradients_;
   std::vector<double> rows_;
 };

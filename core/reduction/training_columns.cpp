@@ -12,14 +12,14 @@ namespace {
 
 using Singles = SingleLanes<2 * kWideLanes>;
 
-/// Candidates whose maps stay in the second-level cache for all states (d = 120: 138 KB).
+/// Candidates whose maps stay in the second-level cache for all states (d = 120: 138 kB).
 constexpr int kCandidates = 32;
-/// Sums that stay in registers: of so many candidates and packs of directions.
-constexpr int kTall = 4, kBroad = 3;
+/// Numbers of candidates and of packs of directions whose sums stay in registers.
+constexpr int kTileForces = 4, kTilePacks = 3;
 
 int single_packs(int numbers) { return (numbers + Singles::kWidth - 1) / Singles::kWidth; }
 
-/// Rows of numbers, each filled up with zeros to whole packs.
+/// Rows of numbers, each padded with zeros to whole packs.
 class PaddedRows {
  public:
   PaddedRows(std::size_t rows, int length)
@@ -52,30 +52,31 @@ void force(const PaddedRows& rows, int tet, const float* stress, Singles* result
   }
 }
 
-/// Products of the forces of kTall tets, from the first on, with `Broad` packs of directions.
-template <int Broad>
+/// Products of the forces of kTileForces tets, from the first on, with `TilePacks` packs of
+/// directions.
+template <int TilePacks>
 void multiply(int dimension, const PaddedRows& forces, int first, const Singles* along, int stride,
               PaddedRows& products, int pack) {
-  Singles sums[kTall][Broad];
+  Singles sums[kTileForces][TilePacks];
 #pragma GCC unroll 4
   for (auto& row : sums)
 #pragma GCC unroll 3
     for (Singles& sum : row) sum = Singles(0.0f);
-  const float* force[kTall];
-  for (int c = 0; c < kTall; ++c) force[c] = forces.numbers(first + c);
+  const float* force[kTileForces];
+  for (int c = 0; c < kTileForces; ++c) force[c] = forces.numbers(first + c);
   for (int i = 0; i < dimension; ++i, along += stride) {
-    Singles direction[Broad];
+    Singles direction[TilePacks];
 #pragma GCC unroll 3
-    for (int p = 0; p < Broad; ++p) direction[p] = along[p];
+    for (int p = 0; p < TilePacks; ++p) direction[p] = along[p];
 #pragma GCC unroll 4
-    for (int c = 0; c < kTall; ++c) {
+    for (int c = 0; c < kTileForces; ++c) {
       const Singles factor(force[c][i]);
 #pragma GCC unroll 3
-      for (int p = 0; p < Broad; ++p) sums[c][p] += factor * direction[p];
+      for (int p = 0; p < TilePacks; ++p) sums[c][p] += factor * direction[p];
     }
   }
-  for (int c = 0; c < kTall; ++c)
-    for (int p = 0; p < Broad; ++p) products.at(first + c)[pack + p] = sums[c][p];
+  for (int c = 0; c < kTileForces; ++c)
+    for (int p = 0; p < TilePacks; ++p) products.at(first + c)[pack + p] = sums[c][p];
 }
 
 /// Products of all forces with the directions of a state.
@@ -83,10 +84,10 @@ void multiply(int dimension, const PaddedRows& forces, const PaddedRows& along, 
               PaddedRows& products) {
   const int packs = along.packs();
   const Singles* directions = along.at(static_cast<std::size_t>(state) * dimension);
-  for (int first = 0; first < kCandidates; first += kTall) {
+  for (int first = 0; first < kCandidates; first += kTileForces) {
     int p = 0;
-    for (; p + kBroad <= packs; p += kBroad)
-      multiply<kBroad>(dimension, forces, first, directions + p, packs, products, p);
+    for (; p + kTilePacks <= packs; p += kTilePacks)
+      multiply<kTilePacks>(dimension, forces, first, directions + p, packs, products, p);
     if (packs - p == 2) multiply<2>(dimension, forces, first, directions + p, packs, products, p);
     if (packs - p == 1) multiply<1>(dimension, forces, first, directions + p, packs, products, p);
   }

@@ -6,13 +6,13 @@
 
 namespace snapspace {
 
-/// Modes of a shape, vertex by vertex: what a tet needs of all of them is in four places.
+/// Modes of a shape, vertex by vertex: the entries of all modes for a tet are in four places.
 class VertexModes {
  public:
   using Wide = Lanes<kWideLanes>;
 
-  /// @param modes  (dimension + 1) x shape_size row-major: an offset, then the basis. Here the
-  ///               offset is the last one.
+  /// @param modes  (dimension + 1) x shape_size row-major: an offset, then the basis. In this class
+  ///               the offset comes last.
   VertexModes(const double* modes, int dimension, std::size_t shape_size)
       : packs_(dimension / kWideLanes + 1), entries_(shape_size * packs_, Wide(0.0)) {
     for (int k = 0; k <= dimension; ++k) {
@@ -22,7 +22,7 @@ class VertexModes {
     }
   }
 
-  /// Of modes; what is behind the last one is zero.
+  /// Packs of modes; lanes after the last mode are zero.
   [[nodiscard]] int packs() const { return packs_; }
   /// x of all modes at a vertex, then y and z.
   [[nodiscard]] const Wide* at(int vertex) const {

@@ -4,7 +4,7 @@
 
 #include "simd/lanes.h"
 
-/// Functions of packs, lane by lane, and the same names for numbers.
+/// Functions of packs, lane by lane, and the same functions for numbers.
 namespace snapspace {
 
 inline double sqrt(double a) { return std::sqrt(a); }
@@ -19,7 +19,7 @@ inline Pack<T, Width> sqrt(Pack<T, Width> a) {
   if constexpr (WiderThanRegister<T, Width>) {
     return {sqrt(a.low), sqrt(a.high)};
   } else {
-    // Compilers make one instruction of the loop only where square roots need not set errno.
+    // Compilers turn the loop into one instruction only if square roots need not set errno.
 #if defined(__GNUC__) && defined(__AVX512F__)
     if constexpr (Width * sizeof(T) == 64) {
       if constexpr (sizeof(T) == 4)
@@ -47,8 +47,8 @@ inline Pack<T, Width> max(Pack<T, Width> a, Pack<T, Width> b) {
   return select(is_less(a, b), b, a);
 }
 
-/// Whether a lane has its sign bit set: to skip what no lane needs. What the lanes hold afterwards
-/// must not depend on it.
+/// Whether any lane has its sign bit set, to skip work that no lane needs. Results must not depend
+/// on whether it was skipped.
 inline bool any_negative(double a) { return std::signbit(a); }
 template <class T, int Width>
 inline bool any_negative(Pack<T, Width> a) {
@@ -77,7 +77,8 @@ inline bool any_negative(Pack<T, Width> a) {
   }
 }
 
-/// Lanes that the processor has rough inverses for, for a pack of this width; 0 if it has none.
+/// Lanes of the processor's rough inverses that are used for a pack of this width; 0 if it has
+/// none.
 template <class T, int Width>
 inline constexpr int kRoughLanes =
 #if defined(__GNUC__) && defined(__AVX__)
@@ -86,9 +87,10 @@ inline constexpr int kRoughLanes =
     0;
 #endif
 
-/// About 1 / a and 1 / sqrt(a) of a > 0 that is neither tiny nor huge, to 11 bits at least: for
-/// iterations that correct their own errors. Exact but for packs in single precision on x86, where
-/// divisions and roots of wide packs take ten times as long. The same bits in packs of every width.
+/// About 1 / a and 1 / sqrt(a), to at least 11 bits, for a > 0 that is neither tiny nor huge: for
+/// iterations that correct their own errors. Exact except for packs in single precision on x86,
+/// where divisions and roots of wide packs take ten times as long. The same bits in packs of every
+/// width.
 inline double rough_inverse(double a) { return 1.0 / a; }
 inline double rough_inverse_sqrt(double a) { return 1.0 / std::sqrt(a); }
 

@@ -10,11 +10,13 @@
 ///
 /// A pack holds the same quantity of `Width` independent samples. Every operation is elementwise,
 /// so a lane never sees its neighbours: the result of a sample is bitwise the same in any lane and
-/// beside any other samples. Packs of another width are other code, and may round differently.
+/// beside any other samples. Packs of another width compile to other code, and may round
+/// differently.
 
 namespace snapspace {
 
-/// Samples that a thread solves together at most in double precision; in single twice as many.
+/// Most samples that a thread solves together in double precision; in single precision twice as
+/// many.
 #if defined(__AVX512F__)
 inline constexpr int kWideLanes = 8;
 #elif defined(__AVX__)
@@ -23,8 +25,8 @@ inline constexpr int kWideLanes = 4;
 inline constexpr int kWideLanes = 2;
 #endif
 
-/// Packs are a level's own, in their registers and their layout: what is compiled once for all
-/// levels must not use any.
+/// Registers and layout of packs depend on the processor level. Code that is compiled once for all
+/// levels must not use packs.
 template <class T, int Width>
 #if defined(SNAPSPACE_ALL_LEVELS)
 inline constexpr bool kHasPacks = false;
@@ -32,13 +34,14 @@ inline constexpr bool kHasPacks = false;
 inline constexpr bool kHasPacks = true;
 #endif
 
-/// Whether a pack needs more than one register. Such packs are two halves: compilers that are given
-/// a longer vector keep it in memory, and its sums wait for stores.
+/// Whether a pack needs more than one register. Such packs are two halves: compilers keep longer
+/// vectors in memory, and their sums wait for stores.
 template <class T, int Width>
 concept WiderThanRegister = Width * sizeof(T) > kWideLanes * sizeof(double);
 
 #if defined(__GNUC__)
-// Compilers drop the attribute where the size depends on a template parameter: every size is named.
+// Compilers drop the attribute if the size depends on a template parameter, so every size is
+// listed.
 template <class T, int Width>
 struct VectorOf;
 template <>
@@ -80,7 +83,7 @@ struct alignas(Width * sizeof(T)) Pack {
   using Vector = typename VectorOf<T, Width>::type;
   Vector v;
   Pack() = default;
-  // s - 0 is s in every bit, so compilers leave a plain broadcast; 0 + s would cost an addition.
+  // s - 0 is s in every bit, so compilers emit a plain broadcast; 0 + s would cost an addition.
   Pack(T s) : v(s - Vector{}) {}
   explicit Pack(Vector vector) : v(vector) {}
   friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
@@ -165,7 +168,7 @@ using Lanes = Pack<double, Width>;
 template <int Width>
 using SingleLanes = Pack<float, Width>;
 
-/// A half of a pack, and a pack of two halves.
+/// One half of a pack, and the pack of two halves.
 template <bool High, class T, int Width>
 inline Pack<T, Width / 2> half(Pack<T, Width> pack) {
   if constexpr (WiderThanRegister<T, Width>) {
@@ -190,7 +193,7 @@ template <class To, class From, int Width>
 inline Pack<To, Width> cast(Pack<From, Width> a) {
   if constexpr (std::is_same_v<To, From>) {
     return a;
-#if defined(__GNUC__) && defined(__AVX__)  // compilers make two conversions of these
+#if defined(__GNUC__) && defined(__AVX__)  // compilers emit two conversions for these
   } else if constexpr (Width == 4) {
     if constexpr (std::is_same_v<To, double>)
       return Pack<To, 4>((typename Pack<To, 4>::Vector)_mm256_cvtps_pd((__m128)a.v));
@@ -217,8 +220,8 @@ inline Pack<To, Width> cast(Pack<From, Width> a) {
   }
 }
 
-/// A product that is rounded by itself. Of a sum of two products compilers contract either one into
-/// a multiply-add, and not the same one for packs of every width.
+/// A product that is rounded before it is added. Compilers contract one product of a sum of two
+/// into a multiply-add, and not the same one for packs of every width.
 template <class T, int Width>
 inline Pack<T, Width> rounded(Pack<T, Width> product) {
   if constexpr (WiderThanRegister<T, Width>) {
@@ -235,7 +238,7 @@ inline Pack<T, Width> rounded(Pack<T, Width> product) {
 
 inline double rounded(double product) { return product; }
 
-/// What a lane holds; a number is a pack of one.
+/// The type of a lane; a number counts as a pack of one.
 template <class Real>
 struct ScalarOf {
   using type = Real;
@@ -252,7 +255,7 @@ void set_lane(Pack<T, Width>& x, int lane, double value) {
   x.set(lane, static_cast<T>(value));
 }
 
-/// Sums of many terms are taken in double precision, also of terms in single precision.
+/// Sums of many terms are taken in double precision, even if the terms are in single precision.
 inline double widened(double a) { return a; }
 template <class T, int Width>
 inline Lanes<Width> widened(Pack<T, Width> a) {

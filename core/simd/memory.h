@@ -4,7 +4,7 @@
 #include "simd/lanes.h"
 
 /// Packs of neighbouring numbers of one array: loads, stores and sums. (Elsewhere a pack holds one
-/// number of each of several samples.)
+/// number from each of several samples.)
 
 namespace snapspace {
 
@@ -29,8 +29,8 @@ inline void store(double* to, Lanes<Width> pack) {
   std::memcpy(to, &pack, sizeof pack);
 }
 
-/// Keeps a pack in its register. Without it compilers fold a load into each use, and what was to be
-/// read once is read three times.
+/// Keeps a pack in its register. Otherwise compilers fold the load into each use, and a number is
+/// read three times instead of once.
 template <class P>
 inline void keep_in_register([[maybe_unused]] P& pack) {
 #if defined(__GNUC__) && defined(__AVX__)

@@ -1,8 +1,8 @@
 #pragma once
 #include "simd/lanes.h"
 
-/// X(pack) for all packs of samples that this build solves with. What is a template over packs, and
-/// long, is defined in a source file and instantiated there for these: others only declare it.
+/// X(pack) for all packs of samples that this build solves with. Long templates over packs are
+/// defined in a source file and instantiated there for these packs; headers only declare them.
 #define SNAPSPACE_NARROW_PACKS(X) X(SingleLanes<2>) X(SingleLanes<4>) X(Lanes<2>)
 #if defined(SNAPSPACE_ALL_LEVELS)
 #define SNAPSPACE_LANE_PACKS(X)
@@ -14,7 +14,7 @@
 #else
 #define SNAPSPACE_LANE_PACKS(X) SNAPSPACE_NARROW_PACKS(X)
 #endif
-/// The same, and the number.
+/// The same packs, and double.
 #define SNAPSPACE_PACKS(X) SNAPSPACE_LANE_PACKS(X) X(double)
 
 namespace snapspace {
@@ -23,7 +23,7 @@ template <class... Real>
 struct PackList {};
 
 #define SNAPSPACE_LISTED(Real) , Real
-template <class Nothing, class... Real>
+template <class Ignored, class... Real>
 struct Listed {
   using Packs = PackList<Real...>;
 };

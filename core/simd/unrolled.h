@@ -3,14 +3,14 @@
 
 namespace snapspace {
 
-/// A number that is known when it is compiled.
+/// A compile-time integer.
 template <int Value>
 struct Constant {
   constexpr operator int() const { return Value; }
 };
 
-/// work(i) for i = First ... Last - 1, each a Constant: arrays that only such indices reach stay in
-/// registers.
+/// Calls work(i) for i = First ... Last - 1, each a Constant: arrays indexed only by Constants stay
+/// in registers.
 template <int First, int Last, class Work>
 inline void unrolled(Work&& work) {
   [&]<int... I>(std::integer_sequence<int, I...>) {

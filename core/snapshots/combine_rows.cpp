@@ -11,7 +11,8 @@ namespace {
 
 using Wide = Lanes<kWideLanes>;
 
-/// Columns whose sums stay in registers, and those of all rows that stay in the second-level cache.
+/// Columns whose sums stay in registers, and columns of all rows that stay in the second-level
+/// cache.
 constexpr std::size_t kPacks = 8;
 constexpr std::size_t kColumns = kPacks * kWideLanes;
 constexpr std::size_t kBlock = 4 * kColumns;
@@ -36,7 +37,7 @@ void combine(const std::vector<Term>& terms, std::size_t column, double* combine
   for (std::size_t p = 0; p < kPacks; ++p) store(combined + column + p * kWideLanes, sums[p]);
 }
 
-/// The sums of what is left at the end.
+/// The sums of the remaining columns at the end.
 void combine_rest(const std::vector<Term>& terms, std::size_t begin, std::size_t end,
                   double* combined) {
   for (std::size_t column = begin; column < end; ++column) {

@@ -14,7 +14,7 @@ inline void add_scaled(std::vector<double>& y, double scale, const std::vector<d
   for (std::size_t i = 0; i < y.size(); ++i) y[i] += scale * x[i];
 }
 
-/// Preconditioned conjugate gradients on H d = -g. Keeps its memory from one system to the next.
+/// Preconditioned conjugate gradients on H d = -g. Reuses its memory for the next system.
 ///
 /// H may have negative curvature: the iterate before such a direction is a descent direction and is
 /// kept (Nocedal & Wright 2006, alg. 7.1).
@@ -23,8 +23,8 @@ class ConjugateGradients {
   explicit ConjugateGradients(std::size_t size)
       : residual_(size), preconditioned_(size), search_(size), product_(size) {}
 
-  /// Writes d, after the residual in the preconditioner's norm has fallen by the given ratio;
-  /// returns the number of iterations.
+  /// Writes d once the residual in the preconditioner's norm has fallen by the given ratio; returns
+  /// the number of iterations.
   ///
   /// @param multiply      (v, product) writes H v
   /// @param precondition  (v, result) writes the preconditioner times v

@@ -15,7 +15,7 @@ namespace {
 constexpr int kWidth = kWideLanes;
 using Wide = Lanes<kWidth>;
 
-/// One pack of displacements after the other.
+/// Evaluates one pack of displacements after the other.
 class Evaluation {
  public:
   explicit Evaluation(const SampleSystem& system, const LaneObjectives& objectives)
@@ -25,18 +25,18 @@ class Evaluation {
         gradients_(system.size(), Wide(0.0)),
         one_(system.size()) {}
 
-  /// As `evaluate`, for a pack at most.
+  /// The same as `evaluate`, for at most one pack.
   void operator()(int count, const double* inputs, const double* shapes, double* values,
                   double* gradients) {
     const int size = system_.size();
     for (int lane = 0; lane < kWidth; ++lane) {
-      const int sample = std::min(lane, count - 1);  // lanes that nobody needs repeat the last
+      const int sample = std::min(lane, count - 1);  // unused lanes repeat the last sample
       objective_->load(lane, inputs + sample * system_.input_size());
       system_.numbering.to_internal(shapes + static_cast<std::size_t>(sample) * size, one_.data());
       for (int i = 0; i < size; ++i) shapes_[i].set(lane, one_[i]);
     }
-    SweepVisitor nobody;
-    const auto sums = objective_->value_and_gradient(shapes_.data(), gradients_.data(), nobody);
+    SweepVisitor idle;
+    const auto sums = objective_->value_and_gradient(shapes_.data(), gradients_.data(), idle);
     for (int lane = 0; lane < count; ++lane) {
       values[lane] = sums[lane];
       for (int i = 0; i < size; ++i) one_[i] = gradients_[i][lane];

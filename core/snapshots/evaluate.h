@@ -3,8 +3,8 @@
 
 namespace snapspace {
 
-/// Objectives at several displacements, with their gradients: one per lane, packs on threads. What
-/// comes out depends neither on the threads nor on the others.
+/// Objectives and gradients at several displacements: one per lane, and packs on threads. A result
+/// depends neither on the threads nor on the other displacements.
 ///
 /// @param inputs     count x input_size
 /// @param shapes     count x 3n, in the caller's numbering

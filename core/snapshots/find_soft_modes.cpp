@@ -17,27 +17,29 @@ namespace snapspace {
 
 namespace {
 
-/// Columns of a block: more than are wanted, which lets those converge soon.
+/// Columns of a block: more than are wanted, so that the wanted ones converge soon.
 constexpr int kBlock = ModeBlock::kColumns;
 static_assert(kBlock == 2 * SoftModes::kCount);
-constexpr int kMostSteps = 40;
-/// Change of the sum of the wanted eigenvalues in a step that ends the search, as a share.
+constexpr int kMaxSteps = 40;
+/// The search ends when a step changes the sum of the wanted eigenvalues by less than this share.
 constexpr double kConverged = 0.06;
-/// Solutions are bent and stretched, and stiffer along the modes than the rest shape: by 8 to 60 in
-/// the mean on the Dragon. With too small a factor directions overshoot; beyond 40 little changes.
+/// Solutions are bent and stretched, and so stiffer along the modes than the rest shape: by a
+/// factor of 8 to 60 on average on the Dragon. With too small a factor directions overshoot; beyond
+/// 40 little changes.
 constexpr double kStiffening = 40.0;
-/// Least root of a pivot of columns that are not dependent; products are of 1e-6.
+/// Columns count as dependent if the root of a pivot is below this; products are accurate to 1e-6.
 constexpr double kDependent = 1e-2;
 
 using ModePack = ModeBlock::Pack;
 
-/// Shapes with what A and H make of them, 3n blocks each.
+/// Shapes, and their products with A and H; each is a block of 3n rows.
 struct Columns {
   ModeBlock shapes, scalar, forces;
   explicit Columns(std::size_t size) : shapes(size), scalar(size), forces(size) {}
 };
 
-/// What a step combines: the pairs so far, their preconditioned residuals, and the last change.
+/// The blocks that a step combines: the pairs so far, their preconditioned residuals, and the last
+/// change.
 struct Span {
   Columns x, fresh, past;
   explicit Span(std::size_t size) : x(size), fresh(size), past(size) {}
@@ -57,8 +59,8 @@ struct Gram {
 using BlockPair = std::array<int, 2>;
 using BlockPairs = std::vector<BlockPair>;
 
-/// The products of these pairs, over some entries. All products of a chunk of entries find them in
-/// a cache.
+/// The products of these pairs, over some entries. A chunk of entries stays in a cache for all of
+/// its products.
 Gram partial_gram(const Span& span, const BlockPairs& pairs, std::size_t begin, std::size_t end) {
   constexpr std::size_t kChunk = 128;
   Gram gram;
@@ -73,14 +75,14 @@ Gram partial_gram(const Span& span, const BlockPairs& pairs, std::size_t begin, 
   return gram;
 }
 
-/// The block of a pair of `to` becomes that of `from`, or the sum of both.
+/// Sets the pair's block of `to` to that of `from`, or adds it.
 void take_block(const BlockPair& pair, const SquareMatrix& from, bool add, SquareMatrix& to) {
   for (int c = pair[1] * kBlock; c < (pair[1] + 1) * kBlock; ++c)
     for (int r = pair[0] * kBlock; r < (pair[0] + 1) * kBlock; ++r)
       to(r, c) = add ? to(r, c) + from(r, c) : from(r, c);
 }
 
-/// Measures the products of these pairs of blocks; the others stay.
+/// Computes the products of these pairs of blocks; the others are left unchanged.
 void measure(const Span& span, const BlockPairs& pairs, Gram& gram) {
   std::vector<Gram> parts(kModeParts);
   for_parts(span.x.shapes.size(), [&](int part, std::size_t begin, std::size_t end) {
@@ -93,10 +95,10 @@ void measure(const Span& span, const BlockPairs& pairs, Gram& gram) {
     }
 }
 
-/// The Gram matrices when x and past have become combinations of the span: products need not be
-/// measured again, which is half of them.
+/// The Gram matrices after x and past have been replaced by combinations of the span. This saves
+/// computing half of the products again.
 Gram combined(const Gram& gram, const std::vector<double>& coefficients) {
-  // x has the coefficients, the next block none, and past those without the first block
+  // x has the coefficients, the next block zeros, and past the coefficients without the first block
   std::vector<double> both(std::size_t(kSpan) * kSpan, 0.0);
   std::copy(coefficients.begin(), coefficients.end(), both.begin());
   for (int c = 0; c < kBlock; ++c)
@@ -105,13 +107,13 @@ Gram combined(const Gram& gram, const std::vector<double>& coefficients) {
   return {congruent(gram.scalar, both), congruent(gram.hessian, both)};
 }
 
-void fill_at_random(ModeBlock& block) {
+void fill_randomly(ModeBlock& block) {
   PseudoRandom next;
   for (std::size_t i = 0; i < block.size(); ++i)
     for (int k = 0; k < kBlock; ++k) block.set(i, k, next());
 }
 
-/// Lanes over the square roots of `squares`.
+/// Divides the lanes of both arrays by the square roots of `squares`.
 void normalize(const Sum<ModePack>& squares, std::size_t size, ModePack* a, ModePack* b) {
   ModePack factor;
   for (int k = 0; k < ModeBlock::kLanes; ++k)
@@ -122,7 +124,7 @@ void normalize(const Sum<ModePack>& squares, std::size_t size, ModePack* a, Mode
   }
 }
 
-/// Columns that the inverse makes of `scalar`, normalized.
+/// Sets the shapes to the inverse times `scalar`, normalized, and the forces to match.
 void precondition(const PosingSystem& system, Columns& columns, std::vector<Scratch>& scratch) {
   parallel_for(ModeBlock::kPacks, 0, [&](int p) {
     const FlushDenormals flush;
@@ -163,7 +165,7 @@ SoftModes find_soft_modes(const PosingSystem& system) {
   Span span(static_cast<std::size_t>(system.size()));
   auto& [x, fresh, past] = span;
   std::vector<Scratch> scratch(ModeBlock::kPacks);
-  fill_at_random(x.scalar);
+  fill_randomly(x.scalar);
   precondition(system, x, scratch);
   std::vector<double> values(kBlock, 0.0);
   Gram gram;
@@ -183,7 +185,7 @@ SoftModes find_soft_modes(const PosingSystem& system) {
   measure(span, {{0, 0}}, gram);
   improve(kBlock);
   double before = 0.0;
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     set_residuals(x, values, fresh);
     precondition(system, fresh, scratch);
     measure(span, {{1, 0}, {1, 1}, {2, 1}}, gram);

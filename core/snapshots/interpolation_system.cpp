@@ -31,13 +31,13 @@ Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
   return A;
 }
 
-/// The objective; see InterpolationSystem.
+/// The objective of InterpolationSystem.
 template <class Real>
 class InterpolationObjective final : public LaneObjective<Real> {
  public:
   using Single = typename LaneObjective<Real>::Single;
 
-  /// @param threads  that it may use for itself
+  /// @param threads  number that the objective may use
   InterpolationObjective(const InterpolationSystem& system, int threads)
       : system_(system),
         threads_(threads),
@@ -53,9 +53,9 @@ class InterpolationObjective final : public LaneObjective<Real> {
     system_.energy->set_weights(lane, weights, blend_.data());
   }
 
-  /// Few samples are a pack or two, which would leave threads idle: the tets are visited in two
-  /// halves, whatever the number of threads and the width of the pack, because sums of other parts
-  /// would round differently.
+  /// A few samples fill only a pack or two, which would leave threads idle. So the tets are visited
+  /// in two halves, for any number of threads and any width of the pack: other parts would round
+  /// differently.
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) override {
     visitor.before(0, size() / 3);
     const int tets = system_.energy->tets();

@@ -10,16 +10,15 @@ namespace snapspace {
 
 /// An interpolation problem: F(u) = sum_k w_k E_k, with u the displacement from pose 0. The inputs
 /// of a sample are its weights.
-///
 /// F does not change under rigid motions. Its gradient is orthogonal to translations and rotations
-/// of the shape, so the iterates only drift along them by rounding, and callers register the
-/// results. The scalar matrix has the translations as its null space. It is made regular at one
-/// vertex: for right-hand sides that sum to zero, as gradients do, that changes its inverse by
-/// translations only.
+/// of the shape, so the iterates drift along them only by rounding, and callers register the
+/// results. The null space of the scalar matrix is the translations. It is made regular at one
+/// vertex: for right-hand sides that sum to zero, as gradients do, that changes the solution only
+/// by a translation.
 class InterpolationSystem final : public SampleSystem {
  public:
   std::shared_ptr<const BlendedEnergy> energy;  ///< shared by the systems made by `adapted`
-  std::vector<std::int32_t> tet_order;          ///< the caller's number of every tet
+  std::vector<std::int32_t> tet_order;          ///< the caller's index of each tet
 
   /// @param mesh   pose 0, renumbered
   /// @param poses  count x n x 3 in the internal numbering
@@ -28,8 +27,8 @@ class InterpolationSystem final : public SampleSystem {
 
   /// The same problem with an inverse for solutions near the given shapes (count x 3n, internal
   /// displacements): that of the mean of their scalar Hessians, each at its weights (count x
-  /// poses). Poses that stretch a tet much make it stiff, and one that knows needs a fourth of the
-  /// iterations.
+  /// poses). Poses that stretch a tet much make it stiff; an inverse that accounts for it needs a
+  /// quarter of the iterations.
   [[nodiscard]] InterpolationSystem adapted(const std::vector<double>& shapes,
                                             const std::vector<double>& weights) const;
 
@@ -39,8 +38,8 @@ class InterpolationSystem final : public SampleSystem {
     return energy->energy(0).inverted_tets(u);
   }
 
-  /// Long solves along soft modes, which a longer memory shortens: on the Lion it is 127
-  /// iterations, 146 with one pair, 141 with two and a scaled seed; on the helix 240, 282 and 242.
+  /// Solves along soft modes are long, and a longer memory shortens them: the Lion takes 127
+  /// iterations, 146 with one pair, 141 with two and a scaled seed; the helix 240, 282 and 242.
   [[nodiscard]] LbfgsMemory memory() const override { return kLongMemory; }
 
   [[nodiscard]] LaneObjectives lanes() const override;

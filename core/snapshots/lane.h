@@ -12,14 +12,14 @@
 
 namespace snapspace {
 
-/// How far the L-BFGS solve of a lane's sample is.
+/// The state of the L-BFGS solve of a lane's sample.
 struct Lane {
   static constexpr int kWindow = 8;
   static constexpr int kSettling = 4;
   static constexpr double kPatience = 48.0;  // iterations
   static constexpr int kMaxShortenings = 30;
 
-  /// On a trial: the sample begins there, or has moved there, or neither.
+  /// The outcome of a trial: the sample starts there, has moved there, or stays where it was.
   enum class TrialOutcome { refused, started, moved };
 
   std::optional<Sample> sample;
@@ -31,12 +31,12 @@ struct Lane {
   int shortenings = 0;
   double value = 0.0;
   double norm = 0.0;   // of the gradient
-  double scale = 1.0;  // A^-1 is applied to the next gradient over this
+  double scale = 1.0;  // A^-1 is applied to the next gradient divided by this
   double slope = 0.0;  // gradient . direction, negative
   double step = 1.0;
   double decreases[kWindow] = {};     // of the last accepted steps
-  double directions[kSettling] = {};  // lengths of the last ones, as if all steps were full
-  double displacement = 0.0;          // length of the sample's
+  double directions[kSettling] = {};  // lengths of the last steps, as if all were full
+  double displacement = 0.0;          // its length
   SolveStatus status = SolveStatus::cancelled;
   std::chrono::steady_clock::time_point begin;
 
@@ -44,14 +44,15 @@ struct Lane {
   [[nodiscard]] bool running() const { return busy() && !done; }
   [[nodiscard]] int id() const { return sample->id; }
 
-  void finish(SolveStatus how) {
-    status = how;
+  void finish(SolveStatus result) {
+    status = result;
     done = true;
   }
 
-  /// Accepts or refuses a trial, and chooses a shorter step where it is refused.
-  /// @param trial_slope  gradient there . direction
-  /// @param step_square  of the length of the step there; trial_square: of the displacement
+  /// Accepts or refuses a trial, and chooses a shorter step if it is refused.
+  /// @param trial_slope  gradient at the trial . direction
+  /// @param step_square  squared length of the step to the trial
+  /// @param trial_square  squared length of the displacement there
   /// @param rounding     relative error of a value
   TrialOutcome judge(double trial_value, double trial_slope, double step_square,
                      double trial_square, double rounding) {
@@ -70,9 +71,10 @@ struct Lane {
       restarted = false;
       value = trial_value;
       shortenings = 0;
-      // Far from the minimum the material stiffens along every direction, and for a while steps of
-      // a tenth are the rule. Searches begin near the last accepted length: on the Dragon that
-      // takes 155 evaluations instead of 250, and growth by 1.4 a tenth fewer than growth by 2.
+      // Far from the minimum the material stiffens along every direction, and for a while accepted
+      // steps are about a tenth. So searches begin near the last accepted length: on the Dragon
+      // that takes 155 evaluations instead of 250, and growth by 1.4 takes a tenth fewer than
+      // growth by 2.
       step = std::min(1.0, 1.4 * step);
       return TrialOutcome::moved;
     }
@@ -101,21 +103,20 @@ struct Lane {
     ++iterations;
   }
 
-  /// Scales are powers of two near the norm: gradients in any unit are within the range of single
-  /// precision then, and their digits do not change.
+  /// Scales are powers of two near the norm. Gradients in any unit are then within the range of
+  /// single precision, and their digits do not change.
   void accept_norm(double gradient_norm) {
     norm = gradient_norm;
     if (norm > 0.0 && std::isfinite(norm))
       scale = std::ldexp(1.0, std::clamp(std::ilogb(norm), -100, 100));
   }
 
-  /// A step says how far the solution may still be: as far as a window of steps as long as the
-  /// last few. Short steps along long directions are no sign of a near solution, which is why
-  /// directions count.
-  ///
-  /// A few samples crawl along flat valleys, and the whole run waits for them in the end. For those
-  /// that take long the share grows: on the Dragon that saves a tenth of all evaluations, and the
-  /// subspace of 300 samples stays as good.
+  /// Whether the solution is estimated to be near: as far as a window of steps as long as the last
+  /// few would reach. Directions count, not steps: short steps along long directions are no sign of
+  /// a near solution.
+  /// A few samples crawl along flat valleys, and in the end the whole run waits for them. So the
+  /// share grows for samples that take long: on the Dragon that saves a tenth of all evaluations,
+  /// and the subspace of 300 samples stays as good.
   [[nodiscard]] bool settled(double share) const {
     if (iterations < kSettling) return false;
     const double late = std::max(1.0, iterations / kPatience);
@@ -123,13 +124,13 @@ struct Lane {
     return recent * kWindow < share * late * late * displacement;
   }
 
-  /// A single small predicted decrease may be luck: the mean of the last actual ones must be
+  /// A single small predicted decrease may be chance: the mean of the last actual decreases must be
   /// small as well.
   [[nodiscard]] bool converged(double tolerance, double negligible) const {
-    const double enough = std::max(tolerance * std::abs(value), negligible);
-    if (-slope > enough) return false;
+    const double threshold = std::max(tolerance * std::abs(value), negligible);
+    if (-slope > threshold) return false;
     const double recent = std::accumulate(decreases, decreases + kWindow, 0.0);
-    return recent <= enough * kWindow;
+    return recent <= threshold * kWindow;
   }
 };
 

@@ -10,16 +10,16 @@
 
 namespace snapspace {
 
-/// Makes the objectives of one system for packs of every width: solvers get narrower towards the
-/// end of their work.
+/// Makes the objectives of one system for packs of every width, because solvers get narrower
+/// towards the end of their work.
 class LaneObjectives {
  public:
   template <class Real>
   using Maker = std::function<std::unique_ptr<LaneObjective<Real>>(int threads)>;
 
-  /// @param masses  of the vertices, where lengths of displacements are compared
-  /// @param make    make.template operator()<Real>(threads) is a new LaneObjective<Real>; threads
-  ///                are those that it may use for itself
+  /// @param masses  of the vertices, for comparing lengths of displacements
+  /// @param make    make.template operator()<Real>(threads) is a new LaneObjective<Real> that may
+  ///                use this many threads
   template <class Make>
   LaneObjectives(std::vector<float> masses, const Make& make)
       : masses_(std::move(masses)), makers_(makers(make, LanePacks())) {}

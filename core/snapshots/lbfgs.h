@@ -1,11 +1,10 @@
 #pragma once
 /// L-BFGS in lockstep over the lanes, seeded with a fixed inverse (Nocedal & Wright 2006, alg. 7.4;
 /// the seed as in Liu, Bouaziz, Kavan 2017).
-///
-/// Every lockstep evaluates all lanes once, each at its own trial step. A lane whose step is
-/// accepted gets a new direction, one whose step is refused a shorter step; a finished lane takes
-/// the next sample. Lanes never exchange anything, so the result of a sample does not depend on
-/// where or beside whom it was solved.
+/// Each lockstep evaluates all lanes once, each at its own trial step. A lane whose step is
+/// accepted gets a new direction; a lane whose step is refused gets a shorter step; a finished lane
+/// takes the next sample. Lanes never exchange anything, so the result of a sample does not depend
+/// on its lane or on the samples beside it.
 
 #include <algorithm>
 #include <chrono>
@@ -26,14 +25,14 @@
 
 namespace snapspace {
 
-/// @tparam Real  a pack, in the precision of shapes and gradients; values and inner products are in
-///               double precision anyway
+/// @tparam Real  a pack, in the precision of shapes and gradients; values and inner products are
+///               always in double precision
 template <LbfgsMemory memory, class Real>
 class LaneLbfgs {
  public:
   static constexpr int kWidth = Real::kWidth;
 
-  /// @param threads  that the objective may use for itself
+  /// @param threads  number that the objective may use
   LaneLbfgs(const LaneObjectives& objectives, const SolveOptions& options, int threads)
       : objectives_(objectives),
         options_(options),
@@ -60,7 +59,7 @@ class LaneLbfgs {
         if (lanes_[lane].done)
           hand_over(lane, exchange);
         else
-          exchange.tell(lanes_[lane].id(), lanes_[lane].evaluations);
+          exchange.report_evaluations(lanes_[lane].id(), lanes_[lane].evaluations);
       }
     }
   }
@@ -68,12 +67,12 @@ class LaneLbfgs {
  private:
   template <LbfgsMemory, class>
   friend class LaneLbfgs;
-  /// Half as wide: for the last samples, when half of the lanes would be empty. What it computes
-  /// has the same bits.
+  /// Half as wide: for the last samples, when half of the lanes would be empty. Its results have
+  /// the same bits.
   using Half = LaneLbfgs<memory, Pack<typename Real::Scalar, std::max(2, kWidth / 2)>>;
 
   static constexpr int kPairs = memory.pairs;
-  /// Relative error of a value: sums of many terms of the precision's rounding each.
+  /// Relative error of a value, which is a sum of many terms with the rounding of the precision.
   static constexpr double kRounding = std::is_same_v<typename Real::Scalar, float> ? 1e-7 : 1e-12;
   using Total = Lanes<kWidth>;
   using Single = SingleLanes<kWidth>;
@@ -83,7 +82,7 @@ class LaneLbfgs {
   using Outcome = typename Vectors::Outcome;
   using TrialOutcome = Lane::TrialOutcome;
 
-  /// Takes over the samples of a wider pack that has at most kWidth.
+  /// Takes over the samples of a wider pack that holds at most kWidth of them.
   template <class Wide>
   explicit LaneLbfgs(Wide& from) : LaneLbfgs(from.objectives_, from.options_, from.threads_) {
     std::vector<int> lanes;
@@ -91,16 +90,16 @@ class LaneLbfgs {
       if (from.lanes_[lane].busy()) lanes.push_back(lane);
     vectors_.take_lanes(from.vectors_, lanes);
     for (int lane = 0; lane < static_cast<int>(lanes.size()); ++lane) {
-      const int there = lanes[lane];
-      lanes_[lane] = std::exchange(from.lanes_[there], {});
-      steps_.set(lane, from.steps_[there]);
+      const int source_lane = lanes[lane];
+      lanes_[lane] = std::exchange(from.lanes_[source_lane], {});
+      steps_.set(lane, from.steps_[source_lane]);
       objective_->load(lane, lanes_[lane].sample->input.data());
-      pairs_[lane] = from.pairs_[there];
-      for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][there]);
+      pairs_[lane] = from.pairs_[source_lane];
+      for (int i = 0; i < size_; ++i) trial_[i].set(lane, from.trial_[i][source_lane]);
     }
   }
 
-  /// Gives samples to the empty lanes; how many are busy then.
+  /// Gives samples to the empty lanes. Returns how many lanes are then busy.
   int fill(SampleExchange& exchange) {
     int busy = static_cast<int>(
         std::count_if(lanes_, lanes_ + kWidth, [](const Lane& lane) { return lane.busy(); }));
@@ -114,25 +113,25 @@ class LaneLbfgs {
     return busy;
   }
 
-  /// Where a lane is, although the vectors are not told yet.
+  /// Entry i of a lane's current point, even if the vectors are not updated yet.
   [[nodiscard]] double at(int lane, int i) const {
-    return verdicts_[lane] == TrialOutcome::refused ? vectors_.at(lane, i) : trial_[i][lane];
+    return trial_outcomes_[lane] == TrialOutcome::refused ? vectors_.at(lane, i) : trial_[i][lane];
   }
 
   void hand_over(int lane, SampleExchange& exchange) {
-    std::vector<double>& shape = lanes_[lane].sample->start;  // which nobody needs any more
+    std::vector<double>& shape = lanes_[lane].sample->start;  // no longer needed
     for (int i = 0; i < size_; ++i) shape[i] = at(lane, i);
     exchange.finish(lanes_[lane].id(), lanes_[lane].report(), std::move(shape));
     lanes_[lane].sample.reset();
   }
 
-  /// What the lane's last sample has left in the vectors stays there: a fresh lane steps by zero,
-  /// and its memory has no weight. All of it is finite.
+  /// The vectors keep the data of the lane's last sample: a fresh lane steps by zero, and its
+  /// memory has no weight. All of these data are finite.
   void load(int index, Sample sample) {
     Lane& lane = lanes_[index] = Lane{};
     lane.fresh = true;
     lane.begin = std::chrono::steady_clock::now();
-    verdicts_[index] = TrialOutcome::refused;
+    trial_outcomes_[index] = TrialOutcome::refused;
     pairs_[index].forget();
     objective_->load(index, sample.input.data());
     for (int i = 0; i < size_; ++i) {
@@ -142,31 +141,31 @@ class LaneLbfgs {
     lane.sample = std::move(sample);
   }
 
-  /// One evaluation of all lanes and what follows from it. False if the control cancels; it is
-  /// asked between the parts, which take a while on large meshes.
+  /// Evaluates all lanes once and takes the consequences. Returns false if the control cancels; it
+  /// is checked between the parts, which take a while on large meshes.
   bool step(const SolveControl& control) {
     if (control.cancelled) return false;
     Pass pass(*this);
     const Total value = objective_->value_and_gradient(trial_.data(), gradient_.data(), pass);
     const Products& products = pass.products;
     if (control.cancelled) return false;
-    const Total itself = objective_->precondition(single_gradient(), single_gradient());
+    const Total image_products = objective_->precondition(single_gradient(), single_gradient());
     if (control.cancelled) return false;
     for (int lane = 0; lane < kWidth; ++lane) {
-      verdicts_[lane] =
+      trial_outcomes_[lane] =
           lanes_[lane].judge(value[lane], slope(lane, products), products.step_square[lane],
                              products.trial_square[lane], kRounding);
-      if (verdicts_[lane] == TrialOutcome::refused) continue;
-      lanes_[lane].accept_norm(std::sqrt(products.itself[lane]));
+      if (trial_outcomes_[lane] == TrialOutcome::refused) continue;
+      lanes_[lane].accept_norm(std::sqrt(products.gradient_square[lane]));
     }
     scale_ = pass.scale;
-    turn(products, scale_ * scale_ * itself);
+    choose_directions(products, scale_ * scale_ * image_products);
     pending_ = true;
     return true;
   }
 
-  /// What a step does with the vectors, while the objective passes by: first what the step before
-  /// has decided, and when a gradient is complete its products.
+  /// A step's work on the vectors during the objective's pass: first the update that the last step
+  /// decided on, and then, when a gradient is complete, its products.
   struct Pass final : SweepVisitor {
     LaneLbfgs& solver;
     Outcome outcome;
@@ -179,7 +178,7 @@ class LaneLbfgs {
         shrink.set(lane, 1.0 / solver.lanes_[lane].scale);
       }
       if (!solver.pending_) return;
-      outcome = solver.decided();
+      outcome = solver.make_outcome();
     }
     void before(int begin, int end) override {
       if (solver.pending_)
@@ -192,13 +191,13 @@ class LaneLbfgs {
     }
   };
 
-  /// Does at once what the next step would begin with.
+  /// Does now the update that the next step would begin with.
   void apply() {
     Pass(*this).before(0, vectors_.vertices());
     pending_ = false;
   }
 
-  /// Where A^-1 is applied to the gradient; in its own place, if that is in single precision.
+  /// Where A^-1 is applied to the gradient: in place, if the gradient is in single precision.
   Single* single_gradient() {
     if constexpr (std::is_same_v<Single, Real>)
       return gradient_.data();
@@ -206,27 +205,28 @@ class LaneLbfgs {
       return work_.data();
   }
 
-  /// Gradient at a trial . direction that led there. A step that is shorter than the rounding of
-  /// the points tells nothing new of it.
+  /// Gradient at a trial . direction that led there. A step shorter than the rounding of the points
+  /// gives no new information, and the old slope is returned.
   [[nodiscard]] double slope(int lane, const Products& products) const {
-    const bool none = products.step_square[lane] == 0.0;
-    return none ? lanes_[lane].slope : products.newest[lane] / steps_[lane];
+    const bool no_step = products.step_square[lane] == 0.0;
+    return no_step ? lanes_[lane].slope : products.newest[lane] / steps_[lane];
   }
 
-  /// New directions of the lanes that accept their trial; or the end of their samples.
-  void turn(const Products& products, Total itself) {
+  /// Chooses new directions for the lanes that accept their trial, or finishes their samples.
+  /// @param image_products  gradient . A^-1 gradient
+  void choose_directions(const Products& products, Total image_products) {
     for (int lane = 0; lane < kWidth; ++lane) {
-      if (verdicts_[lane] == TrialOutcome::refused) continue;
-      typename Pairs::Trial trial{slope(lane, products), {}, {}, itself[lane]};
+      if (trial_outcomes_[lane] == TrialOutcome::refused) continue;
+      typename Pairs::Trial trial{slope(lane, products), {}, {}, image_products[lane]};
       for (int k = 0; k < kPairs; ++k) trial.images[k] = products.images[k][lane];
       for (int k = 0; k < kPairs - 1; ++k) trial.steps[k] = products.steps[k][lane];
-      if (verdicts_[lane] == TrialOutcome::moved)
+      if (trial_outcomes_[lane] == TrialOutcome::moved)
         pairs_[lane].move(trial, steps_[lane]);
       else
         pairs_[lane].start(trial);
-      const double slope = pairs_[lane].turn();
-      if (!std::isfinite(slope)) {  // nothing of this trial may get into the vectors
-        verdicts_[lane] = TrialOutcome::refused;
+      const double slope = pairs_[lane].choose_direction();
+      if (!std::isfinite(slope)) {  // nothing of this trial may enter the vectors
+        trial_outcomes_[lane] = TrialOutcome::refused;
         lanes_[lane].finish(SolveStatus::not_finite);
         pairs_[lane].forget();
         continue;
@@ -235,18 +235,18 @@ class LaneLbfgs {
     }
   }
 
-  /// What the lanes' verdicts mean for the vectors, and the next trials.
-  Outcome decided() {
+  /// The update of the vectors and the next trials that follow from the lanes' last trials.
+  Outcome make_outcome() {
     Outcome outcome;
     outcome.scale = scale_;
     for (int lane = 0; lane < kWidth; ++lane) {
-      outcome.accepted.set(lane, verdicts_[lane] != TrialOutcome::refused ? 1 : 0);
-      outcome.weigh(lane, pairs_[lane]);
-      const bool going = lanes_[lane].running() && !lanes_[lane].fresh;
-      outcome.going.set(lane, going);
-      const double before = verdicts_[lane] == TrialOutcome::refused ? steps_[lane] : 1.0;
-      steps_.set(lane, going ? lanes_[lane].step : 0.0);
-      if (going) outcome.next_length.set(lane, steps_[lane] / before);
+      outcome.accepted.set(lane, trial_outcomes_[lane] != TrialOutcome::refused ? 1 : 0);
+      outcome.set_weights(lane, pairs_[lane]);
+      const bool continues = lanes_[lane].running() && !lanes_[lane].fresh;
+      outcome.continues.set(lane, continues);
+      const double before = trial_outcomes_[lane] == TrialOutcome::refused ? steps_[lane] : 1.0;
+      steps_.set(lane, continues ? lanes_[lane].step : 0.0);
+      if (continues) outcome.next_length.set(lane, steps_[lane] / before);
     }
     return outcome;
   }
@@ -261,7 +261,7 @@ class LaneLbfgs {
     if (lane.iterations >= options_.max_iterations) lane.finish(SolveStatus::max_iterations);
   }
 
-  /// Rounding made an ascent direction: forget the memory and go on along the preconditioned
+  /// Rounding gave an ascent direction: forgets the memory and continues along the preconditioned
   /// gradient. If that ascends as well, the gradient is noise.
   void restart(int index) {
     if (lanes_[index].restarted) return lanes_[index].finish(SolveStatus::line_search_failed);
@@ -278,12 +278,12 @@ class LaneLbfgs {
   Vectors vectors_;
   Pairs pairs_[kWidth];
   Lane lanes_[kWidth];
-  TrialOutcome verdicts_[kWidth];  // on the last trials
-  bool pending_ = false;           // the vectors are not told of these verdicts yet
-  Total scale_ = 1.0;              // A^-1 gradient = scale_ * single_gradient() in the last trials
-  Total steps_ = 0.0;              // that lead to the trials, as shares of the directions
-  StreamedVector<Real> trial_, gradient_;  // and the gradient there
-  StreamedVector<Single> work_;            // of the gradients in double precision
+  TrialOutcome trial_outcomes_[kWidth];  // of the last trials
+  bool pending_ = false;  // whether the vectors still need the update for these outcomes
+  Total scale_ = 1.0;     // A^-1 gradient = scale_ * single_gradient() at the last trials
+  Total steps_ = 0.0;     // to the trials, as shares of the directions
+  StreamedVector<Real> trial_, gradient_;  // the trial points, and the gradients there
+  StreamedVector<Single> work_;            // single_gradient() of gradients in double precision
 };
 
 }  // namespace snapspace

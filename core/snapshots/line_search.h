@@ -4,9 +4,9 @@
 
 namespace snapspace {
 
-/// Armijo's condition, or where the values no longer resolve the decrease the approximate one of
-/// Hager & Zhang (2005), which looks at slopes: near the minimum a difference of values is rounding
-/// noise while slopes still tell.
+/// Armijo's condition or, where the values no longer resolve the decrease, the approximate
+/// condition of Hager & Zhang (2005), which uses slopes: near the minimum a difference of values is
+/// rounding noise, while slopes are still accurate.
 /// @param rounding  relative error of the values
 inline bool sufficient_decrease(double value0, double slope0, double step, double value,
                                 double slope, double rounding = 1e-12) {
@@ -30,16 +30,16 @@ inline double shorter_step(double value0, double slope0, double step, double val
   return std::clamp(next, 0.1 * step, 0.5 * step);
 }
 
-/// What a line search finds at a step.
+/// Value and slope at a step of a line search.
 struct LineTrial {
   double value;
   double slope;  ///< along the direction
 };
 
-/// Tries the whole step, and shorter ones until one decreases enough; whether one did.
-///
-/// @param trial            trial(step) evaluates there; the last call is that of the accepted step
-/// @param after_infinite   share of a step that is tried after one without a finite value
+/// Tries the full step, then shorter ones, until one decreases sufficiently. Returns whether one
+/// did.
+/// @param trial            trial(step) evaluates at a step; the last call is for the accepted step
+/// @param after_infinite   factor by which a step is shortened if its value is not finite
 template <class Trial>
 bool search_line(double value0, double slope0, int max_shortenings, double after_infinite,
                  Trial&& trial) {

@@ -11,45 +11,45 @@ namespace snapspace {
 
 namespace {
 
-/// Few, since most problems have six inputs, and two threads.
-constexpr int kTogether = 4;
-using ResponsePack = SingleLanes<kTogether>;
-using ResponseSums = Lanes<kTogether>;
+/// Responses per pack: few, since most problems have six inputs, and two threads.
+constexpr int kLanes = 4;
+using ResponsePack = SingleLanes<kLanes>;
+using ResponseSums = Lanes<kLanes>;
 using ResponseColumn = StreamedVector<ResponsePack>;
 
-constexpr int kMostResponseSteps = 200;
-/// Decrease of the energy in a step that ends the solve, as a share of that in all steps but the
-/// first, in which the handles move. On the Dragon it is 20 steps; starts from exact responses need
-/// as many evaluations.
-constexpr double kLeastGain = 3e-4;
+constexpr int kMaxResponseSteps = 200;
+/// The solve ends when a step decreases the energy by less than this share of the decrease in all
+/// steps except the first, which moves the handles. The Dragon takes 20 steps; starts from exact
+/// responses need as many evaluations.
+constexpr double kMinGain = 3e-4;
 
-/// Lane by lane; nothing where there is no divisor.
+/// The quotient lane by lane; zero where the divisor is not positive.
 ResponseSums quotient(ResponseSums a, ResponseSums b) {
   ResponseSums result(0.0);
-  for (int lane = 0; lane < kTogether; ++lane)
+  for (int lane = 0; lane < kLanes; ++lane)
     if (b[lane] > 0.0) result.set(lane, a[lane] / b[lane]);
   return result;
 }
 
 bool negligible(ResponseSums gain, ResponseSums all) {
-  for (int lane = 0; lane < kTogether; ++lane)
-    if (gain[lane] > kLeastGain * all[lane]) return false;
+  for (int lane = 0; lane < kLanes; ++lane)
+    if (gain[lane] > kMinGain * all[lane]) return false;
   return true;
 }
 
-/// The right-hand sides become what is left of them, and x their solutions by conjugate gradients,
-/// each by itself.
+/// Solves by conjugate gradients, each lane by itself, and leaves the residuals in place of the
+/// right-hand sides.
 void solve(const PosingSystem& system, ResponseColumn& residual, ResponseColumn& x) {
   const std::size_t size = x.size();
   ResponseColumn preconditioned(size, ResponsePack(0)), search(size, ResponsePack(0)),
       product(size, ResponsePack(0));
   Scratch scratch;
   ResponseSums norm(0.0), all(0.0);
-  for (int step = 0; step < kMostResponseSteps; ++step) {
+  for (int step = 0; step < kMaxResponseSteps; ++step) {
     const ResponseSums next = system.inverse.apply(residual.data(), preconditioned.data(), scratch);
-    const ResponsePack turn = cast<float>(quotient(next, norm));
+    const ResponsePack ratio = cast<float>(quotient(next, norm));
     norm = next;
-    for (std::size_t i = 0; i < size; ++i) search[i] = preconditioned[i] + turn * search[i];
+    for (std::size_t i = 0; i < size; ++i) search[i] = preconditioned[i] + ratio * search[i];
     system.rest_hessian_product(search.data(), product.data());
     ResponseSums curvature(0.0);
     for (std::size_t i = 0; i < size; ++i) curvature += widened(search[i] * product[i]);
@@ -69,9 +69,9 @@ void solve(const PosingSystem& system, ResponseColumn& residual, ResponseColumn&
 
 LinearResponse::LinearResponse(const PosingSystem& system, const double* inputs, int count)
     : count_(count), entries_(static_cast<std::size_t>(system.size()) * count) {
-  parallel_for((count + kTogether - 1) / kTogether, 0, [&](int pack) {
+  parallel_for((count + kLanes - 1) / kLanes, 0, [&](int pack) {
     const FlushDenormals flush;
-    const int first = pack * kTogether, used = std::min(kTogether, count - first);
+    const int first = pack * kLanes, used = std::min(kLanes, count - first);
     ResponseColumn forces(size(), ResponsePack(0)), x(size(), ResponsePack(0));
     for (std::size_t k = 0; k < system.pinned.size(); ++k)
       for (int c = 0; c < 3; ++c)

@@ -6,12 +6,12 @@
 
 namespace snapspace {
 
-/// Displacements that a posing problem at rest answers with to small displacements asked of its
+/// The displacements of a posing problem, linearised at rest, for small displacements of its
 /// handles: the solutions of H r = 2 weights * target with the Hessian H at rest, in single
 /// precision and to a few tenths of a percent of their energy.
 class LinearResponse {
  public:
-  /// @param inputs  count rows of input_size() displacements asked of the pinned vertices
+  /// @param inputs  count x input_size(), target displacements of the pinned vertices
   LinearResponse(const PosingSystem& system, const double* inputs, int count);
 
   [[nodiscard]] int count() const { return count_; }

@@ -11,7 +11,7 @@ namespace snapspace {
 
 namespace {
 
-/// How many parts of some size a range has; the last one may be smaller.
+/// Number of parts of a given size in a range; the last part may be smaller.
 int parts(std::size_t range, std::size_t size) {
   return static_cast<int>((range + size - 1) / size);
 }
@@ -27,19 +27,19 @@ class MassProducts::Blocks {
 
  private:
   using Wide = Lanes<kWideLanes>;
-  static constexpr std::size_t kTogether = 8;
-  using Together = Lanes<kTogether>;
+  static constexpr std::size_t kGroup = 8;
+  using GroupPack = Lanes<kGroup>;
 
-  /// Blocks of four rows and of three others are 21 KB: the first-level cache holds them.
+  /// Blocks of four rows and of three others take 21 kB, which fit into the first-level cache.
   static constexpr std::size_t kVertices = 128;
   static constexpr std::size_t kPacks = 3 * kVertices / kWideLanes;
   static constexpr std::size_t kHeight = 4, kBreadth = 3;
   /// Vertices of one thread's part of M times the others.
   static constexpr std::size_t kRange = 8 * kVertices;
-  /// Rows of one thread's part: for each part the others are read once more.
+  /// Rows of one thread's part; the others are read once per part.
   static constexpr std::size_t kPart = 8 * kHeight;
 
-  /// Some vertices' part of one row, with zeros beyond the last vertex.
+  /// The part of one row for some vertices, with zeros beyond the last vertex.
   struct Block {
     Wide packs[kPacks];
     double* numbers() { return reinterpret_cast<double*>(packs); }
@@ -54,9 +54,9 @@ class MassProducts::Blocks {
                        std::size_t breadth, double* products, std::size_t stride);
 
   ScalarRows mass_;
-  std::size_t breadth_ = 0;          // of the others, with some that hold anything at the end
-  StreamedVector<Block> weighted_;   // M times the others: by vertices, then by others
-  StreamedVector<Together> points_;  // of eight of the others
+  std::size_t breadth_ = 0;           // number of others, padded with some of any content
+  StreamedVector<Block> weighted_;    // M times the others: vertices first, then others
+  StreamedVector<GroupPack> points_;  // of eight of the others
 };
 
 MassProducts::MassProducts(const ScalarRows& mass) : blocks_(std::make_unique<Blocks>(mass)) {}
@@ -92,7 +92,7 @@ void MassProducts::Blocks::multiply(Rows rows, const double* offset, Rows others
 /// Sets weighted_ to M times the others.
 void MassProducts::Blocks::weigh(Rows others, int threads) {
   const std::size_t breadth = parts(others.size(), kBreadth) * kBreadth;
-  if (breadth != breadth_) {  // what is beyond the last vertex stays zero from then on
+  if (breadth != breadth_) {  // entries beyond the last vertex stay zero from then on
     breadth_ = breadth;
     weighted_.assign(parts(mass_.size, kVertices) * breadth, Block{});
   }
@@ -103,8 +103,8 @@ void MassProducts::Blocks::weigh(Rows others, int threads) {
       work(begin, std::min(begin + kRange, mass_.size));
     });
   };
-  for (std::size_t first = 0; first < others.size(); first += kTogether) {
-    const Rows group = others.subspan(first, std::min(kTogether, others.size() - first));
+  for (std::size_t first = 0; first < others.size(); first += kGroup) {
+    const Rows group = others.subspan(first, std::min(kGroup, others.size() - first));
     by_vertices([&](std::size_t begin, std::size_t end) { interleave(group, begin, end); });
     by_vertices(
         [&](std::size_t begin, std::size_t end) { weigh(first, group.size(), begin, end); });
@@ -113,23 +113,23 @@ void MassProducts::Blocks::weigh(Rows others, int threads) {
 
 /// Sets points_ at some vertices. Lanes beyond the group repeat its first row, and are not used.
 void MassProducts::Blocks::interleave(Rows group, std::size_t begin, std::size_t end) {
-  const double* rows[kTogether];
-  for (std::size_t j = 0; j < kTogether; ++j) rows[j] = group[j < group.size() ? j : 0];
+  const double* rows[kGroup];
+  for (std::size_t j = 0; j < kGroup; ++j) rows[j] = group[j < group.size() ? j : 0];
   for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-    double lanes[kTogether];
-    for (std::size_t j = 0; j < kTogether; ++j) lanes[j] = rows[j][i];
-    points_[i] = load<kTogether>(lanes);
+    double lanes[kGroup];
+    for (std::size_t j = 0; j < kGroup; ++j) lanes[j] = rows[j][i];
+    points_[i] = load<kGroup>(lanes);
   }
 }
 
-/// The part of some vertices, for `count` others from `first` on.
+/// Sets weighted_ at some vertices, for `count` others from `first` on.
 void MassProducts::Blocks::weigh(std::size_t first, std::size_t count, std::size_t begin,
                                  std::size_t end) {
   for (std::size_t vertex = begin; vertex < end; ++vertex) {
-    Together x(0.0), y(0.0), z(0.0);
+    GroupPack x(0.0), y(0.0), z(0.0);
     for (std::int32_t entry = mass_.starts[vertex]; entry < mass_.starts[vertex + 1]; ++entry) {
-      const Together value(mass_.values[entry]);
-      const Together* point = &points_[3 * static_cast<std::size_t>(mass_.columns[entry])];
+      const GroupPack value(mass_.values[entry]);
+      const GroupPack* point = &points_[3 * static_cast<std::size_t>(mass_.columns[entry])];
       x += value * point[0];
       y += value * point[1];
       z += value * point[2];
@@ -153,15 +153,15 @@ void MassProducts::Blocks::copy(const double* row, const double* offset, std::si
   for (std::size_t i = 3 * first; i < 3 * last; ++i) *to++ += offset[i];
 }
 
-/// products += blocks of `kHeight` rows times those of `kBreadth` others, of which only the first
-/// `height` and `breadth` are wanted.
+/// products += blocks of `kHeight` rows times those of `kBreadth` others. Only the first `height`
+/// rows and `breadth` others are added.
 void MassProducts::Blocks::add_tile(const Block* rows, const Block* others, std::size_t height,
                                     std::size_t breadth, double* products, std::size_t stride) {
   Wide sums[kHeight * kBreadth];
 #pragma GCC unroll 12
   for (Wide& sum : sums) sum = Wide(0.0);
   for (std::size_t k = 0; k < kPacks; ++k) {
-    static_assert(kBreadth == 3);  // named, since an array would be stored in every turn
+    static_assert(kBreadth == 3);  // three variables: an array would be stored in every iteration
     const Wide a = others[0].packs[k], b = others[1].packs[k], c = others[2].packs[k];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < kHeight; ++i) {

@@ -9,8 +9,8 @@
 
 namespace snapspace {
 
-/// Sixteen tall columns beside each other, in packs of eight (four without AVX): where columns do
-/// not meet, packs can be given to different threads.
+/// Sixteen tall columns side by side, in packs of eight (four without AVX). Where columns do not
+/// interact, packs can go to different threads.
 class ModeBlock {
  public:
   static constexpr int kColumns = 16;
@@ -28,13 +28,13 @@ class ModeBlock {
     set_lane(packs_[k / kLanes][i], k % kLanes, value);
   }
 
-  /// The block of `all` from (row, column) on += this^T other of the entries from begin to before
-  /// end, in single precision: for a few hundred entries.
+  /// Adds this^T other, over the entries from begin to before end, to the block of `all` that
+  /// begins at (row, column). In single precision: for a few hundred entries.
   void add_products(const ModeBlock& other, std::size_t begin, std::size_t end, SquareMatrix& all,
                     int row, int column) const;
 
-  /// With the coefficients (48 x 16, column by column) of three blocks: this becomes the
-  /// combination of all, and `past` that of the other two.
+  /// Combines three blocks with coefficients (48 x 16, column by column): this becomes the
+  /// combination of all three, and `past` that of the other two.
   void combine(const std::vector<double>& coefficients, const ModeBlock& fresh, ModeBlock& past);
 
  private:
@@ -43,8 +43,8 @@ class ModeBlock {
 
 inline constexpr int kModeParts = 16;
 
-/// Calls work(part, begin, end) for kModeParts parts of the entries, on all threads. Parts do not
-/// depend on the number of threads: who adds up what they give has the same sum.
+/// Calls work(part, begin, end) for kModeParts parts of the entries, on all threads. The parts do
+/// not depend on the number of threads, so sums over them do not either.
 template <class Work>
 void for_parts(std::size_t size, Work&& work) {
   parallel_for(kModeParts, 0, [&](int part) {

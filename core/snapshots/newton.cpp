@@ -41,19 +41,20 @@ SolveReport Newton::solve(const Sample& sample, const SolveControl& control) {
       report.status = SolveStatus::not_finite;
       break;
     }
-    // Elements that are projected at the minimum make the projected Hessian a wrong one, with
-    // linear and often very slow convergence. Once the minimum is near, the Hessian itself is used.
+    // If elements are projected at the minimum, the projected Hessian is wrong there, and
+    // convergence is linear and often very slow. Once the minimum is near, the Hessian itself is
+    // used.
     HessianOptions options = hessian_options_;
     if (previous_decrement < kNearMinimum * std::abs(report.value))
       options.projection = Projection::none;
     system_.assemble(sample.input.data(), u_.data(), options, hessian_);
-    // Loose systems far from the minimum, tight ones near it (Eisenstat & Walker 1996): the
-    // relative decrement of the last step tells which.
+    // Loose tolerances far from the minimum, tight ones near it (Eisenstat & Walker 1996), by the
+    // relative decrement of the last step.
     const double scale = std::max(std::abs(report.value), 1e-300);
     const double forcing =
         report.iterations == 0 ? 0.1 : std::clamp(std::sqrt(previous_decrement / scale), 1e-3, 0.1);
     const double slope = -find_direction(forcing, control);
-    if (control.cancelled) break;  // the direction may be half done
+    if (control.cancelled) break;  // the direction may be incomplete
     report.decrement = previous_decrement = -slope;
     if (-slope <= std::max(options_.tolerance * std::abs(report.value), objective_->negligible())) {
       report.status = SolveStatus::converged;
@@ -74,7 +75,7 @@ SolveReport Newton::solve(const Sample& sample, const SolveControl& control) {
   return report;
 }
 
-/// Solves H d = -g as far as it pays; returns -g.d.
+/// Solves H d = -g to the relative residual; returns -g.d.
 double Newton::find_direction(double relative_residual, const SolveControl& control) {
   constexpr int kMaxIterations = 1000;
   linear_iterations_ += conjugate_gradients_.solve(
@@ -103,8 +104,8 @@ bool Newton::line_search(SolveReport& report, double slope) {
 }
 
 double Newton::value_and_gradient(const std::vector<double>& u, std::vector<double>& gradient) {
-  SweepVisitor nobody;
-  return objective_->value_and_gradient(u.data(), gradient.data(), nobody);
+  SweepVisitor idle;
+  return objective_->value_and_gradient(u.data(), gradient.data(), idle);
 }
 
 }  // namespace snapspace

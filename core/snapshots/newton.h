@@ -10,9 +10,9 @@
 
 namespace snapspace {
 
-/// Newton's method with projected Hessians and a line search; with Projection::stretches the
-/// paper's snapshot solver (sec. 4.2). The linear systems are solved by conjugate gradients on the
-/// system's inverse.
+/// Newton's method with projected Hessians and a line search; with Projection::stretches it is the
+/// paper's snapshot solver (sec. 4.2). The linear systems are solved by conjugate gradients,
+/// preconditioned by the system's inverse.
 class Newton {
  public:
   Newton(const SampleSystem& system, const SolveOptions& options, const HessianOptions& hessian);

@@ -8,8 +8,8 @@
 
 namespace snapspace {
 
-/// Copies shape vectors (3n) between the caller's numbering of the vertices and the internal one,
-/// of LocalMesh.
+/// Copies shape vectors (3n) between the caller's numbering of the vertices and the internal one
+/// (LocalMesh).
 class Numbering {
  public:
   explicit Numbering(std::vector<std::int32_t> order) : order_(std::move(order)) {}
@@ -24,7 +24,7 @@ class Numbering {
   }
 
  private:
-  std::vector<std::int32_t> order_;  // the caller's index of every internal vertex
+  std::vector<std::int32_t> order_;  // the caller's index of each internal vertex
 };
 
 }  // namespace snapspace

@@ -5,21 +5,21 @@
 
 namespace snapspace {
 
-/// What L-BFGS keeps of the way to a point, which depends on how long that way is.
+/// The memory of L-BFGS: how much it keeps of the path to a point. Long solves need more.
 struct LbfgsMemory {
-  int pairs;    ///< of steps and changes of the gradient; each adds to the cost of an evaluation
+  int pairs;    ///< pairs of steps and gradient changes; each adds to the cost of an evaluation
   bool scaled;  ///< whether the newest pair scales the seed (Nocedal & Wright 2006, eq. 7.20)
 };
 
-/// For problems whose solves are short, and for others: see the systems.
+/// For problems with short solves, and with long ones; see PosingSystem and InterpolationSystem.
 inline constexpr LbfgsMemory kShortMemory{.pairs = 1, .scaled = true};
 inline constexpr LbfgsMemory kLongMemory{.pairs = 2, .scaled = false};
 
-/// The recursion of L-BFGS of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
-///
-/// The seed is a fixed inverse A^-1, or seed * A^-1 where it is scaled. With z = A^-1 g for the
-/// gradient at every point, and p_k = A^-1 y_k, the difference of two z, beside the step s_k, all
-/// that the two loops (Nocedal & Wright 2006, alg. 7.4) make lies in the span of z, s_k and p_k:
+/// The L-BFGS recursion of one sample, on inner products alone (as in Chen, Wang, Zhou 2014).
+/// The seed is a fixed inverse A^-1, or seed * A^-1 if it is scaled. Let z = A^-1 g for the
+/// gradient at each point, and p_k = A^-1 y_k, the difference of two z, for each step s_k. Then
+/// everything that the two loops (Nocedal & Wright 2006, alg. 7.4) compute lies in the span of z,
+/// s_k and p_k:
 ///   direction = -seed z + sum_k (image[k] p_k + step[k] s_k).
 /// Hence only z and s_k are stored, and one pass gives all new products. Pairs and vectors are
 /// numbered from the newest.
@@ -28,12 +28,12 @@ class PairProducts {
  public:
   static constexpr int kPairs = memory.pairs;
 
-  /// Of the gradient at a trial.
+  /// Inner products of the gradient at a trial.
   struct Trial {
-    double direction;                      // with the direction that led there
-    double images[kPairs];                 // with the z of the point where it began, and before
+    double direction;       // with the direction that led there
+    double images[kPairs];  // with the z of the step's first point, and of those before
     std::array<double, kPairs - 1> steps;  // with s_k
-    double itself;                         // with the z of the trial
+    double own_image;                      // with the z of the trial
   };
 
   double seed = 1.0;          ///< coefficients of the direction
@@ -42,10 +42,10 @@ class PairProducts {
 
   void forget() { *this = {}; }
 
-  /// The first point, or the first after `forget`: there is no step that led to it.
-  void start(const Trial& trial) { gradient_image_ = trial.itself; }
+  /// Starts at the first point, or at the first after `forget`: no step led to it.
+  void start(const Trial& trial) { gradient_image_ = trial.own_image; }
 
-  /// The sample moves by `length` times its direction; the oldest pair makes room for a new one.
+  /// Moves the sample by `length` times its direction; a new pair replaces the oldest one.
   void move(const Trial& trial, double length) {
     double change[kPairs];  // y_j . direction
     for (int j = 0; j < kPairs; ++j) {
@@ -62,19 +62,19 @@ class PairProducts {
       gradient_steps_[j] = trial.steps[j - 1];
       gradient_images_[j] = gradient_image;
     }
-    const double bend = trial.direction - slope_;
-    steps_[0][0] = length * bend;
-    images_[0][0] = trial.itself - 2.0 * trial.images[0] + gradient_image_;
+    const double slope_change = trial.direction - slope_;
+    steps_[0][0] = length * slope_change;
+    images_[0][0] = trial.own_image - 2.0 * trial.images[0] + gradient_image_;
     gradient_steps_[0] = length * trial.direction;
-    gradient_images_[0] = trial.itself - trial.images[0];
-    gradient_image_ = trial.itself;
+    gradient_images_[0] = trial.own_image - trial.images[0];
+    gradient_image_ = trial.own_image;
     // Pairs of negative or vanishing curvature would make the inverse indefinite.
-    const bool usable = bend > kFlat * std::abs(slope_) && images_[0][0] > 0.0;
+    const bool usable = slope_change > kFlat * std::abs(slope_) && images_[0][0] > 0.0;
     curvature_[0] = usable ? 1.0 / steps_[0][0] : 0.0;
   }
 
   /// Sets the coefficients of the next direction; returns gradient . direction.
-  double turn() {
+  double choose_direction() {
     double first[kPairs];
     for (int k = 0; k < kPairs; ++k) {
       double product = gradient_steps_[k];
@@ -83,7 +83,7 @@ class PairProducts {
     }
     seed = 1.0;
     if (memory.scaled && curvature_[0] > 0.0)
-      seed = std::clamp(steps_[0][0] / images_[0][0], kLeastSeed, 1.0);
+      seed = std::clamp(steps_[0][0] / images_[0][0], kMinSeed, 1.0);
     double second[kPairs];
     for (int k = kPairs - 1; k >= 0; --k) {
       double product = gradient_images_[k];
@@ -102,11 +102,11 @@ class PairProducts {
   }
 
  private:
-  /// Least change of the slope that is no rounding, as a share of it.
+  /// Smaller relative changes of the slope count as rounding.
   static constexpr double kFlat = 1e-6;
-  /// A few stiff tets must not make the whole shape crawl. With 0.02 the Dragon's samples take 2 %
-  /// more evaluations, with 0.15 an eighth more.
-  static constexpr double kLeastSeed = 0.05;
+  /// Keeps a few stiff tets from making the whole shape crawl. With 0.02 the Dragon's samples take
+  /// 2 % more evaluations, with 0.15 an eighth more.
+  static constexpr double kMinSeed = 0.05;
 
   /// Every pair becomes the next older one.
   void age() {

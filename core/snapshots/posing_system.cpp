@@ -25,7 +25,7 @@ Eigen::SparseMatrix<double> scalar_matrix(const ElasticEnergy& energy,
   return A;
 }
 
-/// The objective; see PosingSystem.
+/// The objective of PosingSystem.
 template <class Real>
 class PosingObjective final : public LaneObjective<Real> {
  public:
@@ -52,14 +52,14 @@ class PosingObjective final : public LaneObjective<Real> {
   }
 
  private:
-  /// Adds the handles' part to vertices that are complete.
+  /// Adds the handles' part at vertices whose elastic part is complete.
   struct Pinning final : SweepVisitor {
     const PosingObjective& objective;
     SweepVisitor& visitor;
     const Real* u;
     Real* gradient;
     Sum<Real> value{0.0};
-    std::size_t next = 0;  // of the pins
+    std::size_t next = 0;  // among the pins
 
     Pinning(const PosingObjective& owner, SweepVisitor& inner, const Real* shape, Real* forces)
         : objective(owner), visitor(inner), u(shape), gradient(forces) {}

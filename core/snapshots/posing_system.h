@@ -16,7 +16,7 @@ class PosingSystem final : public SampleSystem {
   ElasticEnergy energy;
   std::vector<std::int32_t> pinned;  ///< vertices of the handles, internal
   std::vector<double> weights;       ///< stiffness * vertex mass, one per pinned vertex
-  std::vector<std::int32_t> pins;    ///< indices of pinned and weights, by their vertices
+  std::vector<std::int32_t> pins;    ///< indices into pinned and weights, sorted by vertex
 
   /// The scalar matrix is (2 mu + lam) * Laplacian + 2 * weights on the diagonal.
   PosingSystem(const LocalMesh& mesh, const MaterialField& material,
@@ -29,9 +29,9 @@ class PosingSystem final : public SampleSystem {
     return energy.inverted_tets(u);
   }
 
-  /// Handles hold the shape, and its solve is short. The material stiffens along every direction at
-  /// first, which the scale of the seed knows at once: on 48 samples of the Dragon it is 48
-  /// evaluations, 57 with two pairs and a fixed seed, 50 with two and a scaled one.
+  /// Handles hold the shape, so its solve is short. At first the material stiffens along every
+  /// direction, and a scaled seed adapts to that at once: 48 samples of the Dragon take 48
+  /// evaluations each, 57 with two pairs and a fixed seed, 50 with two and a scaled one.
   [[nodiscard]] LbfgsMemory memory() const override { return kShortMemory; }
 
   [[nodiscard]] LaneObjectives lanes() const override;
@@ -40,7 +40,8 @@ class PosingSystem final : public SampleSystem {
   void assemble(const double* input, const double* u, const HessianOptions& options,
                 BlockHessian& hessian) const override;
 
-  /// Hessian of F at rest times v: elastic forces of small displacements, and the handles'.
+  /// Hessian of F at rest times v: the elastic forces of small displacements and those of the
+  /// handles.
   template <class Real>
   void rest_hessian_product(const Real* v, Real* product) const {
     energy.rest_hessian_product(v, product);

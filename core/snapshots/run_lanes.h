@@ -7,9 +7,8 @@
 namespace snapspace {
 
 /// Solves the samples of an exchange by L-BFGS, one sample per lane, on the caller's thread.
-///
-/// @param width    samples in a pack at most; the widest of this build that is no wider is taken
-/// @param threads  that the objective may use for itself
+/// @param width    most samples in a pack; the widest pack of this build within it is used
+/// @param threads  number that the objective may use
 template <LbfgsMemory memory>
 void run_lanes(const LaneObjectives& objectives, int width, const SolveOptions& options,
                int threads, SampleExchange& exchange, const SolveControl& control);
@@ -19,7 +18,7 @@ extern template void run_lanes<kShortMemory>(const LaneObjectives&, int, const S
 extern template void run_lanes<kLongMemory>(const LaneObjectives&, int, const SolveOptions&, int,
                                             SampleExchange&, const SolveControl&);
 
-/// The same for a memory that is known only now.
+/// The same for a memory known only at run time.
 inline void run_lanes(LbfgsMemory memory, const LaneObjectives& objectives, int width,
                       const SolveOptions& options, int threads, SampleExchange& exchange,
                       const SolveControl& control) {

@@ -13,7 +13,7 @@
 
 namespace snapspace {
 
-/// What a problem asks of a sample and where its solve starts, in the caller's numbering.
+/// A sample's input and the start of its solve, in the caller's numbering.
 struct Sample {
   int id = -1;
   std::vector<double> input;  ///< input_size() of the system
@@ -26,8 +26,8 @@ struct Solution {
   std::vector<double> shape;  ///< 3n, a displacement
 };
 
-/// Between those who know which samples are to be solved and the threads that solve them. Any
-/// thread may call any function.
+/// Passes samples to the threads that solve them, and solutions back. Any thread may call any
+/// function.
 class SampleQueue {
  public:
   void put(Sample sample) {
@@ -37,22 +37,22 @@ class SampleQueue {
     changed_.notify_all();
   }
 
-  /// No more samples come: solvers end when none is left.
+  /// No more samples will come: solvers end when none is left.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;
     changed_.notify_all();
   }
 
-  /// How many solvers share the samples.
+  /// Sets how many solvers share the samples.
   void share(int solvers) {
     const std::lock_guard lock(mutex_);
     solvers_ = solvers;
   }
 
-  /// The next sample for a solver that works on `held` samples. Nothing if it has its share of all
-  /// that are open, or if none waits. A solver without any is made to wait for one, and gets
-  /// nothing only when there is no more to do.
+  /// The next sample for a solver that works on `held` samples; nullopt if it holds its share of
+  /// all open samples, or if none is waiting. A solver that holds none waits for one, and gets
+  /// nullopt only when no work is left.
   std::optional<Sample> take(int held, const SolveControl& control) {
     std::unique_lock lock(mutex_);
     if (held == 0)
@@ -65,19 +65,19 @@ class SampleQueue {
     return sample;
   }
 
-  /// Whether all samples are with solvers and no more come.
+  /// Whether solvers have taken all samples and no more will come.
   [[nodiscard]] bool exhausted() {
     const std::lock_guard lock(mutex_);
     return closed_ && waiting_.empty();
   }
 
-  /// How many evaluations a sample has had so far.
-  void tell(int id, int evaluations) {
+  /// Reports how many evaluations a sample has had so far.
+  void report_evaluations(int id, int evaluations) {
     const std::lock_guard lock(mutex_);
     running_[id] = evaluations;
   }
 
-  /// Samples that are with solvers, and their evaluations.
+  /// Samples that are being solved, with their evaluations so far.
   std::vector<std::pair<int, int>> running() {
     const std::lock_guard lock(mutex_);
     return {running_.begin(), running_.end()};
@@ -91,7 +91,7 @@ class SampleQueue {
     changed_.notify_all();
   }
 
-  /// What was finished since the last call; waits up to `seconds` for something.
+  /// Solutions since the last call; waits up to `seconds` for at least one.
   std::vector<Solution> collect(double seconds) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, std::chrono::duration<double>(seconds),

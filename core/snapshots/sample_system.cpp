@@ -7,9 +7,9 @@ namespace snapspace {
 double SampleSystem::value_and_gradient(const double* input, const double* u,
                                         double* gradient) const {
   const auto single = objective();
-  SweepVisitor nobody;
+  SweepVisitor idle;
   single->load(0, input);
-  return single->value_and_gradient(u, gradient, nobody);
+  return single->value_and_gradient(u, gradient, idle);
 }
 
 }  // namespace snapspace

@@ -13,15 +13,15 @@ namespace snapspace {
 /// How Newton's method assembles Hessians.
 struct HessianOptions {
   Projection projection = Projection::clamp;
-  double threshold = 0.65;  ///< of Projection::stretches; the paper uses 0.5 to 0.8
+  double threshold = 0.65;  ///< for Projection::stretches; the paper uses 0.5 to 0.8
 };
 
 template <class Real>
 class LaneObjective;
 class LaneObjectives;
 
-/// What all samples of a problem share. Only the inputs differ from sample to sample, and one
-/// inverse preconditions them all. Shapes are displacements (3n) in the internal numbering.
+/// The parts of a problem that all samples share. Only the inputs differ from sample to sample, and
+/// one inverse preconditions them all. Shapes are displacements (3n) in the internal numbering.
 class SampleSystem {
  public:
   Numbering numbering;
@@ -32,17 +32,17 @@ class SampleSystem {
   SampleSystem(SampleSystem&&) = default;
 
   [[nodiscard]] virtual int size() const = 0;
-  /// Numbers that a sample is given by.
+  /// How many numbers the input of a sample has.
   [[nodiscard]] virtual int input_size() const = 0;
-  /// Tets with another orientation than in the rest shape, or the first pose.
+  /// Number of tets whose orientation differs from that in the rest shape, or in the first pose.
   [[nodiscard]] virtual int inverted_tets(const double* u) const = 0;
-  /// What L-BFGS keeps of its way.
+  /// The memory that L-BFGS uses.
   [[nodiscard]] virtual LbfgsMemory memory() const = 0;
   /// Objectives for L-BFGS; they refer to this system.
   [[nodiscard]] virtual LaneObjectives lanes() const = 0;
   /// The objective of a single sample.
   [[nodiscard]] virtual std::unique_ptr<LaneObjective<double>> objective() const = 0;
-  /// The objective at u (3n) for an input; its gradient overwrites `gradient`.
+  /// The objective at u (3n) for an input. Its gradient overwrites `gradient`.
   double value_and_gradient(const double* input, const double* u, double* gradient) const;
   [[nodiscard]] virtual BlockHessian hessian_pattern() const = 0;
   /// The Hessian at u of the sample with this input.

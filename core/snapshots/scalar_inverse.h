@@ -11,10 +11,10 @@
 
 namespace snapspace {
 
-/// What stands for an inverse; automatic leaves the choice to ScalarInverse.
+/// What is used as an inverse; automatic leaves the choice to ScalarInverse.
 enum class InverseKind { automatic, factor, cycle };
 
-/// The inverse of a scalar n x n matrix, or what is as good for a preconditioner: its Cholesky
+/// The inverse of a scalar n x n matrix, or an approximation for preconditioning: its Cholesky
 /// factor where that is small; a multigrid cycle in solid bodies of many vertices, where factors
 /// grow like n^(4/3), if the elements are so well shaped that the cycle is near the inverse.
 class ScalarInverse {
@@ -25,15 +25,15 @@ class ScalarInverse {
   explicit ScalarInverse(const Eigen::SparseMatrix<double>& A,
                          InverseKind kind = InverseKind::automatic);
 
-  /// The same for another matrix of A's pattern, of which as much is reused as can be.
+  /// The same for another matrix with A's pattern; the analysis of a factor is reused.
   [[nodiscard]] ScalarInverse of(const Eigen::SparseMatrix<double>& other) const;
 
   [[nodiscard]] InverseKind kind() const {
     return cycle_ ? InverseKind::cycle : InverseKind::factor;
   }
-  /// Of cycle * A, where a cycle was made, also if it was not taken then.
+  /// Lowest eigenvalue of cycle * A if a cycle was made, even if it was then not used.
   [[nodiscard]] std::optional<double> lowest_eigenvalue() const { return lowest_; }
-  /// Multiplications per component of a right-hand side, but for the diagonals.
+  /// Multiplications per component of a right-hand side, without those by the diagonals.
   [[nodiscard]] std::size_t products() const {
     return cycle_ ? cycle_->products() : 2 * factor_->nonzeros();
   }

@@ -16,7 +16,7 @@ class SoftModes {
   static constexpr int kCount = 8;
 
   /// @param modes    3n x kCount, entry by entry, in a system's internal numbering
-  /// @param weights  B
+  /// @param weights  the diagonal of B
   SoftModes(StreamedVector<float> modes, const double (&weights)[kCount])
       : modes_(std::move(modes)) {
     std::copy_n(weights, kCount, weights_);
@@ -26,7 +26,7 @@ class SoftModes {
   [[nodiscard]] double weight(int k) const { return weights_[k]; }
   [[nodiscard]] double entry(std::size_t i, int k) const { return modes_[i * kCount + k]; }
 
-  /// Coordinates of the correction that a vector (3n) gets.
+  /// The correction of a vector (3n).
   template <class Real>
   struct Correction {
     Sum<Real> coordinates[kCount];  ///< B V^T vector
@@ -69,7 +69,7 @@ class SoftModes {
   }
 
  private:
-  /// Entries whose products are added in the vector's own precision.
+  /// How many entries' products are summed in the vector's own precision.
   static constexpr std::size_t kChunk = 96;
 
   StreamedVector<float> modes_;

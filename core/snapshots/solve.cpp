@@ -19,11 +19,11 @@ int thread_count(int wanted) {
   return wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// Packs of two samples or more: alone in a pack, a sample would cost nearly as much as two.
+/// Packs have at least two samples: alone in a pack, a sample would cost nearly as much as two.
 int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
 
-/// What one solver needs of a queue, in the numbering of the system. No allocation per sample:
-/// allocating costs more than the copy.
+/// The queue as one solver sees it, in the numbering of the system. It does not allocate per
+/// sample: that would cost more than the copy.
 class QueueExchange final : public SampleExchange {
  public:
   QueueExchange(const SampleSystem& system, SampleQueue& queue, SolveControl& control)
@@ -40,7 +40,9 @@ class QueueExchange final : public SampleExchange {
 
   [[nodiscard]] bool exhausted() const override { return queue_.exhausted(); }
 
-  void tell(int id, int evaluations) override { queue_.tell(id, evaluations); }
+  void report_evaluations(int id, int evaluations) override {
+    queue_.report_evaluations(id, evaluations);
+  }
 
   void finish(int id, SolveReport report, std::vector<double> shape) override {
     report.inverted_tets = system_.inverted_tets(shape.data());
@@ -63,8 +65,8 @@ void solve_fast(const SampleSystem& system, const SoftModes* modes, SampleQueue&
                 int expected, const SolveOptions& options, SolveControl& control) {
   const LaneObjectives objectives = modes ? softened(system.lanes(), *modes) : system.lanes();
   const int threads = thread_count(options.threads), packs = pack_count(expected, threads);
-  // Packs that hold the samples; width does not change results, and packs get narrower by
-  // themselves towards the end.
+  // Wide enough for all samples. The width does not change results, and packs get narrower towards
+  // the end.
   const int width = std::min(options.lanes, (expected + packs - 1) / packs);
   queue.share(packs);
   parallel_for(packs, packs, [&](int) {

@@ -6,12 +6,12 @@
 
 namespace snapspace {
 
-/// Solves the samples of a queue until it is closed and empty, or the control cancels: by L-BFGS on
-/// the scalar factor, one sample per lane, threads over packs of lanes. The result of a sample does
-/// not depend on the number of threads, nor on which samples are solved together.
-///
-/// @param modes     what the factor mistakes for stiff; may be null
-/// @param expected  samples that will come in all; a few leave threads for each other
+/// Solves the samples of a queue until it is closed and empty, or the control cancels, by L-BFGS on
+/// the scalar factor: one sample per lane, and a pack of lanes per thread. The result of a sample
+/// does not depend on the number of threads or on which samples are solved together.
+/// @param modes     deformations that the factor mistakes for stiff; may be null
+/// @param expected  number of samples that will come in all; with few samples, each pack gets
+///                  several threads
 void solve_fast(const SampleSystem& system, const SoftModes* modes, SampleQueue& queue,
                 int expected, const SolveOptions& options, SolveControl& control);
 

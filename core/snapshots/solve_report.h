@@ -24,20 +24,21 @@ struct SolveReport {
 };
 
 struct SolveOptions {
-  double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value; L-BFGS asks more
-  /// L-BFGS: converged as well when the last directions together are no longer than this share of
-  /// the displacement, in the norm of the lumped masses; 0 never.
+  double tolerance = 1e-5;  ///< converged when decrement <= tolerance * value; see Lane::converged
+  /// L-BFGS only: also converged when the last directions together are no longer than this share of
+  /// the displacement, in the norm of the lumped masses; 0: never.
   double settling = 0.0;
   int max_iterations = 500;
-  int lanes = 16;       ///< samples in a pack at most
+  int lanes = 16;       ///< most samples in a pack
   bool single = false;  ///< packs in single precision
   int threads = 0;      ///< 0: as many as the machine has
 };
 
 /// Shared with a running solve by another thread.
 struct SolveControl {
-  std::atomic<bool> cancelled{false};  ///< set: it ends soon, and what is not done is `cancelled`
-  std::atomic<int> finished{0};        ///< samples done so far
+  std::atomic<bool> cancelled{
+      false};  ///< if set, the solve ends soon, and unfinished samples are `cancelled`
+  std::atomic<int> finished{0};  ///< samples done so far
 };
 
 }  // namespace snapspace

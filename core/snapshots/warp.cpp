@@ -17,10 +17,10 @@ constexpr int kSamples = 2 * kWideLanes;
 using SamplePack = SingleLanes<kSamples>;
 using SampleColumn = StreamedVector<SamplePack>;
 
-/// Of the cycle; an inverse needs one.
+/// Iterations with a multigrid cycle; the exact inverse needs only one.
 constexpr int kCycles = 4;
 
-/// `samples` rows of `width` numbers, from the first on, as lanes.
+/// The first `samples` rows of `width` numbers, one per lane.
 std::vector<SamplePack> packed_rows(const double* rows, int width, int samples) {
   std::vector<SamplePack> packs(width, SamplePack(0));
   for (int lane = 0; lane < samples; ++lane)
@@ -37,7 +37,7 @@ SampleColumn combined_responses(const LinearResponse& response,
   return u;
 }
 
-/// How far the shape x is from the nearest one, as forces.
+/// Sets the residual, as forces, of the shape x with respect to the nearest shape.
 void fill_residual(const PosingSystem& system, const std::vector<float>& stiffnesses,
                    const SampleColumn& linear, const std::vector<SamplePack>& targets,
                    const SampleColumn& x, SampleColumn& residual) {

@@ -5,11 +5,10 @@
 
 namespace snapspace {
 
-/// While it lives, this thread takes numbers too small to be normalised for zero.
-///
-/// Displacements decay away from what moves, in single precision down to such numbers, and each
-/// costs x86 processors a hundred times a normal one: on a local edit of a dog, whose body is held,
-/// a factor of three in all. Other processors are not slowed down by them.
+/// During its lifetime, this thread treats denormal numbers as zero.
+/// Displacements decay away from moving handles, in single precision down to denormal numbers. Each
+/// of them costs x86 processors a hundred times a normal number: a local edit of a dog, whose body
+/// is held, takes three times as long in all. Other processors are not slowed down by them.
 class FlushDenormals {
  public:
 #if defined(__SSE2__)

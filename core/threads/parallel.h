@@ -11,9 +11,8 @@ namespace snapspace {
 
 /// Calls work(item) for every item in [0, count) on up to `threads` threads (0: as many as the
 /// machine has).
-///
-/// Items are handed out in order, to whichever thread is free; an item must not depend on which
-/// thread runs it. The first exception of an item is rethrown here after all threads have ended.
+/// Items are handed out in order to the next free thread; an item must not depend on the thread
+/// that runs it. The first exception of an item is rethrown here after all threads have ended.
 template <class Work>
 void parallel_for(int count, int threads, Work&& work) {
   if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
@@ -35,8 +34,8 @@ void parallel_for(int count, int threads, Work&& work) {
   try {
     for (int t = 1; t < threads; ++t) pool.emplace_back(run);
   } catch (const std::system_error&) {
-    // The system grants no more threads: those there are do the work. Leaving with an exception
-    // would destroy running threads, which ends the process.
+    // The system grants no more threads, so the existing ones do the work. Leaving with an
+    // exception would destroy running threads, which ends the process.
   }
   run();
   for (std::thread& thread : pool) thread.join();

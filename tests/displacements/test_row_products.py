@@ -82,7 +82,7 @@ def test_a_combination_depends_on_no_other_and_on_no_row_without_weight() -> Non
         ([0, 1], [1], "a column is out of range"),
         ([0, 1], [-1], "a column is out of range"),
         ([0, 2], [0], "starts reach beyond the entries"),
-        ([0, -1], [0], "starts must not fall"),
+        ([0, -1], [0], "starts must not decrease"),
         ([1, 1], [0], "from 0"),
         ([0, 1], [0, 0], "one value per column"),
     ],

@@ -127,5 +127,5 @@ def test_the_sum_over_tets_is_that_of_their_stresses(kind: type[Material]) -> No
 @every_kind
 def test_more_samples_than_lanes_are_refused(kind: type[Material]) -> None:
     for single, width in WIDTHS.items():
-        with pytest.raises(ValueError, match="k no more than lanes"):
+        with pytest.raises(ValueError, match="k at most the number of lanes"):
             compiled(kind).lane_values_and_gradients(displaced(width + 1), single=single)

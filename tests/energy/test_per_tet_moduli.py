@@ -167,9 +167,9 @@ def test_systems_and_problems_refuse_moduli_of_another_number_of_tets(
 ) -> None:
     material = varied(kind, len(MESH.tets) + more)
     pins = np.arange(4, dtype=np.int32), np.ones(4)
-    with pytest.raises(ValueError, match="the material has moduli for another number of tets"):
+    with pytest.raises(ValueError, match="the material has moduli for a different number of tets"):
         core.PosingSystem(MESH.vertices, MESH.tets, material.core, *pins)
-    with pytest.raises(ValueError, match="the material has moduli for another number of tets"):
+    with pytest.raises(ValueError, match="the material has moduli for a different number of tets"):
         core.InterpolationSystem(MESH.vertices[None], MESH.tets, material.core)
     with pytest.raises(ValueError, match="PosingProblem: the material has moduli for"):
         posing(material)

@@ -235,12 +235,12 @@ def test_wrong_sizes_are_refused(problem: PosingProblem) -> None:
     inputs = problem.inputs(parameters(problem, 2))
     with pytest.raises(ValueError, match="inputs must be"):
         core.LinearResponse(problem.system, inputs[:, 1:])
-    with pytest.raises(ValueError, match="there must be an input"):
+    with pytest.raises(ValueError, match="at least one input is needed"):
         core.LinearResponse(problem.system, inputs[:0])
     response = core.LinearResponse(problem.system, inputs)
     with pytest.raises(ValueError, match="coordinates must be"):
         response.warped(problem.system, np.zeros((2, 3)), inputs)
     with pytest.raises(ValueError, match="inputs must be"):
         response.warped(problem.system, np.zeros((1, 2)), inputs)
-    with pytest.raises(ValueError, match="of another system"):
+    with pytest.raises(ValueError, match="belong to another system"):
         response.warped(posing_bar(5).system, np.zeros((2, 2)), inputs)

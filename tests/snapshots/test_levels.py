@@ -107,7 +107,7 @@ def test_a_level_beyond_the_processor_is_refused(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(_core, "cpu_level", lambda: 1)
     monkeypatch.setenv("SNAPSPACE_LEVEL", "v4")
     with pytest.raises(
-        ImportError, match=r"SNAPSPACE_LEVEL=v4: baseline can be had here \(.*\); unset it"
+        ImportError, match=r"SNAPSPACE_LEVEL=v4: available here are baseline \(.*\); unset it"
     ):
         _core._chosen_level()  # type: ignore[attr-defined]
 

@@ -122,7 +122,7 @@ def test_a_mesh_with_fewer_unknowns_than_a_block_has_no_modes() -> None:
 
 def test_modes_of_another_mesh_are_refused(small: PosingProblem) -> None:
     other = posing_creature(5000)
-    with pytest.raises(ValueError, match="the modes are of another system"):
+    with pytest.raises(ValueError, match="the modes belong to another system"):
         other.system.solve_fast(
             np.zeros((1, other.system.input_size)),
             np.zeros((1, other.base.size)),

@@ -1,6 +1,6 @@
-// The one translation unit of the WebAssembly module (tools/build_wasm.py): all of core/online, and
-// what keeps the standard library from printing. Without it the module would import output
-// functions only to tell that memory is exhausted; a trap tells the same.
+// The only translation unit of the WebAssembly module (tools/build_wasm.py): all of core/online,
+// and functions that keep the standard library from printing. Without them the module would import
+// output functions only to report that memory is exhausted; a trap does the same.
 #include <cstdlib>
 #include <new>
 
@@ -20,16 +20,16 @@ inline namespace __1 {
 }  // namespace std
 
 namespace {
-void* taken(void* memory) {
+void* checked(void* memory) {
   if (!memory) __builtin_trap();
   return memory;
 }
 }  // namespace
 
-void* operator new(std::size_t size) { return taken(std::malloc(size ? size : 1)); }
+void* operator new(std::size_t size) { return checked(std::malloc(size ? size : 1)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto unit = static_cast<std::size_t>(alignment);
-  return taken(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
+  return checked(std::aligned_alloc(unit, (size + unit - 1) / unit * unit));
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
