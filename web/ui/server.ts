@@ -8,7 +8,7 @@ export type Request = Unnumbered<PageMessage>;
 export type Answer<T extends ServerMessage["type"]> = Extract<ServerMessage, { type: T }>;
 
 /** An answer, and the bytes that came before it, if any. */
-export interface Response<T extends ServerMessage["type"]> {
+export interface Reply<T extends ServerMessage["type"]> {
   readonly message: Answer<T>;
   readonly bytes: ArrayBuffer | null;
 }
@@ -101,11 +101,7 @@ export class Server {
   }
 
   /** Sends a message and waits for its answer of a type, until the signal. Refused if the server cannot, or is lost. */
-  ask<T extends ServerMessage["type"]>(
-    message: Request,
-    type: T,
-    signal?: AbortSignal,
-  ): Promise<Response<T>> {
+  ask<T extends ServerMessage["type"]>(message: Request, type: T, signal?: AbortSignal): Promise<Reply<T>> {
     return new Promise((resolve, reject) => {
       const request = this.send(message);
       signal?.addEventListener("abort", () => {
