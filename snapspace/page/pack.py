@@ -21,6 +21,7 @@ from ..reduction import (
     ReducedModel,
 )
 from .estimator import estimator_arrays
+from .painted import handle_of_vertex
 from .shape_space import quantised
 
 #: Since version 2 the page takes any material, by name.
@@ -50,8 +51,8 @@ def packed(
     before : PosingModel, optional
         Of the same body and handles: its shapes go over into those of a posing model.
     owners : ndarray of int, (s,), optional
-        The handle of each vertex of the surface, -1 for none, of a posing model. By default that of
-        the nearest tet vertex.
+        The handle of each vertex of a posing model's surface, -1 for none. By default those of
+        `handle_of_vertex`.
 
     Returns
     -------
@@ -121,14 +122,11 @@ def _posing_about(model: PosingModel) -> dict[str, Any]:
 
 
 def _posing_arrays(model: PosingModel) -> Arrays:
-    problem, surface = model.problem, model.surface
-    handle_of = np.full(len(problem.mesh.vertices), -1, np.int32)
-    for index, handle in enumerate(problem.handles):
-        handle_of[handle.vertices] = index
+    surface = model.surface
     return {
         "base": _on_surface(surface, model.subspace.tau[None])[0].astype(np.float32),
         "faces": surface.faces,
-        "handle_of_vertex": handle_of[surface.nearest],
+        "handle_of_vertex": handle_of_vertex(model),
         **_modes("space", _on_surface(surface, model.subspace.basis.T)),
         **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,

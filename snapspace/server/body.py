@@ -19,6 +19,7 @@ from ..mesh import (
 )
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
+from ..page.painted import painted_vertices
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
@@ -39,7 +40,7 @@ class Body:
     problem : PosingProblem with the handles to begin with, or None
     surface : EmbeddedSurface that was filled, which is shown in place of the tets'; or None
     surface_file : Path of the surface, or None if it is in no file of the user
-    up : axis that points up, or None if no file tells it
+    up : axis that points up, or None if no file says so
     painted : vertices of the surface that handles of the problem were chosen by, by name
     """
 
@@ -143,4 +144,5 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
         problem=problem,
         surface=model.surface if own else None,
         up=model.up,
+        painted=painted_vertices(model),
     )

@@ -1,4 +1,4 @@
-"""A handle that is let go: the server improves the shape, and the next drag takes the live one."""
+"""The server polishes a released handle's shape. The next drag starts from the live one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def address(
 
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:
-    """What a session's polish makes of the page's frame, on the surface."""
+    """The page's frame after the polish of a session, on the surface."""
     session = session_at_frame(page, model)
     found = session.polish(iterations=10)
     assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")

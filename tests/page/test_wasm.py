@@ -1,4 +1,4 @@
-"""The WebAssembly module that is checked in is what the present sources give."""
+"""The WebAssembly module in the repository is that of the present sources."""
 
 from __future__ import annotations
 

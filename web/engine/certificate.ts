@@ -10,7 +10,7 @@ const REST = 1e-3;
 /** How far a frame is from the full solution, over its distance from the rest or mean shape; as Certificate of the
  * Python package. */
 export interface Certificate {
-  /** As often too large as too small. */
+  /** An estimate that is too large as often as too small. */
   readonly relative: number;
   /** Holds with CONFIDENCE; null if the model was calibrated with too few samples for it. */
   readonly upper: number | null;

@@ -1,8 +1,8 @@
-import type { Place } from "../engine/selecting.ts";
+import type { ScreenPoint } from "../engine/selecting.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** What a tool draws on the stage: the brush's ring, a rubber band. */
+/** What a tool draws over the stage: the brush's ring, a rubber band. */
 export class ToolOverlay {
   readonly element = document.createElementNS(SVG, "svg");
   readonly #ring = this.#part("circle", "ring");
@@ -14,19 +14,19 @@ export class ToolOverlay {
     this.clear();
   }
 
-  ring([x, y]: Place, radius: number, remove: boolean): void {
+  ring([x, y]: ScreenPoint, radius: number, remove: boolean): void {
     this.#ring.setAttribute("cx", String(x));
     this.#ring.setAttribute("cy", String(y));
     this.#ring.setAttribute("r", String(Math.max(radius, 2)));
     this.#show(this.#ring, remove);
   }
 
-  box([ax, ay]: Place, [bx, by]: Place, remove: boolean): void {
+  box([ax, ay]: ScreenPoint, [bx, by]: ScreenPoint, remove: boolean): void {
     this.#band.setAttribute("d", `M${ax} ${ay}H${bx}V${by}H${ax}Z`);
     this.#show(this.#band, remove);
   }
 
-  line(line: readonly Place[], remove: boolean): void {
+  line(line: readonly ScreenPoint[], remove: boolean): void {
     this.#band.setAttribute("d", `M${line.map(([x, y]) => `${x} ${y}`).join("L")}Z`);
     this.#show(this.#band, remove);
   }

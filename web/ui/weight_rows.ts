@@ -11,7 +11,7 @@ export interface WeightActions {
 
 /** The weights of the chosen poses: a slider and a number for each, and a button that takes it away.
  *
- * There are always as many rows; the last ones are hidden. So the focus stays in its row when others come and go. */
+ * The number of rows is fixed and unused rows are hidden, so that the focus stays in its row when others come and go. */
 export class WeightRows {
   readonly element: HTMLElement;
   readonly #names: readonly string[];
@@ -47,7 +47,7 @@ export class WeightRows {
         remove.disabled = last === 0;
       }
       if (!hadFocus || (place <= last && !remove.disabled)) return;
-      // what had the focus has gone
+      // the element with the focus is gone
       const { input, remove: button } = this.#rows[Math.min(place, last)];
       (last === 0 ? input : button).focus();
     });
