@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from snapspace import PosingModel, load, read_problem
-from snapspace.generators import creature
+from snapspace.generators import bar
 from snapspace.mesh import write_tets
 
 from .choosing_page import (
@@ -147,7 +147,7 @@ def test_two_pages_do_not_disturb_each_other(page: Page, bar_server: str, opened
     compute(other)
     wait_for_text(other, "#panel", "Waiting for another computation")
     assert other.text(".progress-words").strip() == "Waiting for another computation"
-    assert not other.page.locator("progress").get_attribute("value"), "it has no end yet"
+    assert not other.page.locator("#panel progress").get_attribute("value"), "it has no end yet"
     press(page, "Cancel")
     page.page.get_by_role("button", name="Cancel").wait_for(state="hidden")
     press(page, "Choose handles")
@@ -181,13 +181,13 @@ def test_a_problem_shows_its_handles(bar_folder: Path, opened: OpenPage) -> None
 
 
 def test_a_mesh_is_uploaded(empty: str, tmp_path: Path, opened: OpenPage) -> None:
-    mesh = creature(1_000)
-    write_tets(tmp_path / "creature.mesh", mesh)
+    mesh = bar(12, 10, 10)
+    write_tets(tmp_path / "body.mesh", mesh)
     page = opened(empty)
     assert "Drop a mesh here" in page.text("#message")
-    page.page.set_input_files("#message input", tmp_path / "creature.mesh")
+    page.page.set_input_files("#message input", tmp_path / "body.mesh")
     page.wait("snapspace.kind === 'choosing'")
-    assert page.text(".hud h1") == "creature"
+    assert page.text(".hud h1") == "body"
     assert f"{len(mesh.vertices):,} vertices" in page.text(".hud")
 
 
