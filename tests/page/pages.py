@@ -70,6 +70,13 @@ class Page:
         """Waits until everything that was asked for is drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
+    def rest(self) -> None:
+        """Waits until the shape no longer changes from picture to picture."""
+        end, last = time.monotonic() + SECONDS, self.shown()
+        while not np.array_equal(now := self.shown(), last):
+            assert time.monotonic() < end, "the shape still changes"
+            last = now
+
     def shown(self, name: str = "shown") -> NDArray[np.float64]:
         """The vertices that the vertex shader gets, (s, 3)."""
         self.settle()

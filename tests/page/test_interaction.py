@@ -129,7 +129,6 @@ def test_lost_graphics_are_drawn_again(
     before = np.array(page.run(PIXELS))
     page.run(f"{LOSE}; losing.loseContext(); null")
     page.wait("snapspace.stage.renderer.getContext().isContextLost()")
-    page.page.wait_for_timeout(50)
     key(page, "ArrowUp")  # a solve while nothing can be drawn
     key(page, "Control+z")
     page.run("losing.restoreContext(); null")

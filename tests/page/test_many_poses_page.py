@@ -18,7 +18,7 @@ SHAPE = "[...snapspace.shown()]"
 
 @pytest.fixture
 def page(many_poses_page: Path, opened: OpenPage) -> Page:
-    return opened(many_poses_page.as_uri(), size=(900, 800))
+    return opened(many_poses_page.as_uri(), size=(760, 480))
 
 
 def weights_of(page: Page) -> list[float]:

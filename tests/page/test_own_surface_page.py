@@ -68,7 +68,7 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
 
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
     page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
-    page.page.wait_for_timeout(200)
+    page.rest()
     after_polish = page.shown()
     tool(page, "y up")
     press(page, "Save")

@@ -42,8 +42,7 @@ def test_a_released_handle_is_polished(
     for handle, (dx, dy) in {1: (-40, -50), 0: (-20, 30)}.items():
         page.drag(page.run(f"snapspace.handle({handle})"), dx, dy)
         page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
-        page.page.wait_for_timeout(200)
-        page.settle()
+        page.rest()
         expected = polished(page, posing_model)
         assert np.abs(page.shown() - expected).max() < 1e-4 * posing_model.problem.mesh.diagonal
     x, y = page.run("snapspace.handle(1)")
