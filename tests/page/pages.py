@@ -83,7 +83,7 @@ class Page:
         return np.array(self.run(f"[...snapspace.{name}()]")).reshape(-1, 3)
 
     def drag(self, start: Point, dx: float, dy: float, *, shift: bool = False) -> None:
-        """Presses, moves in steps and lets go, with the pointer."""
+        """Drags with the pointer, in steps."""
         mouse, keyboard = self.page.mouse, self.page.keyboard
         mouse.move(*start)
         if shift:

@@ -29,7 +29,7 @@ CELL = "import snapspace as ss\nss.load('bar.snapspace').show(title='bar', heigh
 
 @pytest.fixture
 def address(posing_model: PosingModel, tmp_path: Path) -> Iterator[str]:
-    """A notebook with one cell, on a server with settings of its own: its address."""
+    """A notebook with one cell, on a server with its own settings; yields its address."""
     places = {f"JUPYTER_{name}_DIR": str(tmp_path / name) for name in ("CONFIG", "DATA", "RUNTIME")}
     folder = tmp_path / "notebooks"
     folder.mkdir()

@@ -38,7 +38,7 @@ export class Certifier {
     this.#rest = REST * Math.sqrt(squares / (estimator.ratios.length * estimator.mass));
   }
 
-  /** Of the core's present frame; null in fewer dimensions than were calibrated, at rest, and where the energy is
+  /** The certificate of the core's present frame; null in fewer dimensions than were calibrated, at rest, and where the energy is
    * infinite. */
   certify(): Certificate | null {
     const { q } = this.#core;

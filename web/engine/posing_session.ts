@@ -74,7 +74,7 @@ export class PosingSession {
     return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
   }
 
-  /** Where the handle's centroid is asked to be. */
+  /** The requested position of the handle's centroid. */
   place(handle: number): Vector {
     return plus(this.model.handles[handle].center, this.motion(handle).translation);
   }

@@ -126,7 +126,7 @@ export class Choosing {
     this.surface.paint((vertex): Color => colors[this.#owners[vertex]]);
   }
 
-  /** Where a point of the canvas hits the mesh, in the mesh's frame; null beside it. */
+  /** Where a point of the canvas hits the mesh, in the mesh's frame; null for a miss. */
   hit([x, y]: ScreenPoint): Vector | null {
     const { camera, root } = this.stage;
     const [width, height] = this.size;
@@ -161,7 +161,7 @@ export class Choosing {
     return this.#open(inLasso(this.#places(), line));
   }
 
-  /** Where a vertex is in the window. */
+  /** The position of a vertex in the window. */
   screen(vertex: number): [number, number] {
     const { camera, root, renderer } = this.stage;
     const place = new Vector3().fromArray(this.mesh.shape, 3 * vertex);

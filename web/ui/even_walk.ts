@@ -11,7 +11,7 @@ export const LEAST_STEP = 1e-4;
 const MOST_STEP = 0.25; // where the shape rests: a frame takes no larger share of the path
 const JUMP = 4; // even steps
 const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: differences that are not visible
-const GROWTHS = 3; // of one step: a pace that is too slow is found over a few frames
+const GROWTHS = 3; // per step: a pace that is too slow is corrected over a few frames
 
 interface PathPoint<Shape> {
   readonly share: number;

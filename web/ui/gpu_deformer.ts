@@ -167,7 +167,7 @@ export class GpuDeformer implements Deformer {
     this.#strains?.dispose();
   }
 
-  /** Where vertices are, and their neighbours. */
+  /** Positions of the vertices, and their neighbours. */
   get #places(): Record<string, Texture> {
     return { positions: this.positions, ranges: this.#ranges, pairs: this.#pairs };
   }

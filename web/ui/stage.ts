@@ -169,7 +169,7 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     const aspect = clientWidth / clientHeight;
-    // what was seen from side to side stays so when the window becomes narrow
+    // keeps the visible width when the window becomes narrow
     const narrowness = (a: number) => Math.max(1, 1 / a);
     const away = this.camera.position.clone().sub(this.controls.target);
     away.multiplyScalar(narrowness(aspect) / narrowness(this.camera.aspect));

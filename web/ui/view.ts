@@ -20,7 +20,7 @@ export interface ViewOptions {
   readonly forceCpu: boolean;
   /** Leaves the camera and the stage as they are. */
   readonly keepView?: boolean;
-  /** Where handles are at first, if all that the model has are among them; else at rest. */
+  /** The first motions of the handles, if all handles of the model are among them; otherwise they are at rest. */
   readonly motions?: Motions;
   /** Poses that take part at first, by name, and their weights; if the model has them all. */
   readonly blend?: { readonly names: readonly string[]; readonly weights: readonly number[] };

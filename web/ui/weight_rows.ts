@@ -60,7 +60,7 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
   const number = h("input", { type: "number", min: 0, max: 100, step: "any", required: true });
   const input = h("input", { type: "range", min: 0, max: 1, step: 0.001 });
   const button = h("button", { type: "button", className: "small bare", onclick: remove }, "✕");
-  let isTyped = false; // what is being typed stays until it is done
+  let isTyped = false; // keeps a number that is being typed
   input.addEventListener("input", () => weigh(input.valueAsNumber));
   number.addEventListener("input", () => (isTyped = true));
   number.addEventListener("change", () => {

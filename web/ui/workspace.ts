@@ -256,7 +256,7 @@ export class Workspace {
     const content = readModel(await this.#server.fetched(sent.address), this.#mesh!.name) as PosingModel;
     if (sent.request !== this.#job) return;
     const isFirst = this.#model === null;
-    // the newest model is that which is posed: polishing takes its number
+    // set after posing has the model, because polishing uses its number
     await this.#posing?.replace(content);
     this.#model = { sent, content };
     this.#isRunning &&= !sent.final;
