@@ -8,6 +8,7 @@ and Newton's method begins at the projection of the full solution.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import snapspace as ss
 from snapspace.validation.unseen import reference_options, unseen_parameters
@@ -65,8 +66,10 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
     ours = ss.snapshot_pca(training, dimension=row.ours)
     wanted = [("ours", ours)]
     wanted += [("VM + MD", rivals.modal_subspace(problem, d)) for d in row.rivals]
-    paper = row.paper if kind == "stvk" else (None,) * len(wanted)
-    for (name, subspace), known in zip(wanted, paper, strict=True):
+    if isinstance(problem, ss.PosingProblem):  # beyond the paper: modes alone
+        wanted.append(("VM", rivals.vibration_subspace(problem, row.rivals[0])))
+    paper = row.paper if kind == "stvk" else ()
+    for (name, subspace), known in zip_longest(wanted, paper):
         errors = relative_errors(subspace, reference)
         result.add(
             shape=case.shape,
