@@ -2,7 +2,8 @@
 
 The paper does not define its error or its motions. Here errors are those of unseen parameters,
 uniform in the domain, relative to the displacement from tau; all subspaces are evaluated exactly,
-and Newton's method begins at the projection of the full solution.
+and Newton's method begins at the projection of the full solution. Errors of the projections, which
+no reduced solution is below, are beside them.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from snapspace.validation.unseen import reference_options, unseen_parameters
 from . import rivals
 from .cached import cached_snapshots
 from .cases import read
-from .minimisers import relative_errors
+from .minimisers import projection_errors, relative_errors
 from .result import Result
 
 MATERIALS = ("stvk", "stable-neo-hookean")
@@ -77,6 +78,7 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
             subspace=name,
             d=subspace.dimension,
             paper=known,
+            projection=float(projection_errors(subspace, reference).mean()),
             mean=float(errors.mean()),
             deviation=float(errors.std()),
             unseen=len(errors),

@@ -39,9 +39,8 @@ def modal_subspace(
     shares[: dimension % len(bodies)] += 1
     rigid = RIGID if isinstance(problem, ss.PosingProblem) else 0
     if min(shares) <= rigid:
-        raise ValueError(
-            f"modal_subspace: dimension {dimension} is too small; take {7 * len(bodies)}"
-        )
+        least = (rigid + 1) * len(bodies)
+        raise ValueError(f"modal_subspace: dimension is {dimension}, but must be at least {least}")
     directions = []
     for body, share in zip(bodies, shares, strict=True):
         found = vibrations(*body, fewest_modes(share - rigid))
