@@ -68,7 +68,7 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
     wanted = [("ours", ours)]
     wanted += [("VM + MD", rivals.modal_subspace(problem, d)) for d in row.rivals]
     if isinstance(problem, ss.PosingProblem):  # beyond the paper: modes alone
-        wanted.append(("VM", rivals.vibration_subspace(problem, row.rivals[0])))
+        wanted.append(("VM", rivals.vibration_subspace(problem, row.rivals[1])))
     paper = row.paper if kind == "stvk" else ()
     for (name, subspace), known in zip_longest(wanted, paper):
         errors = relative_errors(subspace, reference)

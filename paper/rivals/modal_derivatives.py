@@ -25,8 +25,9 @@ def modal_subspace(
 
     Handles are not seen, as in the paper (sec. 7). A body that is posed gives its six rigid motions
     first, which are eigenvectors too: without them errors are twice as large. Poses to blend are
-    registered, and give none. Then come the softest modes, and the derivatives of as many of them
-    as fill the body's share of the dimension, those of the softest pairs first.
+    registered, and give none. Half of the rest are the softest modes, and the others derivatives,
+    those of the softest pairs first: of 40 and 86 dimensions about twice as good on generated
+    creatures as the fewest modes whose derivatives fill the dimension.
     """
     if isinstance(problem, ss.PosingProblem):
         bodies = [(problem.energy.core, problem.mass(), problem.mesh.vertices)]
@@ -43,17 +44,17 @@ def modal_subspace(
         raise ValueError(f"modal_subspace: dimension is {dimension}, but must be at least {least}")
     directions = []
     for body, share in zip(bodies, shares, strict=True):
-        found = vibrations(*body, fewest_modes(share - rigid))
+        found = vibrations(*body, mode_count(share - rigid))
         directions += [found.rigid[:, :rigid], _directions(found, share - rigid)]
     return ss.affine_subspace(np.hstack(directions), problem, nested=False)
 
 
-def fewest_modes(dimension: int) -> int:
-    """The least m whose m modes and m (m + 1) / 2 derivatives are `dimension` directions."""
+def mode_count(dimension: int) -> int:
+    """Half of the directions, or the least m with m + m (m + 1) / 2 directions if that is more."""
     count = 1
     while count + count * (count + 1) // 2 < dimension:
         count += 1
-    return count
+    return max(count, dimension // 2)
 
 
 def modal_derivatives(found: Vibrations, pairs: list[tuple[int, int]]) -> FloatArray:

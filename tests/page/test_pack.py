@@ -169,7 +169,7 @@ def test_moduli_of_single_tets_travel_along(
 
 
 def test_other_models_are_refused() -> None:
-    with pytest.raises(TypeError, match="does not know str"):
+    with pytest.raises(TypeError, match="cannot show a str"):
         packed("model", name="")  # type: ignore[arg-type]
 
 
