@@ -29,7 +29,7 @@ def minimisers(
     exact = problem.material.exact_degree == 4 and subspace.dimension <= MOST_EXACT
     model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
     session = model.session(tolerance=tolerance, minimizer="newton")
-    for parameters, shape in zip(reference.parameters, reference.shapes.T, strict=True):
+    for parameters, shape in zip(reference.parameters, reference.shapes, strict=True):
         start = model.subspace.coordinates(shape)
         if isinstance(session, ss.BlendingSession):
             session.put(parameters, start)
@@ -46,7 +46,7 @@ def minimisers(
 def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
     """|x_red - x_full|_M over |x_full - tau|_M of all full solutions, (k,)."""
     shapes = reference.shapes
-    found = np.array(list(minimisers(subspace, reference))).T
-    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
+    found = np.array(list(minimisers(subspace, reference)))
+    size = mass_norms(subspace.mass, shapes - subspace.tau)
     errors: FloatArray = mass_norms(subspace.mass, found - shapes) / size
     return errors
