@@ -11,7 +11,7 @@ handles = ss.Handles([parts["feet"], parts["head"]], names=["feet", "head"])
 domain = ss.HandleBox(translation=0.3, angle=np.deg2rad(45))
 problem = ss.PosingProblem(mesh, handles, domain=domain)
 
-model = ss.accurate_model(problem).model  # error 0.3 % at motions not used for training
+model = ss.accurate_model(problem).model  # error 0.3 % on motions not used for training
 model.save("creature.snapspace")
 
 session = ss.load_posing("creature.snapspace").session()

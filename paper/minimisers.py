@@ -50,3 +50,12 @@ def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> Flo
     size = mass_norms(subspace.mass, shapes - subspace.tau)
     errors: FloatArray = mass_norms(subspace.mass, found - shapes) / size
     return errors
+
+
+def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
+    """The same of the M-projections of the full solutions, the least that is possible, (k,)."""
+    shapes = reference.shapes
+    away = shapes - subspace.tau[:, None]
+    miss = away - subspace.basis @ subspace.coordinates(shapes)
+    errors: FloatArray = mass_norms(subspace.mass, miss) / mass_norms(subspace.mass, away)
+    return errors

@@ -86,9 +86,15 @@ def vibrations(
 
 
 def vibration_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSubspace:
-    """The subspace of the `dimension` softest modes of the body at rest."""
-    found = vibrations(problem.energy.core, problem.mass(), problem.mesh.vertices, dimension)
-    return ss.affine_subspace(found.modes, problem)
+    """The `dimension` softest modes of the body at rest, its six rigid motions first.
+
+    ValueError for a dimension below seven.
+    """
+    if dimension <= RIGID:
+        raise ValueError(f"vibration_subspace: dimension is {dimension}, but must be above {RIGID}")
+    body = (problem.energy.core, problem.mass(), problem.mesh.vertices)
+    found = vibrations(*body, dimension - RIGID)
+    return ss.affine_subspace(np.hstack([found.rigid, found.modes]), problem)
 
 
 def hessian_at(energy: core.ElasticEnergy, displacement: FloatArray) -> csr_array:

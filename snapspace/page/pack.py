@@ -24,6 +24,7 @@ from ..reduction import (
     not_stored,
 )
 from .estimator import estimator_arrays
+from .painted import handle_of_vertex
 from .shape_space import quantised
 
 #: Since version 2 the page takes any material, by name.
@@ -55,8 +56,8 @@ def packed(
     before : PosingModel, optional
         An earlier model of the same body and handles, whose shapes are carried over to this one.
     owners : ndarray of int, (s,), optional
-        For a posing model, the handle of each surface vertex, -1 for none. Default: the handle of
-        the nearest tet vertex.
+        For a posing model, the handle of each surface vertex, -1 for none. Default: that of
+        `handle_of_vertex`.
 
     Returns
     -------
@@ -126,14 +127,11 @@ def _posing_metadata(model: PosingModel) -> dict[str, Any]:
 
 
 def _posing_arrays(model: PosingModel) -> Arrays:
-    problem, surface = model.problem, model.surface
-    handle_of = np.full(len(problem.mesh.vertices), -1, np.int32)
-    for index, handle in enumerate(problem.handles):
-        handle_of[handle.vertices] = index
+    surface = model.surface
     return {
         "base": _on_surface(surface, model.subspace.tau[None])[0].astype(np.float32),
         "faces": surface.faces,
-        "handle_of_vertex": handle_of[surface.nearest],
+        "handle_of_vertex": handle_of_vertex(model),
         **_modes("space", _on_surface(surface, model.subspace.basis.T)),
         **_elastic_arrays(model.elastic),
         "handle_K": model.handles.K,

@@ -19,6 +19,7 @@ from ..mesh import (
 )
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
+from ..page.painted import painted_vertices
 from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
@@ -146,4 +147,5 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
         problem=problem,
         surface=model.surface if own else None,
         up=model.up,
+        painted=painted_vertices(model),
     )

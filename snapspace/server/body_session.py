@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..material import DEFAULT_MATERIAL, Material
+from ..page.painted import KEY
 from ..problem import PosingProblem, usual_stiffness
-from ..reduction import PosingModel
+from ..reduction import PosingModel, ReducedModel
 from . import messages
 from .body import Body
 from .computation import Computation, Publish
@@ -156,8 +158,9 @@ class BodySession:
         problem = self._make_problem(self._selection, self._stiffness, material)
         newest = self._models.newest
         model = None if newest is None else newest.model
-        if model is not None and order.up is not None:
-            model = replace(model, provenance={**model.provenance, "up": order.up})
+        if model is not None:
+            record = {} if order.up is None else {"up": order.up}
+            model = replace(model, provenance=model.provenance | record | self._record_of(model))
         return self._saved.save(
             self.body,
             problem,
@@ -167,6 +170,18 @@ class BodySession:
             up=order.up,
             painted=self._painted,
         )
+
+    def _record_of(self, model: ReducedModel) -> dict[str, Any]:
+        """How the handles of a model were painted, for its record; empty if others are chosen."""
+        if not self._painted or self._selection is None or not isinstance(model, PosingModel):
+            return {}
+        chosen = {handle.name: handle.vertices for handle in self._selection.handles}
+        own = {handle.name: handle.vertices for handle in model.problem.handles}
+        if chosen.keys() != own.keys() or any(
+            not np.array_equal(own[name], chosen[name]) for name in own
+        ):
+            return {}
+        return {KEY: {handle.name: list(handle.vertices) for handle in self._painted}}
 
     @property
     def _stiffness(self) -> float:

@@ -67,7 +67,7 @@ def test_an_interrupted_greedy_build_resumes_to_the_same_model(
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--sampling", "greedy", "--no-scramble"), "--no-scramble is for sobol samples"),
+        (("--sampling", "greedy", "--no-scramble"), "--no-scramble is for Sobol samples"),
     ],
 )
 def test_choices_that_do_not_fit_are_refused_before_the_work(

@@ -185,7 +185,7 @@ def test_scales(run: Run, tmp_path: Path, scale: float, policy: str, wanted: flo
     alike = TetMesh(bent, mesh.tets).volume
     assert volumes[1] / alike == pytest.approx(wanted**3, rel=1e-6)
     far = abs(np.log(wanted)) > 0.2
-    assert ("--scale match takes that away" in result.err) == (policy == "auto" and far)
+    assert ("--scale match removes that" in result.err) == (policy == "auto" and far)
 
 
 def test_a_larger_deviation_is_a_softer_fit(

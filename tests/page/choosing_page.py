@@ -7,7 +7,19 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
+from snapspace.generators import bar
+
 from .pages import SECONDS, OpenPage, Page, Point
+
+#: Most tests choose handles on it.
+BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+ENDS = {"foot": BAR.vertices[:, 0] < 0.7, "head": BAR.vertices[:, 0] > 3.3}
+TAKE_HANDLES = """(given) => snapspace.choosing.go({
+  ...snapspace.choosing.choice,
+  handles: given.map(([name, vertices], key) => ({
+    key, name, vertices: Int32Array.from(vertices), moving: key > 0, translation: null, angle: null,
+  })),
+})"""
 
 
 def places(page: Page) -> NDArray[np.float64]:
@@ -26,7 +38,7 @@ def handles(page: Page) -> dict[str, set[int]]:
 
 
 def stroke(page: Page, *points: Point, key: str | None = None, button: str = "left") -> None:
-    """Presses at the first point, goes along the others and lets go."""
+    """Presses at the first point, moves along the others and releases."""
     mouse, keyboard = page.page.mouse, page.page.keyboard
     if key:
         keyboard.down(key)
@@ -72,11 +84,17 @@ def ends_as_handles(page: Page) -> None:
 
 
 def bar_with_ends(opened: OpenPage, address: str) -> Page:
-    """The page of a server that has a bar along x, with the handles foot and head."""
+    """The page of a server that has `BAR`, with the handles foot and head, without any stroke."""
     page: Page = opened(address)
     page.wait("snapspace.kind === 'choosing'")
-    ends_as_handles(page)
+    ends = [[name, np.flatnonzero(end).tolist()] for name, end in ENDS.items()]
+    page.run(TAKE_HANDLES, ends)
     return page
+
+
+def saved_file(page: Page) -> str:
+    """The name of the problem file that the page has just saved."""
+    return page.text("#panel .saved").split()[1].rstrip(",")
 
 
 def set_number(page: Page, label: str, value: float) -> None:

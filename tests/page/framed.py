@@ -1,4 +1,4 @@
-"""A page in a frame of another one, as in notebooks."""
+"""A page in a frame of another page, as in notebooks."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ def ready(frame: Any) -> Any:
 
 
 def dragged(page: Any, frame: Any, handle: int, dx: float, dy: float) -> float:
-    """How far the shape went, at most, when a handle was dragged by the pointer."""
+    """Drags a handle with the pointer and returns the largest motion of a vertex."""
     element = frame.frame_element()
     element.scroll_into_view_if_needed()
-    page.wait_for_timeout(200)  # notebooks scroll a little more by themselves
+    page.wait_for_timeout(200)  # notebooks scroll a little further
     box = element.bounding_box()
     x, y = frame.evaluate(f"snapspace.handle({handle})")
     x, y = x + box["x"], y + box["y"]

@@ -1,4 +1,4 @@
-"""The page's frame in a session, to compare what both make of it."""
+"""The page's frame in a session of Python, to compare both."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A model of twelve poses: as many as one searches in."""
+"""A model of twelve poses, enough to need a search."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from ..shapes import bent
 
 @pytest.fixture(scope="session")
 def many_poses_model() -> InterpolationModel:
-    """A thin bar: five arcs, five twists that are bent, and two poses alone; d = 8."""
+    """A thin bar: five arcs, five twists that are bent, and two other poses; d = 8."""
     mesh = bar(10, 2, 2)
     shapes = {"rest": mesh.vertices}
     shapes |= {f"arc-{k:02}": bent(mesh, 0.5 * k) for k in range(1, 6)}
@@ -29,7 +29,7 @@ def many_poses_model() -> InterpolationModel:
     shapes["look back"] = bent(mesh, -2.2)
     poses = Poses(np.stack(list(shapes.values())), mesh.tets, names=list(shapes))
     problem = InterpolationProblem(poses, material=StVK())
-    # the poses themselves, and halves of each two that follow each other
+    # the poses themselves, and the middles of successive ones
     ends = np.eye(len(poses))
     weights = np.concatenate([ends, (ends + np.roll(ends, 1, axis=0)) / 2])
     snapshots = solve_snapshots(problem, weights, threads=1)

@@ -1,4 +1,4 @@
-"""Models of every registered material, with other moduli in every tet."""
+"""Models of every registered material, with different moduli in every tet."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from snapspace.material import Material, material_class
 
 
 def with_material(problem: PosingProblem, material: Material) -> PosingProblem:
-    """The same problem, made of something else."""
+    """The same problem with another material."""
     return PosingProblem(
         problem.mesh,
         problem.handles,
@@ -29,7 +29,7 @@ def varied_material(kind: str, tets: int) -> Material:
 
 
 def material_model(model: PosingModel, kind: str) -> PosingModel:
-    """A model with a cubature, of another material and with an estimator that nobody calibrated."""
+    """A model with a cubature, of another material and with an uncalibrated estimator."""
     old = model.elastic
     assert isinstance(old, Cubature)
     material = varied_material(kind, len(model.problem.mesh.tets))

@@ -12,28 +12,44 @@ from numpy.typing import NDArray
 Point = tuple[float, float]
 OpenPage = Callable[..., "Page"]
 SECONDS = 60.0  # software rendering on a busy machine is slow
+BLANK = "about:blank"
+#: Pixels of the picture per pixel of the page: software draws a quarter of them, places stay.
+SCALE = 0.5
 
 
 class Page:
-    """A page, and what went wrong in it: console errors, exceptions, requests to other places."""
+    """A page and its faults: console errors, exceptions, requests to other places."""
 
     def __init__(self, page: Any, address: str) -> None:
         self.page, self.address = page, address
         self.faults: list[str] = []
-        self.loses_server = False  # true in tests that end it: what Chromium says then is no fault
-        page.on("console", self._console)
-        page.on("pageerror", lambda error: self.faults.append(f"exception: {error}"))
-        page.on("request", self._request)
+        self.is_open = True
+        self.loses_server = False  # true in tests that end it: its errors are no faults then
+        self._listeners = {
+            "console": self._console,
+            "pageerror": self._exception,
+            "request": self._request,
+        }
+        for event, listener in self._listeners.items():
+            page.on(event, listener)
+
+    def forget(self) -> None:
+        """Another page in the same tab is no longer this one's."""
+        for event, listener in self._listeners.items():
+            self.page.remove_listener(event, listener)
+
+    def _exception(self, error: Any) -> None:
+        self.faults.append(f"exception: {error}")
 
     def _console(self, message: Any) -> None:
-        told = message.text
-        is_lost = self.loses_server and told.startswith(("WebSocket connection", "Failed to load"))
-        if message.type in ("error", "warning") and "GPU stall" not in told and not is_lost:
-            self.faults.append(f"console: {told}")
+        text = message.text
+        is_lost = self.loses_server and text.startswith(("WebSocket connection", "Failed to load"))
+        if message.type in ("error", "warning") and "GPU stall" not in text and not is_lost:
+            self.faults.append(f"console: {text}")
 
     def _request(self, request: Any) -> None:
         own = self.address.split("?")[0].rsplit("/", 1)[0]
-        if not request.url.startswith((own, "data:", "blob:")):
+        if not request.url.startswith((own, "data:", "blob:", BLANK)):
             self.faults.append(f"request: {request.url}")
 
     def open(self) -> None:
@@ -44,23 +60,30 @@ class Page:
         return self.page.evaluate(script, argument)
 
     def wait(self, condition: str) -> None:
-        """Until an expression is true; Playwright's own way is forbidden by the page's policy."""
+        """Waits until an expression is true. The page forbids what Playwright has for that."""
         end = time.monotonic() + SECONDS
         while not self.run(condition):
             assert time.monotonic() < end, f"still not: {condition}"
             self.page.wait_for_timeout(20)
 
     def settle(self) -> None:
-        """Waits until what was asked for is drawn."""
+        """Waits until everything that was asked for is drawn."""
         self.run("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
 
+    def rest(self) -> None:
+        """Waits until the shape no longer changes from picture to picture."""
+        end, last = time.monotonic() + SECONDS, self.shown()
+        while not np.array_equal(now := self.shown(), last):
+            assert time.monotonic() < end, "the shape still changes"
+            last = now
+
     def shown(self, name: str = "shown") -> NDArray[np.float64]:
-        """The vertices as the vertex shader gets them, (s, 3)."""
+        """The vertices that the vertex shader gets, (s, 3)."""
         self.settle()
         return np.array(self.run(f"[...snapspace.{name}()]")).reshape(-1, 3)
 
     def drag(self, start: Point, dx: float, dy: float, *, shift: bool = False) -> None:
-        """Presses, moves in steps and lets go, with the pointer."""
+        """Drags with the pointer, in steps."""
         mouse, keyboard = self.page.mouse, self.page.keyboard
         mouse.move(*start)
         if shift:
@@ -87,13 +110,40 @@ class Page:
         return text
 
     def close(self) -> None:
-        self.page.close()
+        """Leaves the page; its tab can show another one."""
+        if self.is_open:
+            self.page.mouse.up()
+            self.page.goto(BLANK)
+        self.is_open = False
 
 
-def open_page(browser: Any, address: str, **options: Any) -> Page:
-    """A page of its own, 800 x 480 unless `options` say otherwise."""
-    size = options.pop("size", (800, 480))
-    viewport = {"width": size[0], "height": size[1]}
-    page = Page(browser.new_page(viewport=viewport, **options), address)
-    page.open()
-    return page
+class Tabs:
+    """Opens pages in tabs that are used again: a new tab costs more than a page in it."""
+
+    def __init__(self, browser: Any) -> None:
+        self._browser = browser
+        self._free: dict[str, list[Any]] = {}  # by the options of their contexts
+        self._options: dict[Page, str] = {}
+
+    def open(self, address: str, *, size: tuple[int, int] = (800, 480), **options: Any) -> Page:
+        """A page of `size`; other options are those of Playwright's contexts."""
+        viewport = {"width": size[0], "height": size[1]}
+        options = {"device_scale_factor": SCALE, **options}
+        key = repr(sorted(options.items()))
+        free = self._free.setdefault(key, [])
+        if free:
+            tab = free.pop()
+            tab.set_viewport_size(viewport)
+        else:
+            tab = self._browser.new_page(viewport=viewport, **options)
+        page = Page(tab, address)
+        self._options[page] = key
+        page.open()
+        return page
+
+    def close(self, page: Page) -> None:
+        """Leaves a page, which must have met no errors and made no requests to other places."""
+        page.close()
+        page.forget()
+        self._free[self._options.pop(page)].append(page.page)
+        assert page.faults == []

@@ -1,4 +1,4 @@
-"""`snapspace view` as a process of its own."""
+"""`snapspace view` as a separate process."""
 
 from __future__ import annotations
 

@@ -2,26 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-
-import pytest
-
-from snapspace.mesh import write_tets
 
 from .choosing_page import press, wait_for_text
 from .pages import OpenPage, Page
 from .serving import served
-from .test_reload import BAR
 
-#: What a finger must hit and cannot: narrower or lower than 44 pixels.
+#: Controls that are too small for fingers: narrower or lower than 44 pixels.
 SMALL = """[...document.querySelectorAll(
   "#panel button, #panel input, #panel select, #panel summary, #message button, .corner circle"
 )].filter((e) => e.offsetParent !== null || e.closest("svg")).flatMap((e) => {
   const { width, height } = e.getBoundingClientRect();
   return Math.min(width, height) < 43.9 ? [`${e.outerHTML.slice(0, 80)} ${width} x ${height}`] : [];
 })"""
-#: What is wider than its place.
+#: Elements that are wider than their place.
 OVERFLOWING = """[...document.querySelectorAll("#panel, #panel section *")].filter(
   (e) => e.scrollWidth > e.clientWidth + 1 && e.clientWidth > 0
     && !["hidden", "clip"].includes(getComputedStyle(e).overflowX)
@@ -29,6 +23,17 @@ OVERFLOWING = """[...document.querySelectorAll("#panel, #panel section *")].filt
 ).map((e) => `${e.outerHTML.slice(0, 90)} ${e.scrollWidth} > ${e.clientWidth}`)"""
 
 LONG = "the_left_hand_of_the_creature_that_waves_to_everybody"
+#: Parts of the page that the notice of the connection covers.
+COVERED = """(() => {
+  const box = (e) => e.getBoundingClientRect();
+  const notice = box(document.getElementById("connection"));
+  const parts = [...document.querySelectorAll("#panel, .hud h1, .hud p")];
+  return parts.filter((part) => {
+    const { left, right, top, bottom } = box(part);
+    return left < notice.right && notice.left < right && top < notice.bottom && notice.top < bottom;
+  }).map((part) => part.outerHTML.slice(0, 80));
+})()"""
+
 CHOICE = f"""snapspace.choosing.go({{
   selected: Int32Array.of(1, 2),
   handles: [
@@ -40,19 +45,6 @@ CHOICE = f"""snapspace.choosing.go({{
 }})"""
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("access")
-    write_tets(folder / "bar.mesh", BAR)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def address(folder: Path, chromium: object) -> Iterator[str]:
-    with served(folder / "bar.mesh", cwd=folder) as address:
-        yield address
-
-
 def with_everything(page: Page) -> None:
     page.wait("snapspace.kind === 'choosing'")
     page.run(CHOICE)
@@ -61,11 +53,11 @@ def with_everything(page: Page) -> None:
         summary.click()
 
 
-def test_fingers_hit_what_they_aim_at(
-    address: str, posing_page: Path, many_poses_page: Path, opened: OpenPage
+def test_controls_are_large_enough_for_fingers(
+    bar_server: str, posing_page: Path, many_poses_page: Path, opened: OpenPage
 ) -> None:
     phone = {"size": (390, 844), "has_touch": True, "is_mobile": True}
-    page = opened(address, **phone)
+    page = opened(bar_server, **phone)
     with_everything(page)
     assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
     page = opened(posing_page.as_uri(), **phone)
@@ -74,14 +66,14 @@ def test_fingers_hit_what_they_aim_at(
     assert page.run(SMALL) == []
 
 
-def test_forced_colours_and_long_names(address: str, opened: OpenPage) -> None:
-    page = opened(address, size=(900, 800), forced_colors="active")
+def test_forced_colours_and_long_names(bar_server: str, opened: OpenPage) -> None:
+    page = opened(bar_server, size=(900, 800), forced_colors="active")
     with_everything(page)
     assert page.run(OVERFLOWING) == []
     style = "(e) => { const s = getComputedStyle(e); return [s.backgroundColor, s.borderColor]; }"
     pressed = page.page.get_by_role("radio", name="Brush").evaluate(style)
     others = page.page.get_by_role("radio", name="Box").evaluate(style)
-    assert pressed[0] != others[0], "what is pressed can be told"
+    assert pressed[0] != others[0], "pressed buttons look different"
     swatches = page.page.locator(".swatch").evaluate_all(
         "(all) => all.map((e) => getComputedStyle(e).backgroundColor)"
     )
@@ -96,17 +88,19 @@ def test_without_javascript_the_page_says_so(posing_page: Path, chromium: object
     context.close()
 
 
-def test_a_new_token_is_asked_for(folder: Path, opened: OpenPage) -> None:
-    with served(folder / "bar.mesh", cwd=folder) as address:
+def test_a_new_token_is_asked_for(bar_folder: Path, opened: OpenPage) -> None:
+    with served(bar_folder / "bar.mesh", cwd=bar_folder) as address:
         page = opened(address)
         page.wait("snapspace.kind === 'choosing'")
         page.run(CHOICE)
         page.loses_server = True
         port = address.split(":")[2].split("/")[0]
     wait_for_text(page, "#connection", "No connection to the server")
+    assert page.run(COVERED) == []
     handles = page.run("snapspace.handles")
-    with served(folder / "bar.mesh", "--port", port, cwd=folder) as other:
+    with served(bar_folder / "bar.mesh", "--port", port, cwd=bar_folder) as other:
         wait_for_text(page, "#connection", "has another token")
+        assert page.run(COVERED) == []
         field = page.page.get_by_label("Address or token of the server")
         field.fill("wrong")
         press(page, "Connect")
@@ -116,7 +110,7 @@ def test_a_new_token_is_asked_for(folder: Path, opened: OpenPage) -> None:
         press(page, "Connect")
         page.wait("document.getElementById('connection').hidden")
         assert page.run("snapspace.handles") == handles
-        page.page.wait_for_timeout(500)  # the new workspace hears what was chosen
+        page.page.wait_for_timeout(500)  # the page sends its choice to the new workspace
         page.page.reload()
         page.wait("snapspace.kind === 'choosing'")
         assert page.run("snapspace.handles") == handles, "the new server has them as well"

@@ -1,4 +1,4 @@
-"""What the page says of models that it cannot read."""
+"""Messages of the page about models that it cannot read."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def damaged(page: Path, folder: Path, old: str, new: str) -> str:
         ('<script id="model"', '<script id="none"', "Drop a .snapspace file here"),
     ],
 )
-def test_a_damaged_page_is_told(
+def test_a_damaged_page_says_so(
     posing_page: Path, tmp_path: Path, opened: OpenPage, old: str, new: str, message: str
 ) -> None:
     page = opened(damaged(posing_page, tmp_path, old, new))
@@ -35,10 +35,10 @@ def test_a_damaged_page_is_told(
     assert page.page.get_by_role("button", name="Open a model").first.is_visible()
 
 
-def test_one_changed_letter_of_the_model_is_told(
+def test_one_changed_letter_of_the_model_is_noticed(
     posing_page: Path, tmp_path: Path, opened: OpenPage
 ) -> None:
-    """Its arrays would still be of the right sizes, and the shape another one."""
+    """The arrays keep their sizes, but the shape would be wrong."""
     text = posing_page.read_text(encoding="utf-8")
     place = text.index("</script>", text.index('id="model"')) - 4001
     letter = "B" if text[place] == "A" else "A"
@@ -66,7 +66,7 @@ def built(
     }
 
 
-def test_files_are_opened_and_bad_ones_are_told(
+def test_files_are_opened_and_bad_ones_refused(
     posing_page: Path, tmp_path: Path, opened: OpenPage, built: dict[str, Path]
 ) -> None:
     page = opened(posing_page.as_uri())

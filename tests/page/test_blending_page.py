@@ -42,6 +42,19 @@ def test_sliders_and_polygon_blend(
     weights = page.run("snapspace.session.weights")
     assert np.isclose(sum(weights), 1) and weights[0] == max(weights)
     assert_shown(blending_model, page)
+    mouse = page.page.mouse
+    mouse.move(*start)
+    mouse.down()
+    mouse.move(start[0] + 20, start[1] + 20, steps=2)
+    page.settle()
+    assert not np.allclose(page.run("snapspace.session.weights"), weights)
+    page.page.keyboard.press("Escape")
+    page.settle()
+    assert np.allclose(page.run("snapspace.session.weights"), weights), "the drag is cancelled"
+    mouse.move(start[0] - 20, start[1], steps=2)
+    mouse.up()
+    page.settle()
+    assert np.allclose(page.run("snapspace.session.weights"), weights), "it stays cancelled"
     page.page.locator(".corner").nth(2).click()
     page.settle()
     assert page.run("snapspace.session.weights") == [0, 0, 1]

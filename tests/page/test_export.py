@@ -21,7 +21,7 @@ def test_the_page_is_of_the_present_sources() -> None:
     assert len(page_html().encode()) < 1_000_000, "page and core"
 
 
-def test_a_package_without_its_page_is_told(
+def test_a_package_without_its_page_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(page_file, "_FILE", tmp_path / "page.html")

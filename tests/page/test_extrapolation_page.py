@@ -1,4 +1,4 @@
-"""Blends beyond the poses in the page: how far sliders go, and what is told there."""
+"""Blends beyond the poses in the page: how far sliders go, and the notices there."""
 
 from __future__ import annotations
 
@@ -59,8 +59,8 @@ def test_sliders_end_where_the_certain_range_ends(model: InterpolationModel, pag
         shown = ends(page, name)
         assert least - 1e-6 < shown[0] < least + 0.01
         assert greatest - 0.01 < shown[1] < greatest + 1e-6
-    told = page.page.locator(".ends >> nth=2 >> span").all_inner_texts()
-    assert told == [f"{round(100 * end)} %" for end in ends(page, "thick")]
+    shown = page.page.locator(".ends >> nth=2 >> span").all_inner_texts()
+    assert shown == [f"{round(100 * end)} %" for end in ends(page, "thick")]
 
 
 def test_a_blend_beyond_a_pose_is_that_of_the_session(
@@ -76,21 +76,21 @@ def test_a_blend_beyond_a_pose_is_that_of_the_session(
     assert page.page.locator(".dot.beyond").count() == 1
 
 
-def test_where_no_minimum_is_certain_that_is_told(model: InterpolationModel, page: Page) -> None:
-    """Sliders end where the others have equal parts: with all the weight on one it is too far."""
+def test_a_notice_says_where_no_minimum_is_certain(model: InterpolationModel, page: Page) -> None:
+    """Sliders end where the others share the rest evenly; with all of it on one it is too far."""
     certain = model.certain_range
     assert certain is not None
     fill(page, "bent", 2.0)
     fill(page, "thick", ends(page, "thick")[0])
     found = weights(page)
     assert not certain.holds(found)
-    assert page.text(NOTICE) == "Too far: the energy need not have a minimum"
+    assert page.text(NOTICE) == "Too far: the energy may have no minimum"
     fill(page, "thick", 0.2)
     assert certain.holds(weights(page))
     assert not page.text(NOTICE).startswith("Too far")
 
 
-def test_back_within_nothing_is_negative(page: Page) -> None:
+def test_turning_beyond_off_removes_negative_weights(page: Page) -> None:
     fill(page, "bent", -0.3)
     assert np.allclose(weights(page), [0.65, -0.3, 0.65])
     page.page.get_by_role("button", name="Beyond").click()
@@ -101,7 +101,7 @@ def test_back_within_nothing_is_negative(page: Page) -> None:
     assert ends(page, "bent") == [0, 1]
 
 
-def test_a_model_that_tells_nothing_stays_within_what_was_sampled(
+def test_a_model_without_a_certain_range_stays_within_its_samples(
     blending_page: Path, opened: OpenPage
 ) -> None:
     """St.Venant-Kirchhoff, without negative samples."""

@@ -29,7 +29,7 @@ CELL = "import snapspace as ss\nss.load('bar.snapspace').show(title='bar', heigh
 
 @pytest.fixture
 def address(posing_model: PosingModel, tmp_path: Path) -> Iterator[str]:
-    """A notebook with one cell, on a server with settings of its own: its address."""
+    """A notebook with one cell, on a server with its own settings; yields its address."""
     places = {f"JUPYTER_{name}_DIR": str(tmp_path / name) for name in ("CONFIG", "DATA", "RUNTIME")}
     folder = tmp_path / "notebooks"
     folder.mkdir()
@@ -43,9 +43,9 @@ def address(posing_model: PosingModel, tmp_path: Path) -> Iterator[str]:
         stderr=subprocess.DEVNULL,
     )
     try:
-        told = started(server, tmp_path / "RUNTIME")
+        record = started(server, tmp_path / "RUNTIME")
         # reset: no tabs of the notebook before
-        yield f"{told['url']}lab/tree/bar.ipynb?reset&token={told['token']}"
+        yield f"{record['url']}lab/tree/bar.ipynb?reset&token={record['token']}"
     finally:
         server.terminate()
         server.wait(timeout=SECONDS)
@@ -63,15 +63,15 @@ def notebook() -> dict[str, Any]:
 
 
 def started(server: subprocess.Popen[bytes], runtime: Path) -> dict[str, Any]:
-    """What the server tells about itself once it listens."""
+    """The server's record of itself, once it listens."""
     file, end = runtime / f"jpserver-{server.pid}.json", time.monotonic() + SECONDS
     while time.monotonic() < end and server.poll() is None:
         try:
-            told: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
+            record: dict[str, Any] = json.loads(file.read_text(encoding="utf-8"))
         except (FileNotFoundError, json.JSONDecodeError):  # not yet, or not yet whole
             time.sleep(0.1)
             continue
-        return told
+        return record
     raise AssertionError("JupyterLab does not start")
 
 
@@ -82,12 +82,12 @@ def frame_of(page: Any) -> Any:
 
 def test_it_runs_in_jupyterlab(chromium: Any, address: str, tmp_path: Path) -> None:
     page, faults = chromium.new_page(viewport={"width": 1280, "height": 800}), []
-    # of the frame: what JupyterLab itself complains about is not ours
+    # errors of the frame; those of JupyterLab itself are not ours
     page.on(
         "console",
-        lambda told: (
-            faults.append(told.text)
-            if told.type == "error" and told.location["url"] == "about:srcdoc"
+        lambda message: (
+            faults.append(message.text)
+            if message.type == "error" and message.location["url"] == "about:srcdoc"
             else None
         ),
     )

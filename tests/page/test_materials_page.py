@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -10,42 +9,26 @@ import numpy as np
 import pytest
 
 from snapspace import load, read_problem
-from snapspace.generators import bar
 from snapspace.material import MATERIALS
-from snapspace.mesh import write_tets
 
 from .choosing_page import (
+    BAR,
     bar_with_ends,
     handles,
     places,
     press,
+    saved_file,
     set_number,
     stroke,
     tool,
     wait_for_text,
 )
 from .pages import OpenPage, Page
-from .serving import served
-
-BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("materials")
-    write_tets(folder / "bar.mesh", BAR)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def address(folder: Path, chromium: object) -> Iterator[str]:
-    with served(folder / "bar.mesh", cwd=folder) as address:
-        yield address
 
 
 @pytest.fixture
-def page(address: str, opened: OpenPage) -> Page:
-    return bar_with_ends(opened, address)
+def page(bar_server: str, opened: OpenPage) -> Page:
+    return bar_with_ends(opened, bar_server)
 
 
 def parts(page: Page) -> dict[str, dict[str, Any]]:
@@ -97,7 +80,7 @@ def test_parts_are_made_renamed_changed_and_taken_back(page: Page) -> None:
     other = page.page.get_by_label("Name of the part").last
     other.fill("bone")
     other.press("Enter")
-    assert "There is a part bone already." in page.text("#panel")
+    assert "There is already a part named bone." in page.text("#panel")
     press(page, "Undo")
     press(page, "Undo")  # the soft part, and its selection
     assert list(parts(page)) == ["bone"]
@@ -128,13 +111,13 @@ def test_a_part_has_a_colour_of_its_own_below_handles(page: Page) -> None:
 
 
 @pytest.mark.parametrize("kind", ["corotational", "arap"])
-def test_they_are_computed_with_and_saved(page: Page, folder: Path, kind: str) -> None:
+def test_they_are_computed_with_and_saved(page: Page, bar_folder: Path, kind: str) -> None:
     page.page.get_by_label("Material").select_option(kind)
     if kind == "corotational":
         page.page.get_by_label("Poisson's ratio").fill("0.4")
     make_part(page, "Stiff", 0.3, 0.6)
     make_part(page, "Soft", 0.5, 0.7)
-    set_number(page, "Samples, at most", 30)
+    set_number(page, "Samples, at most", 20)
     press(page, "Compute")
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Done in")
@@ -142,15 +125,15 @@ def test_they_are_computed_with_and_saved(page: Page, folder: Path, kind: str) -
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02
     press(page, "Save")
-    wait_for_text(page, "#panel", f"in {folder}")
-    name = page.text("#panel .saved").split()[1].rstrip(",")
-    material = read_problem(folder / name).material
+    wait_for_text(page, "#panel", f"in {bar_folder}")
+    name = saved_file(page)
+    material = read_problem(bar_folder / name).material
     assert material.kind == kind
     assert sorted(set(np.round(material.mu, 9))) == [0.1, 1.0, 10.0]
     if kind == "corotational":
         ratio = material.lam / (2 * (material.lam + material.mu))
         np.testing.assert_allclose(ratio, 0.4)
-    model = load((folder / name).with_suffix(".snapspace"))
+    model = load((bar_folder / name).with_suffix(".snapspace"))
     assert model.problem.material == material
 
 

@@ -1,8 +1,9 @@
-"""What travels in the page is the model, to the precision that it promises."""
+"""The page holds the model to the promised precision."""
 
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -80,6 +81,27 @@ def test_a_posing_model_shows_the_surface_of_the_user(
     for index, handle in enumerate(model.problem.handles):
         mine = arrays["handle_of_vertex"] == index
         assert np.array_equal(mine, np.isin(model.surface.nearest, handle.vertices)) and mine.any()
+
+
+def test_handles_look_as_they_were_painted(own_surface_model: PosingModel, tmp_path: Path) -> None:
+    count, names = len(own_surface_model.surface.corners), own_surface_model.problem.handles.names
+    painted = {name: [3 * index, 3 * index + 1] for index, name in enumerate(names)}
+
+    def owners(record: object) -> np.ndarray:
+        model = replace(own_surface_model, provenance={"painted": record})
+        return unpacked(model, tmp_path)[0]["handle_of_vertex"]
+
+    expected = np.full(count, -1)
+    for index, name in enumerate(names):
+        expected[painted[name]] = index
+    assert np.array_equal(owners(painted), expected)
+    nearest = owners(None)
+    assert np.count_nonzero(nearest >= 0) > 6
+    first = names[0]
+    for bad in ([], {}, {first: [0]}, painted | {first: 3}, painted | {first: [count]}):
+        assert np.array_equal(owners(bad), nearest)
+    for index in (-1, 0.5, True, "0", 2**70):
+        assert np.array_equal(owners(painted | {first: [index]}), nearest)
 
 
 def test_an_interpolation_model_keeps_poses_and_blends(

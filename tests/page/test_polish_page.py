@@ -1,4 +1,4 @@
-"""A handle that is let go: the server improves the shape, and the next drag takes the live one."""
+"""The server polishes a released handle's shape. The next drag starts from the live one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def address(
 
 
 def polished(page: Page, model: PosingModel) -> np.ndarray:
-    """What a session's polish makes of the page's frame, on the surface."""
+    """The page's frame after the polish of a session, on the surface."""
     session = session_at_frame(page, model)
     found = session.polish(iterations=10)
     assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")
@@ -42,8 +42,7 @@ def test_a_released_handle_is_polished(
     for handle, (dx, dy) in {1: (-40, -50), 0: (-20, 30)}.items():
         page.drag(page.run(f"snapspace.handle({handle})"), dx, dy)
         page.wait("document.querySelector('.hud').innerText.includes('polished, moved')")
-        page.page.wait_for_timeout(200)
-        page.settle()
+        page.rest()
         expected = polished(page, posing_model)
         assert np.abs(page.shown() - expected).max() < 1e-4 * posing_model.problem.mesh.diagonal
     x, y = page.run("snapspace.handle(1)")

@@ -32,20 +32,28 @@ def assert_shown(model: PosingModel, page: Page) -> None:
     assert error < 1e-4 * model.problem.mesh.diagonal
 
 
-@pytest.mark.parametrize("query", ["", "?deform=cpu"])
-def test_a_handle_is_dragged(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage, query: str
+def test_a_handle_is_dragged(posing_model: PosingModel, posing: Page) -> None:
+    assert posing.run("snapspace.onGpu")
+    assert_dragged(posing_model, posing)
+
+
+def test_a_handle_is_dragged_where_float_textures_are_missing(
+    posing_model: PosingModel, posing_page: Path, opened: OpenPage
 ) -> None:
-    page = opened(posing_page.as_uri() + query)
-    assert page.run("snapspace.onGpu") == (query == "")
-    assert_shown(posing_model, page)
+    page = opened(posing_page.as_uri() + "?deform=cpu")
+    assert not page.run("snapspace.onGpu")
+    assert_dragged(posing_model, page)
+
+
+def assert_dragged(model: PosingModel, page: Page) -> None:
+    assert_shown(model, page)
     for handle, (dx, dy) in {1: (60, -50), 2: (-40, 70)}.items():
         before = page.motions()
         page.drag(page.run(f"snapspace.handle({handle})"), dx, dy)
         after = page.motions()
         assert np.linalg.norm(np.subtract(after[handle][1], before[handle][1])) > 0.02
         assert after[3 - handle] == before[3 - handle]
-        assert_shown(posing_model, page)
+        assert_shown(model, page)
     assert "ms" in page.text(".hud")
 
 
@@ -62,15 +70,23 @@ def badge(page: Page) -> str:
     return page.text(".badge")
 
 
-def test_the_badge_tells_the_error_where_the_model_knows_it(
-    posing_model: PosingModel, posing_page: Path, tmp_path: Path, opened: OpenPage
+@pytest.fixture(scope="module")
+def calibrated(posing_model: PosingModel) -> PosingModel:
+    return calibrate(posing_model, samples=12, threads=1)
+
+
+@pytest.fixture(scope="module")
+def calibrated_page(calibrated: PosingModel, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return export_html(calibrated, tmp_path_factory.mktemp("calibrated") / "bar.html")
+
+
+def test_the_badge_shows_the_error_of_a_calibrated_model(
+    calibrated: PosingModel, calibrated_page: Path, posing: Page, opened: OpenPage
 ) -> None:
-    page = opened(posing_page.as_uri())
-    page.drag(page.run("snapspace.handle(1)"), 60, -50)
-    page.settle()
-    assert page.page.locator(".badge").is_hidden()
-    model = calibrate(posing_model, samples=12, threads=1)
-    page = opened(export_html(model, tmp_path / "bar.html").as_uri())
+    posing.drag(posing.run("snapspace.handle(1)"), 60, -50)
+    posing.settle()
+    assert posing.page.locator(".badge").is_hidden()
+    model, page = calibrated, opened(calibrated_page.as_uri())
     assert page.page.locator(".badge").is_hidden()  # at rest
     page.drag(page.run("snapspace.handle(1)"), 60, -50)
     page.wait("/^(good|rough|outside) [0-9.]+ %$/.test(document.querySelector('.badge').innerText)")
@@ -91,21 +107,14 @@ def test_the_badge_tells_the_error_where_the_model_knows_it(
     page.page.get_by_role("button", name="Reset", exact=True).click()
     page.wait("document.querySelector('.badge').hidden")
 
-
-def test_the_badge_says_what_is_outside_of_what_was_sampled(
-    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
-) -> None:
-    model = calibrate(posing_model, samples=4, threads=1)
-    page = opened(export_html(model, tmp_path / "bar.html").as_uri())
+    # beyond the box
     page.drag(page.run("snapspace.handle(1)"), 300, -250)
     page.wait("document.querySelector('.badge').innerText.startsWith('outside ')")
     assert "a guess" in page.page.locator(".badge").get_attribute("title")
 
 
-def test_a_handle_is_turned_and_undone(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage
-) -> None:
-    page = opened(posing_page.as_uri())
+def test_a_handle_is_turned_and_undone(posing_model: PosingModel, posing: Page) -> None:
+    page = posing
     rest = page.shown()
     page.drag(page.run("snapspace.handle(1)"), 40, 20, shift=True)
     turned = page.motions()[1]
@@ -120,8 +129,8 @@ def test_a_handle_is_turned_and_undone(
     assert np.array_equal(page.shown(), rest)
 
 
-def test_the_arrows_of_the_gizmo_move(posing_page: Path, opened: OpenPage) -> None:
-    page = opened(posing_page.as_uri())
+def test_the_arrows_of_the_gizmo_move(posing: Page) -> None:
+    page = posing
     page.page.keyboard.press("2")
     assert page.run("document.querySelectorAll('.list button')[1].ariaPressed") == "true"
     page.page.keyboard.press("ArrowUp")
@@ -133,8 +142,8 @@ def test_the_arrows_of_the_gizmo_move(posing_page: Path, opened: OpenPage) -> No
     assert np.linalg.norm(page.motions()[1][0]) > 0.05
 
 
-def test_dragging_beside_the_shape_looks_around(posing_page: Path, opened: OpenPage) -> None:
-    page = opened(posing_page.as_uri())
+def test_dragging_beside_the_shape_looks_around(posing: Page) -> None:
+    page = posing
     before = page.run("snapspace.stage.camera.position.toArray()")
     page.drag((40, 440), 120, -30)
     assert page.run("snapspace.stage.camera.position.toArray()") != before
@@ -150,8 +159,8 @@ def test_an_axis_points_up(posing_model: PosingModel, tmp_path: Path, opened: Op
         assert np.argmax(page.run(heights)) == "xyz".index(axis)
 
 
-def test_fewer_dimensions(posing_model: PosingModel, posing_page: Path, opened: OpenPage) -> None:
-    page = opened(posing_page.as_uri())
+def test_fewer_dimensions(posing_model: PosingModel, posing: Page) -> None:
+    page = posing
     page.drag(page.run("snapspace.handle(1)"), 50, -40)
     slider = page.page.get_by_role("slider", name="Dimensions")
     slider.focus()
@@ -163,8 +172,8 @@ def test_fewer_dimensions(posing_model: PosingModel, posing_page: Path, opened: 
     assert_shown(posing_model.leading(8), page)
 
 
-def test_beyond_the_box_is_told(posing_page: Path, opened: OpenPage) -> None:
-    page = opened(posing_page.as_uri())
+def test_beyond_the_box_a_notice_says_so(posing: Page) -> None:
+    page = posing
     assert page.page.is_hidden(".notice")
     page.drag(page.run("snapspace.handle(1)"), 0, -200)
     assert "Beyond what was sampled" in page.text(".notice")

@@ -1,38 +1,28 @@
-"""A page that is loaded again goes on where it was: handles, names, pose, and what is computed."""
+"""A page that is reloaded has the same state: handles, names, pose, and the running computation."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, load, read_problem
-from snapspace.generators import bar
-from snapspace.mesh import write_tets
+from snapspace import InterpolationModel, PosingModel, load, read_problem
 
-from .choosing_page import bar_with_ends, handles, press, set_number, tool, wait_for_text
+from .choosing_page import (
+    bar_with_ends,
+    handles,
+    press,
+    saved_file,
+    set_number,
+    tool,
+    wait_for_text,
+)
 from .pages import OpenPage, Page
 from .serving import served
 from .test_materials_page import make_part, parts
 from .test_posing_page import assert_shown
-
-BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("reload")
-    write_tets(folder / "bar.mesh", BAR)
-    return folder
-
-
-@pytest.fixture(scope="module")
-def address(folder: Path, chromium: object) -> Iterator[str]:
-    with served(folder / "bar.mesh", cwd=folder) as address:
-        yield address
 
 
 def reload(page: Page, kind: str) -> None:
@@ -41,9 +31,9 @@ def reload(page: Page, kind: str) -> None:
 
 
 def test_handles_computation_and_pose_are_there_again(
-    address: str, folder: Path, opened: OpenPage
+    bar_server: str, bar_folder: Path, opened: OpenPage
 ) -> None:
-    page = bar_with_ends(opened, address)
+    page = bar_with_ends(opened, bar_server)
     make_part(page, "Stiff", 0.3, 0.6)
     tool(page, "x up")
     page.page.get_by_label("Poisson's ratio").fill("0.4")
@@ -55,7 +45,7 @@ def test_handles_computation_and_pose_are_there_again(
     assert (handles(page), parts(page)) == (chosen, made)
     assert page.run("snapspace.stage.up") == "x"
     assert page.page.get_by_label("Poisson's ratio").input_value() == "0.4"
-    assert page.page.locator("summary .told").inner_text().endswith("error 0.01 %")
+    assert page.page.locator("summary .detail").inner_text().endswith("error 0.01 %")
 
     press(page, "Compute")
     page.wait("snapspace.kind === 'posing'")
@@ -68,15 +58,16 @@ def test_handles_computation_and_pose_are_there_again(
     wait_for_text(page, "#panel", "improving")
     press(page, "Cancel")
     wait_for_text(page, "#panel", "Ready to pose:")
-    assert "improving" not in page.text("#panel"), "nothing improves it any more"
+    assert "improving" not in page.text("#panel"), "no computation improves it"
 
     press(page, "Save")
-    wait_for_text(page, "#panel", f"in {folder}")
-    model = load(folder / "bar.snapspace")
-    assert model.up == "x" and read_problem(folder / "bar.json").handles.names == ("foot", "head")
+    wait_for_text(page, "#panel", f"in {bar_folder}")
+    problem = bar_folder / saved_file(page)
+    model = load(problem.with_suffix(".snapspace"))
+    assert model.up == "x" and read_problem(problem).handles.names == ("foot", "head")
     press(page, "Choose handles")
     reload(page, "choosing")
-    press(page, "Pose")  # there is no such button before the model has come
+    press(page, "Pose")  # the button appears once the model has come
     page.wait("snapspace.kind === 'posing'")
 
 
@@ -92,7 +83,24 @@ def test_handles_are_chosen_on_the_body_of_a_model(
         for handle in posing_model.problem.handles:
             assert found[handle.name] == set(handle.vertices.tolist())
         assert page.text(".hud h1") == "given"
-        page.page.close()
+        page.close()  # before its server, which it would miss
+
+
+def test_handles_are_chosen_on_the_first_pose_of_a_blending_model(
+    blending_model: InterpolationModel, bar_server: str, tmp_path: Path, opened: OpenPage
+) -> None:
+    model, page = blending_model.save(tmp_path / "poses.snapspace"), opened(bar_server)
+    page.wait("snapspace.kind === 'choosing'")
+    page.page.locator("#panel input[type=file]").set_input_files(model)
+    page.wait("snapspace.kind === 'interpolation'")
+    press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
+    shape = np.array(page.run("[...snapspace.choosing.mesh.shape]")).reshape(-1, 3)
+    first = blending_model.problem.poses.reference.vertices
+    np.testing.assert_allclose(shape, first, atol=1e-6)
+    assert handles(page) == {} and page.text(".hud h1") == "poses"
+    reload(page, "choosing")
+    assert page.text(".hud h1") == "poses", "the workspace keeps it"
 
 
 def test_poses_of_exported_pages_are_in_the_address(

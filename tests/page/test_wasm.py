@@ -1,4 +1,4 @@
-"""The WebAssembly module that is checked in is what the present sources give."""
+"""The WebAssembly module in the repository is that of the present sources."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def test_the_module_is_of_the_present_sources() -> None:
 
 
 @pytest.mark.skipif(
-    not build_wasm.has_compiler(), reason=f"needs ziglang {build_wasm.ZIGLANG} to build it anew"
+    not build_wasm.has_compiler(), reason=f"needs ziglang {build_wasm.ZIGLANG} to build it again"
 )
 def test_building_gives_the_same_bytes() -> None:
     assert build_wasm.build() == build_wasm.MODULE.read_bytes(), RUN

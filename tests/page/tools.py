@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -19,3 +20,13 @@ def tool(name: str) -> Any:
         sys.modules[module] = importlib.util.module_from_spec(spec)
         spec.loader.exec_module(sys.modules[module])
     return sys.modules[module]
+
+
+def assert_node_tests_pass(folder: str, **env: str) -> None:
+    """Runs web/FOLDER/tests under node, all files in one process."""
+    files = sorted((ROOT / "web" / folder / "tests").glob("*.test.ts"))
+    options = ["--test", "--test-isolation=none", "--test-reporter=spec"]
+    finished = tool("node").run([*options, *files], env=env)
+    assert finished.returncode == 0, finished.stdout + finished.stderr
+    passed = re.search(r"pass (\d+)", finished.stdout)
+    assert passed and int(passed[1]) >= len(files) > 0, finished.stdout

@@ -57,9 +57,9 @@ def test_requests_of_others_are_refused(running: Running) -> None:
 def test_the_page_works_in_a_browser(
     running: Running, chromium: object, posing_model: PosingModel
 ) -> None:
-    from ..page.pages import open_page
+    from ..page.pages import Tabs
 
-    page = open_page(chromium, running.address)
+    page = Tabs(chromium).open(running.address)
     assert page.run("snapspace.kind") == "posing"
     assert page.text(".hud h1") == "bar"
     page.close()

@@ -4,7 +4,7 @@ import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
 import { weightEnds, type WeightEnds } from "./weight_ends.ts";
 
-// A solution farther from the mean shape than this many coordinate scales is none.
+// A solution farther from the mean shape than this many coordinate scales is rejected.
 const FARTHEST = 100;
 
 /** Shapes between the poses of a reduced model: set weights, read q. As BlendingSession of the Python package. */
@@ -73,7 +73,7 @@ export class BlendingSession {
     return this.#core.solve(this.#stop);
   }
 
-  /** How far the shape is from the full solution; null if the model cannot tell. */
+  /** How far the shape is from the full solution; null if the model has no estimate. */
   certificate(): Certificate | null {
     return this.#certifier?.certify() ?? null;
   }

@@ -2,7 +2,7 @@ import type { BlendingModel } from "./model.ts";
 
 /** Densities whose blends collapse (Material.collapses of the Python package); the others have no cheap test. */
 const COLLAPSING = ["stable-neo-hookean"];
-const TERMS = 7; // of a tet and pose: v A A^T (xx, yy, zz, yz, xz, xy) and 1 / v
+const TERMS = 7; // per tet and pose: v A A^T (xx, yy, zz, yz, xz, xy) and 1 / v
 const HALVINGS = 24;
 
 /** Weights for which the blended energy certainly has a minimum: in all tets of the cubature M is positive definite, and
@@ -85,7 +85,7 @@ function cross(a: number[], b: number[]): number[] {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
-/** By its leading minors. */
+/** Tested by the leading minors. */
 function isPositive([xx, yy, zz, yz, xz, xy, alpha]: Float64Array): boolean {
   const minor = xx * yy - xy * xy;
   const det = zz * minor - xx * yz * yz - yy * xz * xz + 2 * yz * xz * xy;

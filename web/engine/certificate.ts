@@ -10,7 +10,7 @@ const REST = 1e-3;
 /** How far a frame is from the full solution, over its distance from the rest or mean shape; as Certificate of the
  * Python package. */
 export interface Certificate {
-  /** As often too large as too small. */
+  /** An estimate that is too large as often as too small. */
   readonly relative: number;
   /** Holds with CONFIDENCE; null if the model was calibrated with too few samples for it. */
   readonly upper: number | null;
@@ -38,7 +38,7 @@ export class Certifier {
     this.#rest = REST * Math.sqrt(squares / (estimator.ratios.length * estimator.mass));
   }
 
-  /** Of the core's present frame; null in fewer dimensions than were calibrated, at rest, and where the energy is
+  /** The certificate of the core's present frame; null in fewer dimensions than were calibrated, at rest, and where the energy is
    * infinite. */
   certify(): Certificate | null {
     const { q } = this.#core;

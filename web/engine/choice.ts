@@ -2,7 +2,7 @@ import type { HandleChoice, PartChoice, Vector } from "./messages.ts";
 import type { ChosenPart } from "./parts.ts";
 import { NOTHING, union, without } from "./selecting.ts";
 
-/** Half widths of the sampled motions per axis; null where the common ones hold. */
+/** Half widths of the sampled motions per axis; null for the common ones. */
 export interface Ranges {
   readonly translation: Vector | null;
   readonly angle: Vector | null;
@@ -25,7 +25,7 @@ export interface Choice {
   readonly parts: readonly ChosenPart[];
 }
 
-/** What a server or a problem file has chosen. */
+/** The choice of a server or a problem file. */
 export function choiceOf(handles: readonly HandleChoice[], parts: readonly PartChoice[] = []): Choice {
   const chosen = handles.map(({ name, vertices, moving = true, translation = null, angle = null }, key) => ({
     key,
@@ -49,17 +49,17 @@ export function inOrder(handles: readonly ChosenHandle[]): ChosenHandle[] {
   return [...handles.filter(({ moving }) => !moving), ...handles.filter(({ moving }) => moving)];
 }
 
-/** As the server takes them. */
-export function messageOf(handles: readonly ChosenHandle[]): HandleChoice[] {
-  return listed(inOrder(handles));
+/** Messages of the handles in the server's order. */
+export function orderedHandleMessages(handles: readonly ChosenHandle[]): HandleChoice[] {
+  return handleMessages(inOrder(handles));
 }
 
-/** As the server keeps them for the page: in the page's own order. */
-export function listed(handles: readonly ChosenHandle[]): HandleChoice[] {
+/** Messages of the handles in the page's own order, which the server keeps for the page. */
+export function handleMessages(handles: readonly ChosenHandle[]): HandleChoice[] {
   return handles.map(({ key: _, vertices, ...rest }) => ({ ...rest, vertices: [...vertices] }));
 }
 
-/** The selected vertices become a handle; the first one holds the shape, the others move. */
+/** Makes a handle of the selected vertices. The first handle holds the shape, the others move. */
 export function withNewHandle(choice: Choice): Choice {
   const { selected, handles } = choice;
   const key = 1 + Math.max(-1, ...handles.map((handle) => handle.key));
@@ -70,7 +70,7 @@ export function withNewHandle(choice: Choice): Choice {
   return { ...choice, selected: NOTHING, handles: [...others, own] };
 }
 
-/** The selected vertices go over to a handle. */
+/** Adds the selected vertices to a handle. */
 export function withMore(choice: Choice, key: number): Choice {
   const { selected, handles } = choice;
   const owner = handles.find((handle) => handle.key === key)!;
@@ -85,7 +85,7 @@ export function withMore(choice: Choice, key: number): Choice {
   return { ...choice, selected: NOTHING, handles: left };
 }
 
-/** The selected vertices belong to no handle. */
+/** Takes the selected vertices out of all handles. */
 export function withFree(choice: Choice): Choice {
   return { ...choice, handles: withoutVertices(choice.handles, choice.selected) };
 }
@@ -101,21 +101,21 @@ export function withoutHandle(choice: Choice, key: number): Choice {
 
 /** What handles lost from one choice to the next, for the user; empty if nothing. */
 export function losses(before: Choice, after: Choice): string {
-  const told = before.handles.flatMap(({ key, name, vertices }) => {
+  const lost = before.handles.flatMap(({ key, name, vertices }) => {
     const left = after.handles.find((handle) => handle.key === key)?.vertices.length ?? 0;
-    const lost = vertices.length - left;
-    if (lost <= 0) return [];
-    if (left === 0) return [`all of ${name}, which is gone`];
-    return [`${lost.toLocaleString("en")} of ${name}`];
+    const count = vertices.length - left;
+    if (count <= 0) return [];
+    if (left === 0) return [`all of ${name}, which is removed`];
+    return [`${count.toLocaleString("en")} of ${name}`];
   });
-  return told.length ? `Taken over: ${told.join("; ")}.` : "";
+  return lost.length ? `Taken from other handles: ${lost.join("; ")}.` : "";
 }
 
 /** Why a name cannot be given to a handle; empty if it can. */
 export function nameFault(choice: Choice, key: number, name: string): string {
   if (name.trim() === "") return "A handle needs a name.";
   const taken = choice.handles.some((handle) => handle.key !== key && handle.name === name.trim());
-  return taken ? `There is a handle ${name.trim()} already.` : "";
+  return taken ? `There is already a handle named ${name.trim()}.` : "";
 }
 
 /** What must still be chosen before a model can be computed; empty if nothing. */

@@ -152,6 +152,6 @@ function materialOf(exports: CoreExports, memory: CoreMemory, { kind, rows, modu
 
 function unknownMaterial(kind: string): UnreadableModel {
   return new UnreadableModel(
-    `The model is of material '${kind}', which this page does not know. Open it with the Snapspace that wrote it.`,
+    `The model is of material '${kind}', which this page does not know. Open it with the version of Snapspace that wrote it.`,
   );
 }

@@ -13,10 +13,10 @@ export class CoreMemory {
     this.#exports = exports;
   }
 
-  /** Room for bytes; UnreadableModel if there is none. */
+  /** Allocates bytes; throws UnreadableModel if the memory is used up. */
   take(bytes: number): number {
     const pointer = this.#exports.malloc(Math.max(bytes, 8));
-    if (pointer === 0) throw new UnreadableModel("The browser has not enough memory for this model.");
+    if (pointer === 0) throw new UnreadableModel("The browser does not have enough memory for this model.");
     this.#taken.push(pointer);
     return pointer;
   }
@@ -31,7 +31,7 @@ export class CoreMemory {
     return pointer;
   }
 
-  /** A text as C has it. */
+  /** A text as a C string. */
   text(value: string): number {
     const bytes = new TextEncoder().encode(`${value}\0`);
     const pointer = this.take(bytes.length);
@@ -73,7 +73,7 @@ export class CoreMemory {
     return new Float64Array(this.#exports.memory.buffer, pointer, count).slice();
   }
 
-  /** Gives back all that was taken. */
+  /** Frees all that was allocated. */
   free(): void {
     this.#taken.forEach((pointer) => this.#exports.free(pointer));
     this.#taken = [];

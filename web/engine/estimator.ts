@@ -2,7 +2,7 @@ import type { Material } from "./model.ts";
 
 /** What a model knows about the errors of its frames; as ErrorEstimator of the Python package, with what core/online/residual_probe.h takes. */
 export interface Estimator {
-  /** Of the body at density 1, its volume. */
+  /** Mass of the body at density 1: its volume. */
   readonly mass: number;
   /** d x 3 corners: the modes at the corners of the tets around the vertices where residuals are read. */
   readonly modes: Float32Array;

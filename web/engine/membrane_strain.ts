@@ -1,13 +1,13 @@
 /** Shapes at rest of a surface, x0 y0 z0 x1 ...: one, or those of all poses. */
 export type Rests = readonly Float32Array[];
 
-/** Strain that a surface shows by itself, whatever it is made of.
+/** Strain of a surface from its shape alone, without its material.
  *
  * The Green strain E (2 x 2) of a triangle from its shape at rest, without unit, as its norm |E| = sqrt(E : E):
  * 0.1 for a stretch by about 10 %. Relative to several shapes at rest it is the root of the mean square by their
  * weights and areas, and so it is at a vertex over the triangles around it. */
 
-/** Of a triangle, from the offsets of its corners: adds weight * area * |E|^2 and weight * area to sums[at]. */
+/** Adds weight * area * |E|^2 and weight * area of a triangle to sums[at], from the offsets of its corners. */
 function addTriangle(
   sums: Float64Array,
   weight: number,

@@ -7,7 +7,7 @@ export type Model = PosingModel | BlendingModel;
 
 interface ModelBase {
   readonly name: string;
-  /** Axis that points up at first, where the model tells. */
+  /** Axis that points up at first; missing if the model does not say. */
   readonly up?: "x" | "y" | "z";
   /** d, the number of coordinates. */
   readonly dimension: number;
@@ -18,11 +18,11 @@ interface ModelBase {
   /** Units of energy and of q for the termination tests; that of energy may be left to the core. */
   readonly valueScale: number | Body;
   readonly coordinateScale: number;
-  /** Of the mesh at rest, or of the first pose. */
+  /** Diagonal of the mesh at rest, or of the first pose. */
   readonly diagonal: number;
   /** Name of the material. The page knows no more of it: the core does. */
   readonly material: string;
-  /** Of models that were calibrated. */
+  /** Present in calibrated models. */
   readonly estimator: Estimator | null;
 }
 

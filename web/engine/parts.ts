@@ -7,13 +7,13 @@ export interface ChosenPart {
   /** Stays while the name changes. */
   readonly key: number;
   readonly name: string;
-  /** Ascending. Other parts and handles may have them too; of parts the later one counts. */
+  /** Ascending. Other parts and handles may have them too; the last part that has a vertex counts. */
   readonly vertices: Int32Array;
   /** How many times as stiff it is. */
   readonly factor: number;
 }
 
-/** As the server takes factors. */
+/** The range of factors that the server takes. */
 export const FACTORS = { min: 1e-4, max: 1e4 };
 
 export function partMessages(parts: readonly ChosenPart[]): PartChoice[] {
@@ -40,7 +40,7 @@ export function withoutPart(choice: Choice, key: number): Choice {
 export function partNameFault({ parts }: Choice, key: number, name: string): string {
   if (name.trim() === "") return "A part needs a name.";
   const taken = parts.some((part) => part.key !== key && part.name === name.trim());
-  return taken ? `There is a part ${name.trim()} already.` : "";
+  return taken ? `There is already a part named ${name.trim()}.` : "";
 }
 
 function freeName(parts: readonly ChosenPart[], factor: number): string {

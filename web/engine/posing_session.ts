@@ -74,7 +74,7 @@ export class PosingSession {
     return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
   }
 
-  /** Where the handle's centroid is asked to be. */
+  /** The requested position of the handle's centroid. */
   place(handle: number): Vector {
     return plus(this.model.handles[handle].center, this.motion(handle).translation);
   }
@@ -84,7 +84,7 @@ export class PosingSession {
     return this.moveAll(new Map([[handle, { rotation: rotationOfEuler(euler), translation }]]));
   }
 
-  /** Puts some handles at motions from rest, and solves once. A motion beyond all numbers is taken back. */
+  /** Puts some handles at motions from rest, and solves once. Motions whose energy is not finite are undone. */
   moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
     const before = this.#maps;
     this.#set(
@@ -106,7 +106,7 @@ export class PosingSession {
     return this.#core.solve(this.#stop);
   }
 
-  /** How far the shape is from the full solution; null if the model cannot tell. */
+  /** How far the shape is from the full solution; null if the model has no estimate. */
   certificate(): Certificate | null {
     return this.#certifier?.certify() ?? null;
   }
@@ -117,8 +117,8 @@ export class PosingSession {
     this.#core.q = new Float64Array(this.dimension);
   }
 
-  /** Solves small motions and forgets them, at rest: the browser makes fast code of what has run some times, which the
-   * first drag should not wait for. `follow` does what follows a solve. */
+  /** Solves small motions and forgets them, at rest: the browser makes fast code of what has run a few times, and the
+   * first drag should not wait for that. `follow` does what follows a solve. */
   warmUp(follow: () => void = () => {}): void {
     const { handles, diagonal } = this.model;
     for (let step = 1; step <= WARMING; step++) {
@@ -129,7 +129,7 @@ export class PosingSession {
       follow();
     }
     this.reset();
-    this.dimension = this.dimension; // nothing of it stays in the core
+    this.dimension = this.dimension; // so that nothing of it stays in the core
   }
 
   /** The handles outside of the box of motions that was sampled, and how. */
@@ -152,7 +152,7 @@ export class PosingSession {
 
   #set(maps: readonly RigidMap[]): void {
     const relative = maps.map((map, handle) =>
-      // of most handles nothing has changed in a drag
+      // most handles do not change in a drag
       map === this.#maps[handle] && maps[0] === this.#maps[0]
         ? this.#relative[handle]
         : relativeMotion(maps[0], map, this.model.handles[handle].center),

@@ -1,4 +1,4 @@
-/** How far along a ray the triangle `faces[f..f+2]` is hit, in lengths of the direction; Infinity for a miss.
+/** The distance along a ray to the triangle `faces[f..f+2]`, in lengths of the direction; Infinity for a miss.
  *
  * Plain numbers only: this runs for many triangles while the mouse moves. (Moeller and Trumbore 1997) */
 export function distanceAlong(

@@ -9,7 +9,7 @@ interface Body {
   readonly basis: Float64Array;
   readonly tau: Float64Array;
   readonly rests: readonly Float64Array[];
-  /** Of all tets. */
+  /** The material of all tets. */
   readonly material: Material;
 }
 

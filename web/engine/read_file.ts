@@ -14,6 +14,7 @@ import {
   type Quartic,
 } from "./model.ts";
 import { fileMaterial, materialOfTets } from "./read_material.ts";
+import { paintedOwners, readRecord, upOf } from "./read_record.ts";
 import { registered } from "./registration.ts";
 import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
@@ -27,7 +28,7 @@ export function readFile(container: Container, name: string): Model {
   if (kind === "interpolation" || kind === "interpolation-cubature")
     return readInterpolation(container, name);
   throw new UnreadableModel(
-    `This page knows no models of kind '${kind}'. Open it with the Snapspace that wrote it.`,
+    `This page cannot read models of kind '${kind}'. Open it with the version of Snapspace that wrote it.`,
   );
 }
 
@@ -57,11 +58,14 @@ function readPosing(container: Container, name: string): Model {
   const { faces, nearest, embedded } = container.has("surface_faces")
     ? ownSurface(container, vertices)
     : boundary(tets, vertices);
+  const record = readRecord(container);
+  const names = handles.map((handle) => handle.name);
   const diagonal = diagonalOf(rest);
   const material = fileMaterial(container, about.material, tetCount);
   return {
     kind: "posing",
     name,
+    ...upOf(record),
     dimension,
     faces,
     space: quantised(embedded(rest), embedded(basis)),
@@ -74,7 +78,8 @@ function readPosing(container: Container, name: string): Model {
         pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
     ),
     handles,
-    handleOfVertex: Int32Array.from(nearest, (vertex) => handleOf[vertex]),
+    handleOfVertex:
+      paintedOwners(record, names, nearest.length) ?? Int32Array.from(nearest, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
     elastic: readElastic(container, rest, tets, basis, material),
     K: container.doubles("handle_K", dimension, dimension),
@@ -116,6 +121,7 @@ function readInterpolation(container: Container, name: string): Model {
   return {
     kind: "interpolation",
     name,
+    ...upOf(readRecord(container)),
     dimension,
     faces,
     space: quantised(base, embedded(basis)),
@@ -160,7 +166,7 @@ function readElastic(
   };
 }
 
-/** Of the poses and, at last, the mean shape. */
+/** Energies relative to the poses and, last, to the mean shape. */
 function readBlends(
   container: Container,
   shapes: readonly Float64Array[],
@@ -214,7 +220,7 @@ function cornerModes(
   return { points, modes };
 }
 
-/** Of a shape (3n) what is at the corners of some tets, tets x 4 x 3. */
+/** The parts of a shape (3n) at the corners of some tets, tets x 4 x 3. */
 function cornersOf(shape: Float64Array, tets: Int32Array, chosen: Int32Array): Float64Array<ArrayBuffer> {
   const corners = new Float64Array(12 * chosen.length);
   for (let i = 0; i < corners.length; i++) {

@@ -18,7 +18,7 @@ export function readModel(bytes: ArrayBuffer, name: string): Model {
   const known = format === "snapspace-page" ? PAGE_VERSIONS : FILE_VERSIONS;
   if (!known.includes(version))
     throw new UnreadableModel(
-      `This model has version ${version}, and this page reads version ${known.join(" and ")}. Open it with the Snapspace that wrote it.`,
+      `This model has version ${version}, and this page reads version ${known.join(" and ")}. Open it with the version of Snapspace that wrote it.`,
     );
   try {
     return format === "snapspace-page" ? readPacked(container) : readFile(container, name);

@@ -47,7 +47,9 @@ export function readPacked(container: Container): Model {
     };
   }
   if (container.header["kind"] !== "interpolation")
-    throw new UnreadableModel(`This page knows no models of kind '${container.header["kind"]}'.`);
+    throw new UnreadableModel(
+      `This page cannot read models of kind '${container.header["kind"]}'. Export the page again.`,
+    );
   const poses = about.poses as string[];
   const [samples] = container.shape("sample_weights", 2);
   return {
@@ -70,7 +72,7 @@ function readFromBefore(container: Container, dimension: number): Float32Array<A
 
 interface Known {
   readonly dimension: number;
-  /** Its name. */
+  /** The material's name. */
   readonly material: string;
 }
 

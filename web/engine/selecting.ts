@@ -82,7 +82,7 @@ export function inLasso(places: Float32Array, line: readonly ScreenPoint[]): Int
   });
 }
 
-// Of the way to the eye: less is the vertex' own triangles.
+// A share of the distance to the eye: nearer hits are the vertex's own triangles.
 const TOUCHING = 1e-4;
 
 /** Those of some vertices that are on the surface, and that nothing hides from the eye. */

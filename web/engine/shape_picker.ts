@@ -42,14 +42,14 @@ export class ShapePicker {
     this.#stamps = new Uint32Array(space.vertices);
   }
 
-  /** Takes a shape, or what is a share of the way from there to the goal. Costs nothing until something is picked. */
+  /** Takes a shape, or the one at a share of the path from there to the goal. Costs nothing until something is picked. */
   show(coefficients: ArrayLike<number>, share = 0): void {
     this.#coefficients = coefficients;
     this.#share = this.#goal ? share : 0;
     this.#isFresh = false;
   }
 
-  /** Another shape, 3 numbers per vertex. */
+  /** The shape to blend to, 3 numbers per vertex. */
   set goal(positions: Float32Array) {
     this.#goal = positions;
     this.#isFresh = this.#isGoalFresh = false;

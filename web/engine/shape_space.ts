@@ -24,7 +24,7 @@ export function quantised(base: Float64Array, modes: Float64Array): ShapeSpace {
     for (let i = mode * size; i < (mode + 1) * size; i++) most = Math.max(most, Math.abs(modes[i]));
     scales[mode] = most / LARGEST;
     if (!(most > 0)) continue;
-    // by the scale as it was rounded to single precision; a hair beyond the largest cannot come of it
+    // by `most`, not by the rounded scale, so that no integer exceeds LARGEST
     for (let i = mode * size; i < (mode + 1) * size; i++)
       integers[i] = Math.round((modes[i] / most) * LARGEST);
   }

@@ -1,6 +1,6 @@
 import { UnreadableModel } from "./errors.ts";
 
-/** What a tet mesh at rest tells: volumes, masses, size. Shapes are x0 y0 z0 x1 ..., tets 4 indices each. */
+/** Volumes, masses and size of a tet mesh at rest. Shapes are x0 y0 z0 x1 ..., tets 4 indices each. */
 
 /** Signed volumes. */
 export function tetVolumes(shape: ArrayLike<number>, tets: Int32Array): Float64Array {

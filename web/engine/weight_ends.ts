@@ -4,7 +4,7 @@ import type { BlendingModel } from "./model.ts";
 /** The least and the greatest weight of a pose. */
 export type WeightEnds = readonly [number, number];
 export const PLAIN_ENDS: WeightEnds = [0, 1];
-/** As far as sliders go, however far there is a minimum. */
+/** The widest range of sliders, even if minima exist beyond it. */
 const WIDEST: WeightEnds = [-1, 2];
 
 /** How far the weight of each of some poses may go while the others of them share the rest evenly: as far as there is

@@ -1,7 +1,7 @@
 import { eulerOfRotation, rotationOfEuler, type Vector } from "../engine/motion.ts";
 import type { Motions } from "./view.ts";
 
-/** What the page's address keeps, so that a page which is loaded again goes on where it was: the workspace in the query,
+/** What the page's address keeps, so that a reload finds the same state: the workspace in the query,
  * and in the hash the pose, the weights of a blend, or that handles are being chosen. */
 
 export const CHOOSING = "#choose";
@@ -72,7 +72,7 @@ export function keepHashSoon(hash: () => string, pause = PAUSE): void {
   waiting = { hash, timer: window.setTimeout(writeHash, pause) };
 }
 
-/** Writes a hash at once: a page that is being loaded again cannot change its address any more. */
+/** Writes a hash at once: a page that is reloading can no longer change its address. */
 export function keepHash(hash: () => string): void {
   keepHashSoon(hash);
   writeHash();
@@ -95,7 +95,7 @@ export function keepQuery(name: string, value: string): void {
   write(url);
 }
 
-/** Whether another attempt is of no use. */
+/** Writes the address; false if it should be tried again later. */
 function write(url: URL): boolean {
   if (url.href === location.href || location.protocol === "about:") return true; // frames of notebooks have no address
   try {

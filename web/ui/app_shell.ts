@@ -5,9 +5,9 @@ import { Stage, type Axis } from "./stage.ts";
 import { followTheme } from "./theme.ts";
 import type { View, ViewOptions } from "./view.ts";
 
-/** The page's places: the stage, the panel, and the message before them. One view is in it at a time. */
+/** The page's fixed parts: the stage, the panel, and the message above them. It shows one view at a time. */
 export class AppShell {
-  readonly #place = document.getElementById("stage")!;
+  readonly #main = document.getElementById("stage")!;
   readonly #panel = document.getElementById("panel")!;
   readonly #message = document.getElementById("message")!;
   readonly #query = new URLSearchParams(location.search);
@@ -23,7 +23,7 @@ export class AppShell {
     });
   }
 
-  /** UnreadableModel where the browser cannot draw. */
+  /** The stage, made on first use. Throws UnreadableModel if the browser cannot draw. */
   get stage(): Stage {
     if (!this.#stage) {
       this.#stage = newStage();
@@ -38,7 +38,7 @@ export class AppShell {
     return this.#module;
   }
 
-  /** What the page's address asks for. */
+  /** Options from the page's address. */
   options(up: Axis | undefined): ViewOptions {
     return {
       up: (this.#query.get("up") ?? up ?? "z") as Axis,
@@ -46,15 +46,15 @@ export class AppShell {
     };
   }
 
-  /** Takes away what is shown, before something else is made. */
+  /** Removes the present view, before another one is made. */
   clear(): void {
     this.#view?.dispose();
     this.#view = null;
     this.#panel.querySelectorAll("section").forEach((part) => part.remove());
-    this.#place.querySelectorAll(".hud, .notice").forEach((part) => part.remove());
+    this.#main.querySelectorAll(".hud, .notice").forEach((part) => part.remove());
   }
 
-  /** Takes away what is shown, and nothing comes in its place. */
+  /** Removes the present view and hides the panel. */
   empty(): void {
     this.clear();
     this.#panel.hidden = true;
@@ -63,16 +63,16 @@ export class AppShell {
   show(view: View, title: string, script: Record<string, unknown> = {}): void {
     this.#view = view;
     document.getElementById("fold")!.after(...view.panel);
-    this.#place.append(view.hud.element, view.hud.notice);
+    this.#main.append(view.hud.element, view.hud.notice);
     this.quiet();
     this.#panel.hidden = false;
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
     const { renderer, scene, camera } = this.stage;
     renderer.render(scene, camera);
-    renderer.compile(scene, camera); // what is hidden as well, such as the gizmo: the first press should not wait
+    renderer.compile(scene, camera); // hidden parts as well, such as the gizmo: the first press should not wait
     this.stage.draw();
-    // what the view tells may change while it is shown: it is inherited, not copied
+    // inherited, not copied: what the view reports changes while it is shown
     window.snapspace = Object.assign(Object.create(view.script), {
       ready: true,
       stage: this.stage,
@@ -80,13 +80,13 @@ export class AppShell {
     });
   }
 
-  /** Takes the message away. */
+  /** Hides the message. */
   quiet(): void {
     this.#message.hidden = true;
   }
 
-  /** A message before everything, with something to do about it. */
-  tell(text: string, isError: boolean, ...below: HTMLElement[]): void {
+  /** Shows a message above everything, with elements below it that help. */
+  showMessage(text: string, isError: boolean, ...below: HTMLElement[]): void {
     const words = h("p", { role: isError ? "alert" : "status" }, text);
     const row = h("div", { className: "row" }, ...below);
     if (isError && this.#view)
@@ -106,11 +106,11 @@ function newStage(): Stage {
   }
 }
 
-/** What the user should read about an error. */
+/** An error as a text for the user. */
 export function readable(error: unknown): string {
   if (error instanceof UnreadableModel) return error.message;
   if (error instanceof WebAssembly.CompileError)
     return "This browser is too old: it lacks WebAssembly with SIMD.";
   console.error(error);
-  return `The page has a fault: ${String(error)}`;
+  return `Something went wrong in the page: ${String(error)}`;
 }

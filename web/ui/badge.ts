@@ -1,5 +1,5 @@
 import { CONFIDENCE, type Certificate } from "../engine/index.ts";
-import { h, mark, tell } from "./dom.ts";
+import { h, mark, setText } from "./dom.ts";
 
 /** Estimates up to here are good: a few pixels of a displacement that fills the screen. */
 const GOOD = 0.01;
@@ -7,16 +7,16 @@ const GOOD = 0.01;
 const MEANING = {
   good: "near the full solution",
   rough: "visibly off the full solution",
-  outside: "outside of what was sampled: the estimate is a guess",
+  outside: "outside the sampled range: the estimate is a guess",
 };
 
-/** How far the shape that is shown is from the full solution: one word and the number behind it. Not there at rest, and
- * where the model cannot tell. */
+/** How far the shape that is shown is from the full solution: one word and the number. Hidden at rest, and
+ * where the model has no estimate. */
 export class Badge {
   #isPolished = false;
   readonly element = h("p", { className: "badge", role: "status", hidden: true });
 
-  /** What is known of a live shape; `isOutside` of the handle motions or weights that were sampled. */
+  /** Shows the error of a live shape; `isOutside` says whether handles or weights are outside the sampled range. */
   show(found: Certificate | null, isOutside: boolean): void {
     if (!found) return this.hide();
     this.#isPolished = false;
@@ -27,12 +27,12 @@ export class Badge {
     this.#set(level, `${level} ${percent(relative)}`, title);
   }
 
-  /** The shape is another one: what full iterations gave is over. */
+  /** Hides the result of full iterations, because another shape is shown. */
   forgetPolish(): void {
     if (this.#isPolished) this.hide();
   }
 
-  /** A shape that full iterations have moved, by this share of the displacement. */
+  /** Shows that full iterations moved the shape, by this share of the displacement. */
   polished(moved: number | null): void {
     const by = moved === null ? "" : `, moved ${percent(moved)}`;
     this.#isPolished = true;
@@ -46,7 +46,7 @@ export class Badge {
 
   #set(level: string, text: string, title: string): void {
     mark(this.element, "data-level", level);
-    tell(this.element, text);
+    setText(this.element, text);
     this.element.title = title;
     this.element.hidden = false;
   }

@@ -16,12 +16,12 @@ import { WeightRows } from "./weight_rows.ts";
 /** The controls of a blend: polygon and sliders of the poses that take part; of many poses a list that they are chosen in. */
 export interface BlendPanel {
   readonly sections: HTMLElement[];
-  /** Where a search for poses is typed; null for few poses. */
+  /** The field for a search; null for few poses. */
   readonly search: HTMLInputElement | null;
   show(choice: PoseChoice): void;
   /** Lets sliders go as far as `endsOf` says of the poses that take part; null: from 0 to 100 %. */
   extend(endsOf: EndsOf | null): void;
-  /** Shows a picture of a pose wherever it stands. */
+  /** Shows a picture of a pose everywhere in the panel. */
   illustrate(pose: number, address: string): void;
 }
 
@@ -119,7 +119,7 @@ function choosing(
   };
 }
 
-/** Where the polygon of the chosen poses stands: another one for each choice. */
+/** The place of the polygon, which is made again for each choice of poses. */
 class PolygonPlace {
   readonly element = h("div");
   /** Addresses of pictures by pose. */

@@ -3,7 +3,7 @@ import { EvenWalk } from "./even_walk.ts";
 import { MotionProbe } from "./motion_probe.ts";
 import { allWeights, type PoseChoice } from "./pose_choice.ts";
 
-const SECONDS_PER_LEG = 1.6; // if the shape took the straight way
+const SECONDS_PER_LEG = 1.6; // if the shape moved straight
 const FIRST = 1 / 60; // seconds of the first frame
 const LONGEST = 0.1; // seconds of a frame: after a pause of the browser the walk continues where it was
 
@@ -13,7 +13,7 @@ interface Frame {
   readonly report: FrameReport | null;
 }
 
-/** Where a shape jumps: on the way to a pose, at this weight of it. */
+/** A jump of the shape on the path to a pose, at this weight of the pose. */
 export interface Jump {
   readonly pose: number;
   readonly weight: number;
@@ -34,19 +34,19 @@ export class BlendPath {
     this.#session = session;
   }
 
-  /** Starts to the pose that it was on its way to. */
+  /** Starts or stops; it starts towards the pose that it was heading for. */
   play(playing: boolean): void {
     this.playing = playing;
     this.#isFresh = true;
     this.restart();
   }
 
-  /** The session has another shape, or another dimension. */
+  /** Forgets the walk, because the session has another shape or dimension. */
   restart(): void {
     this.#walk = null;
   }
 
-  /** Solves for the shape so many seconds later; where it jumped, else null. */
+  /** Solves for the shape `seconds` later; `jump` is null where it did not jump. */
   advance(
     choice: PoseChoice,
     seconds: number,
@@ -73,7 +73,7 @@ export class BlendPath {
   #begin(choice: PoseChoice): EvenWalk<Frame> {
     const { poses, weights } = choice;
     const goal = Math.max(poses.indexOf(this.#goal), 0);
-    // there already: to the next one
+    // already there: goes to the next one
     const place = weights[goal] > 1 - 1e-9 ? (goal + 1) % poses.length : goal;
     this.#goal = poses[place];
     const { space, poseSpace } = this.#session.model;
@@ -81,7 +81,7 @@ export class BlendPath {
     const alone = (pose: number) => allWeights({ poses: [pose], weights: [1] }, poseSpace.scales.length);
     const between = (a: number, b: number) => probes.poses.between(alone(a), alone(b));
     this.#speed = this.#speedOf(poses.map((pose, i) => between(pose, poses[(i + 1) % poses.length])));
-    const way = {
+    const path = {
       solve: (share: number, from: Frame): Frame => {
         const there = weights.map((w, i) => (i === place ? 1 - (1 - w) * (1 - share) : w * (1 - share)));
         const report = this.#solve({ poses, weights: there }, from.q);
@@ -91,10 +91,10 @@ export class BlendPath {
     };
     const start = { weights, q: this.#session.q, report: null };
     const length = poses.reduce((sum, pose, i) => sum + weights[i] * between(pose, this.#goal), 0);
-    return new EvenWalk(way, start, length);
+    return new EvenWalk(path, start, length);
   }
 
-  /** So that legs take SECONDS_PER_LEG in the mean; poses that are all alike are passed all the same. */
+  /** The speed at which legs take SECONDS_PER_LEG on average, positive even if all poses are alike. */
   #speedOf(legs: readonly number[]): number {
     const mean = legs.reduce((sum, length) => sum + length, 0) / legs.length;
     return Math.max(mean, 1e-3 * this.#session.model.diagonal) / SECONDS_PER_LEG;

@@ -13,7 +13,7 @@ export class BlendPolygon {
   readonly #pictures: SVGElement[] = [];
   readonly #act: (weights: number[]) => void;
   #weights: readonly number[] = [];
-  /** Of the drag that goes on, at its begin. */
+  /** The weights when the present drag began. */
   #before: readonly number[] | null = null;
 
   /** `act` gets the weights of the dragged point, and of a corner that is clicked. */
@@ -88,7 +88,7 @@ export class BlendPolygon {
     this.element.addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.#before) {
         this.#act([...this.#before]);
-        this.#before = null; // what the pointer does until it is let go counts no more
+        this.#before = null; // the pointer has no effect until it is released
       }
       const steps: Record<string, [number, number]> = {
         ArrowLeft: [-1, 0],

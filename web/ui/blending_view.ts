@@ -48,7 +48,7 @@ export async function blendingView(
     () => session,
   );
   hud.dimension(model.dimension, model.dimension);
-  const readout = new Readout(() => hud.tell());
+  const readout = new Readout(() => hud.update());
   const names = [h("span", { className: "tag" }, "elastic"), h("span", { className: "tag" }, "straight")];
   const path = new BlendPath(session);
   let [choice, compared] = [
@@ -62,7 +62,7 @@ export async function blendingView(
     play.setAttribute("aria-pressed", "false");
     hud.remark("");
     choice = asked;
-    tellChoice(); // the next click comes perhaps before the next picture
+    showChoice(); // the next click may come before the next picture
     keep();
     stage.draw();
   };
@@ -111,11 +111,11 @@ export async function blendingView(
     const wish = allWeights(choice, model.poses.length);
     if (!solved || solved.some((w, i) => w !== wish[i])) take(session.blend(wish));
   };
-  const tellChoice = () => {
+  const showChoice = () => {
     panel.show(choice);
     enable(play, choice.poses.length > 1);
   };
-  /** Shows what the session has. */
+  /** Shows the session's shape. */
   const take = (report: FrameReport) => {
     solved = allWeights(choice, model.poses.length);
     hud.solved(report);
@@ -127,7 +127,7 @@ export async function blendingView(
   const walk = (seconds: number) => {
     const step = path.advance(choice, seconds);
     choice = step.choice;
-    tellChoice();
+    showChoice();
     take(step.report);
     if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
@@ -150,7 +150,7 @@ export async function blendingView(
   const stop = new AbortController();
   listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
-  tellChoice();
+  showChoice();
   if (canGoBeyond && choice.weights.some((w) => w < 0)) beyond.click();
   solve();
   const illustrate = (pose: number) => {
@@ -220,8 +220,8 @@ function jumpRemark(poses: readonly string[], { pose, weight }: Jump): string {
 }
 
 function warningOf({ outside, certain }: BlendingSession, { status }: FrameReport): string {
-  if (status === "unbounded") return "The energy has no minimum that far; the shape is the one before";
-  if (certain === false) return "Too far: the energy need not have a minimum";
+  if (status === "unbounded") return "The energy has no minimum this far out; the last shape is shown";
+  if (certain === false) return "Too far: the energy may have no minimum";
   return outside.length > 0 ? `Beyond what was sampled: ${outside.join(", ")}` : "";
 }
 

@@ -5,12 +5,12 @@ interface PointerActions {
   cancel(event: PointerEvent): void;
 }
 
-/** Hears the pointer on a canvas before the camera's controls do, until the signal. */
+/** Listens to the pointer on a canvas, before the camera's controls, until the signal. */
 export function listenToPointers(canvas: HTMLCanvasElement, acts: PointerActions, signal: AbortSignal): void {
-  const shell = canvas.parentElement!;
+  const parent = canvas.parentElement!;
   const options = { capture: true, signal };
-  shell.addEventListener("pointerdown", acts.down, options);
-  shell.addEventListener("pointermove", acts.move, options);
-  shell.addEventListener("pointerup", acts.up, options);
-  shell.addEventListener("pointercancel", acts.cancel, options);
+  parent.addEventListener("pointerdown", acts.down, options);
+  parent.addEventListener("pointermove", acts.move, options);
+  parent.addEventListener("pointerup", acts.up, options);
+  parent.addEventListener("pointercancel", acts.cancel, options);
 }

@@ -23,7 +23,7 @@ import type { Surface } from "./surface.ts";
 
 export type Tool = "brush" | "box" | "lasso" | "look";
 
-/** The state of choosing: what is selected, handles and parts, the tool, and what was before. */
+/** The state of choosing: the selection, handles and parts, the tool, and the history. */
 export class Choosing {
   readonly stage: Stage;
   readonly mesh: RestMesh;
@@ -33,9 +33,9 @@ export class Choosing {
   removing = false;
   /** Whether a tool is at work: until its end there is no undo, and nothing is made of what it takes. */
   isBusy = false;
-  /** Whether box and lasso take what is seen only, and not what lies behind or inside. */
+  /** Whether box and lasso take only what is seen, and not what lies behind or inside. */
   seenOnly = false;
-  /** Of the brush, as a share of the mesh's diagonal. */
+  /** The brush's radius as a share of the mesh's diagonal. */
   radius = 0.05;
   /** After anything that controls show has changed. */
   onChange: () => void = () => {};
@@ -61,12 +61,12 @@ export class Choosing {
     return this.#choice;
   }
 
-  /** With those of a stroke that goes on. */
+  /** The selected vertices, with those of the present stroke. */
   get selected(): Int32Array {
     return this.#stroke ?? this.#choice.selected;
   }
 
-  /** A step that can be undone. */
+  /** Takes a choice, as a step that can be undone. */
   go(choice: Choice): void {
     this.#stroke = null;
     this.#choice = choice;
@@ -74,13 +74,13 @@ export class Choosing {
     this.changed();
   }
 
-  /** A part of a stroke: these come to the selection, or leave it. */
+  /** A part of a stroke: adds vertices to the selection, or removes them. */
   take(vertices: Int32Array, remove: boolean): void {
     this.#stroke = remove ? without(this.selected, vertices) : union(this.selected, vertices);
     this.changed();
   }
 
-  /** The end of a stroke. */
+  /** Ends a stroke. */
   commit(): void {
     if (this.#stroke) this.go({ ...this.#choice, selected: this.#stroke });
   }
@@ -111,7 +111,7 @@ export class Choosing {
     if (!this.isBusy) this.#restore(this.#history.redo());
   }
 
-  /** Tells controls and stage. */
+  /** Updates controls and stage. */
   changed(): void {
     this.#isPainted = false;
     this.onChange();
@@ -126,7 +126,7 @@ export class Choosing {
     this.surface.paint((vertex): Color => colors[this.#owners[vertex]]);
   }
 
-  /** Where a point of the canvas hits the mesh, in the mesh's frame; null beside it. */
+  /** Where a point of the canvas hits the mesh, in the mesh's frame; null for a miss. */
   hit([x, y]: ScreenPoint): Vector | null {
     const { camera, root } = this.stage;
     const [width, height] = this.size;
@@ -161,7 +161,7 @@ export class Choosing {
     return this.#open(inLasso(this.#places(), line));
   }
 
-  /** Where a vertex is in the window. */
+  /** The position of a vertex in the window. */
   screen(vertex: number): [number, number] {
     const { camera, root, renderer } = this.stage;
     const place = new Vector3().fromArray(this.mesh.shape, 3 * vertex);
@@ -170,7 +170,7 @@ export class Choosing {
     return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
   }
 
-  /** Of the canvas, in pixels of the page. */
+  /** Width and height of the canvas in pixels of the page. */
   get size(): [number, number] {
     const { clientWidth, clientHeight } = this.stage.renderer.domElement;
     return [clientWidth, clientHeight];

@@ -5,9 +5,9 @@ import type { ChosenPart } from "../engine/parts.ts";
 import { CLAY, handleColor, partColor } from "./handle_colors.ts";
 
 const SELECTED = new Color("#14b8ff");
-const MOST = 254; // handles and parts, next to nothing and the selection in a byte
+const MOST = 254; // handles and parts; a byte also holds "none" and the selection
 
-/** The colour of a handle here is that which it will have in a model. */
+/** The colour of a handle, the same that it will have in a model. */
 export function colorOf(handles: readonly ChosenHandle[], key: number): string {
   return handleColor(inOrder(handles).findIndex((handle) => handle.key === key));
 }
@@ -16,7 +16,7 @@ export function partColorOf(parts: readonly ChosenPart[], key: number): string {
   return partColor(parts.findIndex((part) => part.key === key));
 }
 
-/** Writes for every vertex whose it is, as a number of the colours that are returned. Handles cover parts. */
+/** Writes the owner of every vertex, as an index of the returned colours. Handles cover parts. */
 export function ownerColors({ handles, parts }: Choice, owners: Uint8Array, selected: Int32Array): Color[] {
   const shown = [
     ...parts.map(({ vertices }, i) => [vertices, partColor(i)] as const),

@@ -25,7 +25,7 @@ export class HandleList {
   readonly #make = h("button", { type: "button", className: "primary wide", title: "Enter" });
   /** The same button on the stage, for narrow windows. */
   readonly floating = h("button", { type: "button", className: "primary floating" });
-  readonly #told = h("p", { className: "hint", role: "status" });
+  readonly #hint = h("p", { className: "hint", role: "status" });
   readonly #lacking = h("p", { className: "hint", id: "lacking" });
   /** Keys of the handles whose ranges are shown. */
   readonly #unfolded = new Set<number>();
@@ -36,10 +36,10 @@ export class HandleList {
     this.#choosing = choosing;
     this.#common = common;
     for (const button of [this.#make, this.floating]) button.addEventListener("click", () => this.make());
-    this.element = section("Handles", this.#lacking, this.#make, this.#told, this.#list);
+    this.element = section("Handles", this.#lacking, this.#make, this.#hint, this.#list);
   }
 
-  /** A handle of the selected vertices; its name can be typed at once. */
+  /** Makes a handle of the selected vertices; its name can be typed at once. */
   make(): void {
     if (this.#choosing.choice.selected.length === 0) return;
     this.#go(withNewHandle(this.#choosing.choice));
@@ -58,25 +58,24 @@ export class HandleList {
       if (button.textContent !== text) button.textContent = text;
     this.floating.hidden = count === 0;
     if (this.#shown === choice.handles && this.#hadSelection === count > 0) return;
-    if (this.#shown !== choice.handles && !this.#told.dataset["kept"]) this.#told.textContent = "";
-    delete this.#told.dataset["kept"];
+    if (this.#shown !== choice.handles && !this.#hint.dataset["kept"]) this.#hint.textContent = "";
+    delete this.#hint.dataset["kept"];
     this.#shown = choice.handles;
     this.#hadSelection = count > 0;
-    // what the focus was on comes back: a list that is made anew would lose it
+    // restores the focus, which a new list would lose
     const focused = document.activeElement?.getAttribute("data-focus");
     this.#list.replaceChildren(...choice.handles.map((handle) => this.#item(handle, count > 0)));
     if (focused) this.#list.querySelector<HTMLElement>(`[data-focus="${focused}"]`)?.focus();
   }
 
   #go(next: Choice): void {
-    const told = losses(this.#choosing.choice, next);
-    this.#tell(told);
+    this.#showHint(losses(this.#choosing.choice, next));
     this.#choosing.go(next);
   }
 
-  #tell(text: string): void {
-    this.#told.textContent = text;
-    this.#told.dataset["kept"] = "yes";
+  #showHint(text: string): void {
+    this.#hint.textContent = text;
+    this.#hint.dataset["kept"] = "yes";
   }
 
   #item(handle: ChosenHandle, hasSelection: boolean): HTMLElement {
@@ -97,7 +96,7 @@ export class HandleList {
       {
         type: "button",
         className: "small",
-        title: moving ? "It moves; press to hold it in place" : "It stays in place; press to let it move",
+        title: moving ? "It moves. Press to hold it in place." : "It stays in place. Press to let it move.",
         "aria-pressed": !moving,
         ...own("fixed"),
         onclick: () => this.#go(changed(choice, key, { moving: !moving })),
@@ -123,7 +122,7 @@ export class HandleList {
           {
             type: "button",
             className: "link",
-            title: "The selection becomes part of it",
+            title: "Add the selection to this handle",
             "aria-label": `Add the selection to ${handle.name}`,
             ...own("more"),
             onclick: () => this.#go(withMore(this.#choosing.choice, key)),
@@ -144,7 +143,7 @@ export class HandleList {
     const take = () => {
       const fault = nameFault(this.#choosing.choice, key, input.value);
       if (fault) {
-        this.#tell(fault);
+        this.#showHint(fault);
         input.value = handle.name;
       } else if (input.value.trim() !== handle.name) {
         this.#go(changed(this.#choosing.choice, key, { name: input.value.trim() }));

@@ -17,7 +17,7 @@ export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLE
   ratio.value = poisson === null ? "" : String(Number(poisson.toPrecision(4)));
   ratio.placeholder = "as in the file";
   ratio.addEventListener("input", () => {
-    // as it was given, the server keeps its own moduli
+    // if it is unchanged, the server keeps its own moduli
     const isGiven = ratio.value === "" || ratio.valueAsNumber === given.poisson;
     if (ratio.validity.valid) sampling.poisson = isGiven ? null : ratio.valueAsNumber;
   });

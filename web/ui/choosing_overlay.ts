@@ -2,7 +2,7 @@ import type { ScreenPoint } from "../engine/selecting.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** What a tool draws on the stage: the brush's ring, a rubber band. */
+/** What a tool draws over the stage: the brush's ring, a rubber band. */
 export class ToolOverlay {
   readonly element = document.createElementNS(SVG, "svg");
   readonly #ring = this.#part("circle", "ring");

@@ -18,7 +18,7 @@ export class PartList {
   readonly element: HTMLElement;
   readonly #choosing: Choosing;
   readonly #list = h("ul", { className: "handles parts" });
-  readonly #told = h("p", { className: "hint", role: "status" });
+  readonly #hint = h("p", { className: "hint", role: "status" });
   readonly #buttons: readonly HTMLButtonElement[];
   #shown: readonly ChosenPart[] = [];
 
@@ -30,7 +30,7 @@ export class PartList {
       button("Stiff part", `The selection becomes ${STIFF} times as stiff`, STIFF),
       button("Soft part", `The selection becomes ${1 / SOFT} times as soft`, SOFT),
     ];
-    this.element = h("div", {}, h("div", { className: "row" }, ...this.#buttons), this.#told, this.#list);
+    this.element = h("div", {}, h("div", { className: "row" }, ...this.#buttons), this.#hint, this.#list);
   }
 
   update(): void {
@@ -38,8 +38,8 @@ export class PartList {
     for (const button of this.#buttons) button.disabled = selected.length === 0;
     if (this.#shown === choice.parts) return;
     this.#shown = choice.parts;
-    this.#told.textContent = "";
-    // what the focus was on comes back: a list that is made anew would lose it
+    this.#hint.textContent = "";
+    // restores the focus, which a new list would lose
     const focused = document.activeElement?.getAttribute("data-focus");
     this.#list.replaceChildren(...choice.parts.map((part) => this.#item(part)));
     if (focused) this.#list.querySelector<HTMLElement>(`[data-focus="${focused}"]`)?.focus();
@@ -91,7 +91,7 @@ export class PartList {
     input.addEventListener("change", () => {
       const fault = partNameFault(this.#choosing.choice, key, input.value);
       if (fault) {
-        this.#told.textContent = fault;
+        this.#hint.textContent = fault;
         input.value = name;
       } else if (input.value.trim() !== name) {
         this.#choosing.go(changedPart(this.#choosing.choice, key, { name: input.value.trim() }));
@@ -114,7 +114,7 @@ export class PartList {
     return h("label", { className: "factor", title: "Times as stiff as the rest" }, "×", input);
   }
 
-  /** Enter and Escape end typing; Escape forgets it. */
+  /** Enter and Escape end typing; Escape restores the value before. */
   #leaves(input: HTMLInputElement, before: string): void {
     input.addEventListener("keydown", (event) => {
       if (event.key !== "Enter" && event.key !== "Escape") return;

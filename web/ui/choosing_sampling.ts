@@ -6,14 +6,14 @@ import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
 export interface Sampling {
   translation: Vector;
   angle: Vector;
-  /** Of unseen motions, the median that is good enough. */
+  /** The median error of unseen motions that is good enough. */
   target_error: number;
   /** Null: as many as usual. */
   most_samples: number | null;
   seed: number;
   stiffness: number;
   material: string;
-  /** Null: as the server has it. */
+  /** Null: the server's own. */
   poisson: number | null;
 }
 
@@ -34,16 +34,16 @@ export function samplingOf(given: Workspace): Sampling {
   };
 }
 
-/** How far handles move, how accurate the model is; folded under one line that tells it. Changes `sampling`. */
+/** How far handles move, how accurate the model is; folded under a line that sums it up. Changes `sampling`. */
 export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement {
-  const told = h("span", { className: "told" });
-  const tell = () => {
+  const summary = h("span", { className: "detail" });
+  const showSummary = () => {
     const percent = shareOf(diagonal).factor * Math.max(...sampling.translation);
     const degrees = DEGREES.factor * Math.max(...sampling.angle);
     const error = 100 * sampling.target_error;
-    told.textContent = `±${percent.toFixed(0)} %, ±${degrees.toFixed(0)}°, error ${Number(error.toPrecision(2))} %`;
+    summary.textContent = `±${percent.toFixed(0)} %, ±${degrees.toFixed(0)}°, error ${Number(error.toPrecision(2))} %`;
   };
-  tell();
+  showSummary();
   const number = (
     label: string,
     limits: Partial<HTMLInputElement>,
@@ -55,24 +55,24 @@ export function samplingPanel(sampling: Sampling, diagonal: number): HTMLElement
     input.addEventListener("input", () => {
       if (!input.validity.valid) return;
       take(input.value === "" ? null : input.valueAsNumber);
-      tell();
+      showSummary();
     });
     return h("label", { className: "field" }, h("span", {}, label), input);
   };
   const set = (key: "translation" | "angle") => (value: Vector) => {
     sampling[key] = value;
-    tell();
+    showSummary();
   };
   return section(
     "Motions and accuracy",
     h(
       "details",
       {},
-      h("summary", {}, told),
+      h("summary", {}, summary),
       h(
         "p",
         { className: "hint" },
-        "How far handles move from rest; travel is a share of the body's diagonal.",
+        "How far handles move from rest. Travel is a share of the body's diagonal.",
       ),
       rangeFields(shareOf(diagonal), sampling.translation, set("translation")),
       rangeFields(DEGREES, sampling.angle, set("angle")),

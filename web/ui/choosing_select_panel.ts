@@ -9,9 +9,9 @@ const TOOLS = [
 ] as const;
 
 const HINTS: Record<Tool, string> = {
-  brush: "Paint over a part. A drag beside the body looks around.",
-  box: "Draw a box over a part. Right button or two fingers look around.",
-  lasso: "Draw a line around a part. Right button or two fingers look around.",
+  brush: "Paint over a part. Drag beside the body to look around.",
+  box: "Draw a box over a part. Look around with the right button or two fingers.",
+  lasso: "Draw a line around a part. Look around with the right button or two fingers.",
   look: "Drag to look around, scroll to come closer.",
 };
 
@@ -35,7 +35,7 @@ export function selectPanel(choosing: Choosing, onBrush: () => void) {
   );
   modes.element.title = "Alt removes, Shift adds";
   const depth = choice<"all" | "seen">(
-    "How deep a tool takes",
+    "How deep a tool reaches",
     [
       ["all", "Through"],
       ["seen", "Seen only"],
@@ -43,7 +43,7 @@ export function selectPanel(choosing: Choosing, onBrush: () => void) {
     "all",
     (value) => (choosing.seenOnly = value === "seen"),
   );
-  depth.element.title = "Also what lies behind and inside, or only what is seen";
+  depth.element.title = "Everything behind and inside as well, or only what is seen";
   const range = { min: 0.005, max: 0.3, step: 0.005, value: choosing.radius };
   const size = slider(
     "Brush",

@@ -16,7 +16,7 @@ interface Stroke {
 
 /** Brush, box and lasso, with mouse, pen and touch.
  *
- * What the tool does not take is the camera's: presses beside the mesh (brush), the right button, a second finger. */
+ * Everything else moves the camera: presses beside the mesh (brush), the right button, a second finger. */
 export class ChoosingTools {
   readonly #choosing: Choosing;
   readonly #overlay: ToolOverlay;
@@ -58,7 +58,7 @@ export class ChoosingTools {
     this.#choosing.isBusy = stroke !== null;
   }
 
-  /** Forgets the stroke; tells whether there was one. */
+  /** Forgets the stroke, and says whether there was one. */
   cancel(): boolean {
     if (!this.#stroke) return false;
     this.#stroke = null;
@@ -83,7 +83,7 @@ export class ChoosingTools {
     this.#choosing.commit();
   }
 
-  /** Shows the brush anew, as after its size has changed. */
+  /** Shows the brush again, as after its size has changed. */
   refresh(): void {
     if (this.#cursor && !this.#stroke) this.#hover(this.#cursor, this.#choosing.removing);
   }

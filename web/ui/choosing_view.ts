@@ -18,8 +18,8 @@ export interface ChoosingView extends View {
   readonly choosing: Choosing;
 }
 
-/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. `onOther` hears of
- * changes that are no part of the choice, such as the axis that points up. */
+/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. `onOther` is called
+ * after changes outside the choice, such as the axis that points up. */
 export function choosingView(
   stage: Stage,
   mesh: RestMesh,

@@ -1,11 +1,11 @@
 import type { Model, Progress, Saved } from "../engine/messages.ts";
-import { h, section, tell } from "./dom.ts";
+import { h, section, setText } from "./dom.ts";
 
 const STAGES: Record<string, string> = {
   waiting: "Waiting for another computation",
   reading: "Reading the mesh",
   filling: "Filling the surface with tets",
-  "filling exactly": "Filling the surface exactly: some minutes",
+  "filling exactly": "Filling the surface exactly (some minutes)",
   snapshots: "Solving samples",
   subspace: "Finding the subspace",
   energy: "Reducing the energy",
@@ -19,7 +19,7 @@ export interface ComputeActions {
   pose(): void;
 }
 
-/** Compute, its progress, and what came of it. One for all views: it goes along from choosing to posing. */
+/** The Compute button, its progress and its result. One panel serves all views, from choosing to posing. */
 export class ComputePanel {
   readonly element: HTMLElement;
   readonly #compute: HTMLButtonElement;
@@ -30,7 +30,7 @@ export class ComputePanel {
   readonly #bar = new ProgressBar();
   #newest: Model | null = null;
   readonly #model = h("p", { className: "model", role: "status", hidden: true });
-  readonly #told = h("p", { className: "saved", role: "status", hidden: true });
+  readonly #savedText = h("p", { className: "saved", role: "status", hidden: true });
   readonly #fault = h("p", { className: "fault", role: "alert", hidden: true });
 
   constructor(acts: ComputeActions) {
@@ -47,12 +47,12 @@ export class ComputePanel {
       this.#bar.element,
       this.#model,
       this.#fault,
-      this.#told,
+      this.#savedText,
       h("div", { className: "row acts" }, this.#compute, this.#cancel, this.#choose, this.#pose, this.#save),
     );
   }
 
-  /** What can be done now. */
+  /** Shows what can be done now. */
   update(now: { isChoosing: boolean; lacking: string; isRunning: boolean; hasModel: boolean }): void {
     this.#compute.hidden = !now.isChoosing || now.isRunning;
     this.#compute.disabled = now.lacking !== "";
@@ -62,12 +62,12 @@ export class ComputePanel {
     this.element.classList.toggle("stays", now.isChoosing);
     this.#compute.title = now.lacking;
     this.#save.textContent = now.hasModel ? "Save" : "Save handles";
-    this.#tellModel(now.isRunning);
+    this.#showModel(now.isRunning);
     this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !now.hasModel);
     if (!now.isRunning) this.#bar.element.hidden = true;
   }
 
-  /** Whether all numbers in the panel can be taken; shows the first one that cannot. */
+  /** Whether all numbers in the panel are valid; shows the first one that is not. */
   isValid(): boolean {
     const wrong = this.element.parentElement?.querySelector<HTMLInputElement>("input:invalid");
     const folded = wrong?.closest("details");
@@ -75,10 +75,10 @@ export class ComputePanel {
     return wrong?.reportValidity() ?? true;
   }
 
-  /** Nothing is told any more. */
+  /** Clears all texts. */
   clear(): void {
     this.#newest = null;
-    for (const text of [this.#model, this.#told, this.#fault]) text.hidden = true;
+    for (const text of [this.#model, this.#savedText, this.#fault]) text.hidden = true;
   }
 
   progress(progress: Progress): void {
@@ -89,23 +89,23 @@ export class ComputePanel {
     this.#newest = model;
   }
 
-  #tellModel(isRunning: boolean): void {
+  #showModel(isRunning: boolean): void {
     this.#model.hidden = this.#newest === null;
     if (!this.#newest) return;
     const { samples, dimension, error, final, seconds } = this.#newest;
     const parts = [`${samples} samples`, `${dimension} dimensions`];
-    if (error !== null) parts.push(`unseen motions ${percent(error)} off`);
+    if (error !== null) parts.push(`error of unseen motions ${percent(error)}`);
     const ready = isRunning ? "Ready to pose, and improving" : "Ready to pose";
     const head = final ? `Done in ${duration(seconds)}` : ready;
-    tell(this.#model, `${head}: ${parts.join(", ")}.`);
+    setText(this.#model, `${head}: ${parts.join(", ")}.`);
   }
 
   saved({ problem, model, mesh, surface }: Saved, folder: string): void {
     const names = [problem, model, mesh, surface]
       .filter((path) => path !== null)
       .map((path) => path.replace(/^.*[\\/]/, ""));
-    this.#told.textContent = `Saved ${names.join(", ")} in ${folder}.`;
-    this.#told.hidden = false;
+    this.#savedText.textContent = `Saved ${names.join(", ")} in ${folder}.`;
+    this.#savedText.hidden = false;
   }
 
   fault(text: string): void {
@@ -114,12 +114,12 @@ export class ComputePanel {
   }
 }
 
-/** How far work is, with words below. */
+/** A progress bar with a text below it. */
 export class ProgressBar {
   readonly element: HTMLElement;
   readonly #bar = h("progress", { "aria-label": "Progress" });
   readonly #stage = h("span", {});
-  readonly #figures = h("span", { className: "told" });
+  readonly #figures = h("span", { className: "detail" });
 
   constructor() {
     const words = h("p", { className: "progress-words" }, this.#stage, this.#figures);
@@ -134,7 +134,7 @@ export class ProgressBar {
     error,
   }: Pick<Progress, "stage" | "done" | "total" | "eta" | "error">): void {
     this.element.hidden = false;
-    const isWaiting = stage === "waiting"; // total counts those before this one
+    const isWaiting = stage === "waiting"; // then total counts the computations that come first
     if (total > 0 && !isWaiting) {
       this.#bar.max = total;
       this.#bar.value = done;
@@ -142,7 +142,7 @@ export class ProgressBar {
     const text = STAGES[stage] ?? stage;
     if (this.#stage.textContent !== text) this.#stage.textContent = text;
     const parts = [];
-    if (isWaiting && total > 1) parts.push(`${total.toLocaleString("en")} are before this one`);
+    if (isWaiting && total > 1) parts.push(`${total.toLocaleString("en")} come first`);
     if (total > 0 && !isWaiting) parts.push(`${done.toLocaleString("en")} of ${total.toLocaleString("en")}`);
     if (eta !== null) parts.push(`${duration(eta)} left`);
     if (error !== null) parts.push(`error ${percent(error)}`);

@@ -1,7 +1,7 @@
 import { h } from "./dom.ts";
 import type { Connection, Server } from "./server.ts";
 
-/** Tells what became of the connection to the server, once, and what helps; beside every view. */
+/** Reports once that the connection to the server is lost, and what helps; shown above every view. */
 export class ConnectionNotice {
   readonly element = h("div", { id: "connection", role: "alert", hidden: true });
   readonly #server: Server;
@@ -15,15 +15,19 @@ export class ConnectionNotice {
     const parts: (Node | string)[] = {
       open: () => [],
       lost: () => [
-        h("p", {}, "No connection to the server; it is tried again. Posing goes on, polishing does not."),
+        h(
+          "p",
+          {},
+          "No connection to the server; trying again. You can still choose and pose, but not compute, save or polish.",
+        ),
       ],
       refused: () => [
-        h("p", {}, "The server was started anew and has another token. Paste the address that it printed."),
+        h("p", {}, "The server was restarted and has another token. Paste the address that it printed."),
         this.#field(),
       ],
       elsewhere: () => [
-        h("p", {}, "This work was opened in another tab, and goes on there."),
-        h("button", { type: "button", onclick: () => this.#server.connect() }, "Take it back"),
+        h("p", {}, "This work is open in another tab now."),
+        h("button", { type: "button", onclick: () => this.#server.connect() }, "Use it here"),
       ],
     }[connection]();
     this.element.replaceChildren(...parts);

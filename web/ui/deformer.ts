@@ -11,11 +11,11 @@ export interface Deformer {
   readonly width: number;
   /** Strains, in the red of each texel; null until `weigh` asks for them. */
   readonly strains: Texture | null;
-  /** Another shape, 3 numbers per vertex, to go to. */
+  /** The shape to blend to, 3 numbers per vertex. */
   goal: Float32Array;
-  /** The shape with these coefficients, or a share of the way from there to the goal. */
+  /** Takes the shape with these coefficients, or the one at a share of the path from there to the goal. */
   update(coefficients: ArrayLike<number>, share?: number): void;
-  /** Weights of the shapes at rest, from when on strains are computed; null ends that. */
+  /** Sets the weights of the shapes at rest, and computes strains from then on; null ends that. */
   weigh(weights: readonly number[] | null): void;
   /** The positions as the vertex shader gets them, 3 per vertex. */
   read(): Float32Array;

@@ -13,9 +13,9 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Puts a text into an element that has no other content, and says whether it is another one. Costs nothing if it is
- * there already; else no style is computed, as for a new node, and only the line is laid out. */
-export function tell(element: HTMLElement, text: string): boolean {
+/** Sets the text of an element that has no other content, and says whether it has changed. Costs nothing if it has not;
+ * otherwise only the line is laid out, and no style is computed as for a new node. */
+export function setText(element: HTMLElement, text: string): boolean {
   const { firstChild } = element;
   if (!(firstChild instanceof Text)) {
     element.textContent = text;
@@ -26,14 +26,15 @@ export function tell(element: HTMLElement, text: string): boolean {
   return true;
 }
 
-/** Sets an attribute if it is another one, and says so: each setting has the element's style computed. */
+/** Sets an attribute and says whether it has changed. Unchanged ones are not set, because that would compute the
+ * element's style. */
 export function mark(element: HTMLElement, attribute: string, value: unknown): boolean {
   if (element.getAttribute(attribute) === String(value)) return false;
   element.setAttribute(attribute, String(value));
   return true;
 }
 
-/** Lets a button be pressed or not, and says whether that has changed. */
+/** Enables or disables a button, and says whether that has changed. */
 export function enable(button: HTMLButtonElement, on: boolean): boolean {
   if (button.disabled !== on) return false;
   button.disabled = !on;
@@ -45,13 +46,13 @@ export function section(title: string, ...children: (Node | string)[]): HTMLElem
   return h("section", {}, h("h2", {}, title), ...children);
 }
 
-/** The button that leads from a model to its handles, in a row; nothing where that is not possible. */
+/** A row with the button that leads from a model to its handles; empty where that is not possible. */
 export function chooser(choose: (() => void) | undefined): HTMLElement[] {
   if (!choose) return [];
   return [h("div", { className: "row" }, h("button", { type: "button", onclick: choose }, "Choose handles"))];
 }
 
-/** A button that is pressed or not. */
+/** A toggle button. */
 export function toggle(label: string, title: string, pressed: boolean, act: (pressed: boolean) => void) {
   const button = h("button", { type: "button", title, "aria-pressed": pressed }, label);
   button.addEventListener("click", () => {
@@ -62,7 +63,7 @@ export function toggle(label: string, title: string, pressed: boolean, act: (pre
   return button;
 }
 
-/** One of several; `act` gets the chosen value. */
+/** A group of radio buttons; `act` gets the chosen value. */
 export function choice<T extends string>(
   label: string,
   options: readonly (readonly [T, string])[],
@@ -76,9 +77,9 @@ export function choice<T extends string>(
       text,
     ),
   );
-  const set = (value: T, tell = false) => {
+  const set = (value: T, notify = false) => {
     const marked = options.map(([own], i) => mark(buttons[i], "aria-checked", own === value));
-    if (tell) act(value);
+    if (notify) act(value);
     return marked.includes(true);
   };
   return {
@@ -119,7 +120,7 @@ export function vertexCount(count: number): string {
   return `${count.toLocaleString("en")} ${count === 1 ? "vertex" : "vertices"}`;
 }
 
-/** A button that asks for a file. `accept` as of an input. */
+/** A button that asks for a file. `accept` is that of an input. */
 export function filePicker(label: string, accept: string, act: (file: File) => void): HTMLElement {
   const input = h("input", { type: "file", accept, hidden: true });
   input.addEventListener("change", () => {

@@ -1,4 +1,4 @@
-/** A way from share 0 to share 1 with a shape at each share. */
+/** A path from share 0 to share 1 with a shape at each share. */
 export interface ShapePath<Shape> {
   /** The shape at a share, solved for from the shape at one before it. */
   solve(share: number, from: Shape): Shape;
@@ -6,31 +6,31 @@ export interface ShapePath<Shape> {
   motion(from: Shape, to: Shape): number;
 }
 
-/** A step that moves the shape too far all the same, although it is no longer than this. */
+/** The shortest step, however far it moves the shape. */
 export const LEAST_STEP = 1e-4;
-const MOST_STEP = 0.25; // where the shape rests: a frame is no more of the way
+const MOST_STEP = 0.25; // where the shape rests: a frame takes no larger share of the path
 const JUMP = 4; // even steps
-const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: so much is not seen
-const GROWTHS = 3; // of one step: a pace that is too slow is found over a few frames
+const [SMALL, LARGE] = [0.8, 1.25]; // of an even step: differences that are not visible
+const GROWTHS = 3; // per step: a pace that is too slow is corrected over a few frames
 
 interface PathPoint<Shape> {
   readonly share: number;
   readonly shape: Shape;
 }
 
-/** Walks a way by even motions of the shape: where it moves fast, shares grow slowly.
+/** Walks a path by even motions of the shape: where it moves fast, shares grow slowly.
  *
  * A step solves once or twice where the shape moves smoothly. One that moves it too far is halved down to LEAST_STEP,
  * so that no step solves more than 18 times. What still moves it farther than JUMP even steps is a jump: the energy has
  * no minimum between. */
 export class EvenWalk<Shape> {
-  readonly #way: ShapePath<Shape>;
+  readonly #path: ShapePath<Shape>;
   #at: PathPoint<Shape>;
   #pace: number; // shares for a motion
 
-  /** `length` is about how far the shape will move on the whole way. */
-  constructor(way: ShapePath<Shape>, start: Shape, length: number) {
-    this.#way = way;
+  /** `length` is about how far the shape will move on the whole path. */
+  constructor(path: ShapePath<Shape>, start: Shape, length: number) {
+    this.#path = path;
     this.#at = { share: 0, shape: start };
     this.#pace = length > 0 ? 1 / length : Infinity;
   }
@@ -43,7 +43,7 @@ export class EvenWalk<Shape> {
     return this.#at.shape;
   }
 
-  /** Takes a step that moves the shape by about `even`, or less at the end of the way. How far it jumped, else zero. */
+  /** Takes a step that moves the shape by about `even`, or less at the end of the path. Returns how far it jumped, else zero. */
   step(even: number): number {
     const from = this.#at;
     const last = Math.min(from.share + MOST_STEP, 1);
@@ -52,8 +52,8 @@ export class EvenWalk<Shape> {
     let far: PathPoint<Shape> | null = null;
     let share = within(this.#pace * even);
     for (;;) {
-      const tried = { share, shape: this.#way.solve(share, near.shape) };
-      const motion = this.#way.motion(from.shape, tried.shape);
+      const tried = { share, shape: this.#path.solve(share, near.shape) };
+      const motion = this.#path.motion(from.shape, tried.shape);
       const isFirst = far === null;
       if (motion > LARGE * even) far = tried;
       else [near, moved] = [tried, motion];
@@ -75,10 +75,10 @@ export class EvenWalk<Shape> {
 
   /** Between `near` and `far` there is no smaller step. */
   #cross(from: PathPoint<Shape>, near: PathPoint<Shape>, far: PathPoint<Shape>, even: number): number {
-    const gap = this.#way.motion(near.shape, far.shape);
+    const gap = this.#path.motion(near.shape, far.shape);
     const isJump = gap > JUMP * even;
-    const reached = isJump ? near : far; // a jump tells nothing of the pace
-    this.#go(from, reached, this.#way.motion(from.shape, reached.shape));
+    const reached = isJump ? near : far; // a jump says nothing about the pace
+    this.#go(from, reached, this.#path.motion(from.shape, reached.shape));
     this.#at = far;
     return isJump ? gap : 0;
   }

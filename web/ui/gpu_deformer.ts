@@ -19,7 +19,7 @@ import { rings } from "./rings.ts";
 /** Modes that the shader takes: a WebGL 2 texture has at least so many layers. */
 export const MOST_MODES = 256;
 
-/** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. A share of the way from there to a goal. */
+/** base + sum_i c_i modes_i, one texel per vertex; mode i is layer i. Then a share of the path to a goal. */
 const POSITIONS = `
 precision highp float;
 precision highp sampler2D;
@@ -167,7 +167,7 @@ export class GpuDeformer implements Deformer {
     this.#strains?.dispose();
   }
 
-  /** Where vertices are, and their neighbours. */
+  /** Positions of the vertices, and their neighbours. */
   get #places(): Record<string, Texture> {
     return { positions: this.positions, ranges: this.#ranges, pairs: this.#pairs };
   }

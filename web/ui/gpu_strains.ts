@@ -11,7 +11,7 @@ import type { Rests } from "../engine/index.ts";
 import { asTexels } from "./deformer.ts";
 import { floatTarget, Pass, runPasses } from "./gpu_pass.ts";
 
-/** As web/engine/membrane_strain.ts, a vertex at a time. */
+/** The strains of web/engine/membrane_strain.ts, one vertex per texel. */
 const STRAINS = `
 precision highp float;
 precision highp sampler2D;

@@ -1,11 +1,11 @@
 import type { Certificate, FrameReport } from "../engine/index.ts";
 import { Badge } from "./badge.ts";
-import { h, tell } from "./dom.ts";
+import { h, setText } from "./dom.ts";
 
 const STATUS: Partial<Record<FrameReport["status"], string>> = {
   max_iterations: "stopped early",
   max_evaluations: "stopped early",
-  not_finite: "beyond all numbers",
+  not_finite: "not finite",
   unbounded: "no minimum here",
 };
 
@@ -13,13 +13,13 @@ const PAUSE = 120; // milliseconds without another frame
 
 /** What a view shows at the moment. */
 export interface Shown {
-  /** How far the shape is from the full solution; null where nothing is known of it. */
+  /** How far the shape is from the full solution; null where that is not known. */
   certificate(): Certificate | null;
-  /** What is beyond the handle motions or weights that were sampled. */
+  /** What is outside the handle motions or weights that were sampled. */
   readonly outside: readonly unknown[];
 }
 
-/** Dimension, time of a solve, rate of frames and a badge of the error, in a corner; and what the user should know, below. */
+/** Dimension, time of a solve, frame rate and a badge of the error, in a corner; and a warning below. */
 export class Hud {
   readonly element: HTMLElement;
   readonly #warning = h("span");
@@ -53,19 +53,19 @@ export class Hud {
   }
 
   dimension(d: number, whole: number): void {
-    tell(this.#figures.d.value, d === whole ? String(d) : `${d} of ${whole}`);
+    setText(this.#figures.d.value, d === whole ? String(d) : `${d} of ${whole}`);
   }
 
   solved(report: FrameReport): void {
     keep(this.#solves, report.milliseconds);
     this.#stopped = STATUS[report.status];
     this.badge.forgetPolish();
-    // once a drag pauses: certificates are not for frames that nobody looks at
+    // only when a drag pauses: nobody looks at the frames before
     clearTimeout(this.#certifying);
     this.#certifying = window.setTimeout(() => this.assess(), PAUSE);
   }
 
-  /** The shape that is shown comes from full iterations, which moved it by this share: no estimate comes after that. */
+  /** The shape that is shown comes from full iterations, which moved it by this share: no estimate follows. */
   polished(moved: number | null): void {
     clearTimeout(this.#certifying);
     this.badge.polished(moved);
@@ -75,33 +75,33 @@ export class Hud {
     clearTimeout(this.#certifying);
   }
 
-  /** Time since the frame before; long ones are pauses. */
+  /** Counts the time since the frame before, unless it was a pause. */
   frame(seconds: number): void {
     if (seconds > 0.5) this.#frames.length = 0;
     else keep(this.#frames, seconds);
   }
 
-  /** Tells time and rate; whether they are other ones. */
-  tell(): boolean {
+  /** Shows time and rate, and says whether they have changed. */
+  update(): boolean {
     const { solve, fps } = this.#figures;
     const took = this.#stopped ?? (this.#solves.length ? `${mean(this.#solves).toFixed(2)} ms` : "–");
-    const isOther = tell(solve.value, took);
-    return (this.#frames.length > 3 && tell(fps.value, (1 / mean(this.#frames)).toFixed(0))) || isOther;
+    const isOther = setText(solve.value, took);
+    return (this.#frames.length > 3 && setText(fps.value, (1 / mean(this.#frames)).toFixed(0))) || isOther;
   }
 
   /** A remark on the shape that is shown, or an empty text. */
   remark(text: string): void {
-    tell(this.#remark, text);
+    setText(this.#remark, text);
   }
 
-  /** What must be known, or an empty text; whether it is another one. It has its place always: to hide it lays
-   * nothing out. */
+  /** Shows a warning, or hides it for an empty text, and says whether it has changed. It keeps its place, so that
+   * hiding it causes no layout. */
   warn(text: string): boolean {
     this.notice.style.visibility = text ? "" : "hidden";
-    return tell(this.#warning, text);
+    return setText(this.#warning, text);
   }
 
-  /** Tells the error of the live shape. */
+  /** Shows the error of the live shape. */
   assess(): void {
     const shown = this.#shown();
     this.badge.show(shown.certificate(), shown.outside.length > 0);

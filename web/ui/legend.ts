@@ -32,7 +32,7 @@ export class Legend {
     this.#colors = colors;
     this.element.hidden = colors === "own";
     if (colors === "displacement")
-      this.#tell("Displacement, of the diagonal", [0, FARTHEST / 2, FARTHEST].map(percent));
+      this.#show("Displacement, of the diagonal", [0, FARTHEST / 2, FARTHEST].map(percent));
     if (colors === "strain") this.#rescale();
   }
 
@@ -55,10 +55,10 @@ export class Legend {
     const shown = this.#surfaces.filter(({ object }) => object.visible);
     const end = Math.max(...shown.map((surface) => surface.strainScale()));
     for (const surface of this.#surfaces) surface.strainEnd = end;
-    this.#tell("Strain of the surface", [0, end / 2, end].map(percent));
+    this.#show("Strain of the surface", [0, end / 2, end].map(percent));
   }
 
-  #tell(title: string, ticks: string[]): void {
+  #show(title: string, ticks: string[]): void {
     if (this.#title.textContent !== title) this.#title.textContent = title;
     ticks.forEach((text, i) => {
       if (this.#ticks[i].textContent !== text) this.#ticks[i].textContent = text;

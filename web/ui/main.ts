@@ -15,7 +15,7 @@ import "./workspace.css";
 import "./choosing.css";
 import "./access.css";
 
-/** For scripts and tests: what the view shows, and a promise that is kept when a model is. */
+/** For scripts and tests: what the view shows. */
 declare global {
   interface Window {
     snapspace: Record<string, unknown>;
@@ -29,13 +29,13 @@ const shell = new AppShell();
 const server = Server.ofPage();
 const workspace = server && new Workspace(shell, server);
 
-/** Shows a model in place of the one before; a message if it cannot be read, and the one before stays. */
+/** Shows a model in place of the present one. If it cannot be read, a message says so and the present one stays. */
 async function open(source: () => Promise<Source | null>, file?: File): Promise<void> {
   try {
     if (source === ownModel && workspace && ((await workspace.begun)?.kind ?? "model") !== "model") return;
     const given = await source();
     if (!given) {
-      if (!workspace) shell.tell("Drop a .snapspace file here, or open one.", false, opener());
+      if (!workspace) shell.showMessage("Drop a .snapspace file here, or open one.", false, opener());
       return;
     }
     const arrived = performance.now();
@@ -57,11 +57,11 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     const now = performance.now();
     shell.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
   } catch (error) {
-    shell.tell(readable(error), true, opener());
+    shell.showMessage(readable(error), true, opener());
   }
 }
 
-/** A model is opened here; a mesh is the server's. */
+/** Opens a model in the page, or sends a mesh to the server. */
 function take(file: File): void {
   if (workspace && !file.name.endsWith(".snapspace")) void workspace.upload(file);
   else void open(() => fromFile(file), file);

@@ -2,8 +2,8 @@ import type { ShapeSpace } from "../engine/index.ts";
 
 const MOST_EVENLY = 400;
 
-/** Tells how far a shape moves between two frames from few vertices, so that the cost does not grow with the surface:
- * some of all parts, and of each mode the vertex that it moves most. */
+/** Measures how far a shape moves between two frames at few vertices, so that the cost does not grow with the surface:
+ * some spread evenly, and for each mode the vertex that it moves most. */
 export class MotionProbe {
   readonly #vertices: number;
   /** One mode after the other, scaled, each 3 numbers per vertex. */

@@ -11,7 +11,7 @@ interface Frame {
 
 /** A frame after some iterations in the full space. */
 interface Improved {
-  /** Of the surface's vertices, where the handles are in the world. */
+  /** Positions of the surface's vertices, where the handles are in the world. */
   readonly positions: Float32Array;
   /** Root mean square distance over the body, relative to the displacement from rest. */
   readonly moved: number | null;
@@ -22,7 +22,7 @@ export type Polish = (frame: Frame) => Promise<Improved>;
 
 const MILLISECONDS = 150; // from the live shape to the improved one
 
-/** At a server, for the model that has the number `model()` there by then. */
+/** Polishes at a server; `model()` is the number of the model there at that time. */
 export function polishAt(server: Server, model: () => number): Polish {
   let newest = new AbortController();
   return async (frame) => {
@@ -35,30 +35,30 @@ export function polishAt(server: Server, model: () => number): Polish {
   };
 }
 
-/** When a handle is let go: asks for a better shape and goes there; the next drag goes on with the live one. */
+/** When a handle is released: asks for a better shape and moves to it. The next drag starts from the live shape. */
 export class Polishing {
   readonly #posing: Posing;
   readonly #polish: Polish;
-  readonly #tell: (moved: number | null) => void;
-  readonly #refused: (why: string) => void;
+  readonly #onPolished: (moved: number | null) => void;
+  readonly #onRefused: (why: string) => void;
   #isOn = true;
   #ticket = 0;
   #begin: number | null = null;
 
-  /** `tell` gets how far a shape was moved, `refused` why one cannot be improved. */
+  /** `onPolished` gets how far a shape was moved, `onRefused` why one cannot be improved. */
   constructor(
     posing: Posing,
     polish: Polish,
-    tell: (moved: number | null) => void,
-    refused: (why: string) => void,
+    onPolished: (moved: number | null) => void,
+    onRefused: (why: string) => void,
   ) {
-    this.#refused = refused;
+    this.#onRefused = onRefused;
     this.#posing = posing;
     this.#polish = polish;
-    this.#tell = tell;
+    this.#onPolished = onPolished;
   }
 
-  /** Whether it asks at all; off, the live shape is shown. */
+  /** Whether frames are polished; if not, the live shape is shown. */
   set isOn(on: boolean) {
     this.#isOn = on;
     this.cancel();
@@ -67,7 +67,7 @@ export class Polishing {
     this.#posing.stage.draw();
   }
 
-  /** Asks for the present frame; what comes after another frame is not shown. */
+  /** Asks for the present frame; the answer is dropped if another frame came meanwhile. */
   async ask(): Promise<void> {
     if (!this.#isOn) return;
     const ticket = ++this.#ticket;
@@ -78,15 +78,15 @@ export class Polishing {
       if (ticket !== this.#ticket || positions.length !== 3 * surface.space.vertices) return;
       surface.goal = carriedBack(positions, session.carriedBy);
       this.#begin = performance.now();
-      this.#tell(moved);
+      this.#onPolished(moved);
       stage.draw();
     } catch (error) {
       if (!(error instanceof Refused)) throw error;
-      if (ticket === this.#ticket) this.#refused(error.message);
+      if (ticket === this.#ticket) this.#onRefused(error.message);
     }
   }
 
-  /** Another frame: the live shape again, which is shown already. */
+  /** Cancels, because another frame is shown: the live shape. */
   cancel(): void {
     this.#ticket++;
     this.#begin = null;

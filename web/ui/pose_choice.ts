@@ -1,6 +1,6 @@
 import { normalised, withWeight } from "./barycentric.ts";
 
-/** So many poses take part at most: more corners of a polygon lie too close together to be told apart. */
+/** The most poses of a blend: the corners of a larger polygon are too close together to tell apart. */
 export const MOST_CHOSEN = 8;
 const AT_FIRST = 3;
 
@@ -12,7 +12,7 @@ export interface PoseChoice {
   readonly weights: readonly number[];
 }
 
-/** All of them if they are few, else the first ones; in equal parts. */
+/** Equal weights of all poses, or of the first ones if there are many. */
 export function firstChoice(count: number): PoseChoice {
   const taken = count > MOST_CHOSEN ? AT_FIRST : count;
   return inEqualParts(Array.from({ length: taken }, (_, pose) => pose));

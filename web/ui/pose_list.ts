@@ -1,22 +1,22 @@
-import { h, mark, tell } from "./dom.ts";
+import { h, mark, setText } from "./dom.ts";
 import { MOST_CHOSEN } from "./pose_choice.ts";
 import { isFound, nameInGroup, poseGroups } from "./pose_groups.ts";
 
 /** Many poses as small pictures in groups, with a search: a click, Space or Enter adds a pose to the blend or takes it away.
  *
- * Tab reaches one picture, and arrows go from there to the others: else many poses would be as many steps. */
+ * Tab reaches one picture, and arrows lead to the others, so that Tab needs one step for the whole list. */
 export class PoseList {
   readonly element: HTMLElement;
   readonly search: HTMLInputElement;
   readonly #names: readonly string[];
   readonly #buttons: readonly HTMLButtonElement[];
   readonly #pictures: readonly HTMLImageElement[];
-  readonly #groups: { element: HTMLDetailsElement; told: HTMLElement; poses: readonly number[] }[];
-  readonly #told = h("p", { className: "hint", role: "status" });
+  readonly #groups: { element: HTMLDetailsElement; count: HTMLElement; poses: readonly number[] }[];
+  readonly #hint = h("p", { className: "hint", role: "status" });
   readonly #act: (pose: number) => void;
   #chosen: readonly number[] = [];
 
-  /** `act` gets a pose that shall take part, or no longer. */
+  /** `act` gets a pose to add or to take away. */
   constructor(names: readonly string[], act: (pose: number) => void) {
     this.#names = names;
     this.#act = act;
@@ -33,21 +33,21 @@ export class PoseList {
       }),
     );
     this.#groups = poseGroups(names).map((group, _, { length }) => {
-      const told = h("span", { className: "told" });
+      const count = h("span", { className: "detail" });
       for (const pose of group.poses)
         this.#buttons[pose].append(this.#pictures[pose], h("span", {}, nameInGroup(names[pose], group)));
       const title = group.name || (length > 1 ? "Others" : "All");
       const element = h(
         "details",
         { open: true, className: "group" },
-        h("summary", {}, h("span", {}, title), told),
+        h("summary", {}, h("span", {}, title), count),
         h("div", { className: "pictures" }, ...group.poses.map((pose) => this.#buttons[pose])),
       );
-      return { element, told, poses: group.poses };
+      return { element, count, poses: group.poses };
     });
     this.search = this.#field();
     const groups = h("div", { className: "poses", role: "group", "aria-label": "Poses" });
-    groups.append(...this.#groups.map(({ element }) => element), this.#told);
+    groups.append(...this.#groups.map(({ element }) => element), this.#hint);
     groups.addEventListener("keydown", (event) => this.#go(event));
     groups.addEventListener("focusin", ({ target }) => this.#stop(target as HTMLElement));
     this.element = h("div", {}, this.search, groups);
@@ -63,19 +63,19 @@ export class PoseList {
   show(chosen: readonly number[]): void {
     this.#chosen = chosen;
     this.#buttons.forEach((button, pose) => mark(button, "aria-pressed", chosen.includes(pose)));
-    for (const { told, poses } of this.#groups) {
+    for (const { count, poses } of this.#groups) {
       const taking = poses.filter((pose) => chosen.includes(pose)).length;
-      tell(told, taking > 0 ? `${taking} of ${poses.length}` : String(poses.length));
+      setText(count, taking > 0 ? `${taking} of ${poses.length}` : String(poses.length));
     }
-    tell(this.#told, "");
+    setText(this.#hint, "");
   }
 
   #toggle(pose: number): void {
     const takesPart = this.#chosen.includes(pose);
     if (takesPart && this.#chosen.length === 1) {
-      tell(this.#told, "One pose must stay. Choose another one first.");
+      setText(this.#hint, "One pose must stay. Choose another one first.");
     } else if (!takesPart && this.#chosen.length >= MOST_CHOSEN) {
-      tell(this.#told, `A blend takes ${MOST_CHOSEN} poses at most. Take one away first.`);
+      setText(this.#hint, `A blend takes ${MOST_CHOSEN} poses at most. Remove one first.`);
     } else {
       this.#act(pose);
     }
@@ -85,7 +85,7 @@ export class PoseList {
     const field = h("input", {
       type: "search",
       placeholder: `Search ${this.#names.length} poses`,
-      "aria-label": "Search the poses; Enter adds the first one that is found, or takes it away",
+      "aria-label": "Search the poses. Enter adds or removes the first one found.",
       title: "/",
       spellcheck: false,
       autocomplete: "off",
@@ -104,19 +104,19 @@ export class PoseList {
     return field;
   }
 
-  /** Hides what is not searched for. */
+  /** Hides the poses that a search does not find. */
   #find(search: string): void {
     this.#buttons.forEach((button, pose) => (button.hidden = !isFound(this.#names[pose], search)));
     for (const { element, poses } of this.#groups) {
       element.hidden = poses.every((pose) => this.#buttons[pose].hidden);
-      if (search.trim() !== "") element.open = true; // what is found is seen
+      if (search.trim() !== "") element.open = true; // shows what was found
     }
     const [first] = this.#shown();
-    tell(this.#told, first ? "" : `No pose has “${search.trim()}” in its name.`);
+    setText(this.#hint, first ? "" : `No pose has “${search.trim()}” in its name.`);
     if (first) this.#stop(first);
   }
 
-  /** Pictures that can be reached, as they stand. */
+  /** The visible pictures, in order. */
   #shown(): HTMLButtonElement[] {
     return this.#groups
       .filter(({ element }) => element.open && !element.hidden)
@@ -124,7 +124,7 @@ export class PoseList {
       .filter((button) => !button.hidden);
   }
 
-  /** Tab comes to this picture. */
+  /** Makes this picture the one that Tab reaches. */
   #stop(target: HTMLElement): void {
     if (!this.#buttons.includes(target as HTMLButtonElement)) return;
     for (const button of this.#buttons) button.tabIndex = button === target ? 0 : -1;
@@ -149,7 +149,7 @@ export class PoseList {
   }
 }
 
-/** The one in the next row that is nearest across; the first of `buttons` is the next one. */
+/** The button of the next row that is nearest across; `buttons` begin with the next one. */
 function inOtherRow(
   buttons: readonly HTMLButtonElement[],
   from: HTMLButtonElement,

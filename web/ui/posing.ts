@@ -8,7 +8,7 @@ import {
   type PosingSession,
 } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
-import { carriedOver, Fade } from "./fade.ts";
+import { carriedOver, ShapeTransition } from "./shape_transition.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
@@ -17,7 +17,7 @@ export type Mode = "move" | "turn";
 
 const WHITE = new Color("#ffffff");
 
-/** The state of posing: what is asked of the handles, what is selected, and what was before.
+/** The state of posing: the motions that are asked for, the selection, and the history.
  *
  * Wishes are collected and solved once before the next picture. */
 export class Posing {
@@ -34,15 +34,15 @@ export class Posing {
   #session: PosingSession;
   #surface: Surface;
   #selected = -1;
-  /** Of each handle. */
+  /** Surface vertices of each handle. */
   #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
   #history: History<Motion[]>;
-  /** Where the handles were when the drag that goes on began. */
+  /** Where the handles were when the present drag began. */
   #beforeDrag: readonly Motion[] | null = null;
   #isCancelled = false;
-  /** From the shape of the model before. */
-  #fade: Fade | null = null;
+  /** The transition from the shape of the model before. */
+  #transition: ShapeTransition | null = null;
 
   constructor(stage: Stage, session: PosingSession, surface: Surface) {
     this.stage = stage;
@@ -61,17 +61,17 @@ export class Posing {
     return this.#surface;
   }
 
-  /** Goes on with another model of the same handles: their motions, the selection and what was before stay.
+  /** Continues with another model of the same handles: their motions, the selection and the history stay.
    *
-   * The shape goes over into that of the model, if this knows the modes of the one before. */
+   * The shape moves smoothly to that of the new model, if this knows the modes of the one before. */
   replace(session: PosingSession, surface: Surface): void {
     const [motions, shown, { fromBefore }] = [this.motions, this.#shown, session.model];
     [this.#session, this.#surface] = [session, surface];
     this.#paint();
-    this.#fade = null;
+    this.#transition = null;
     this.#approach(motions);
     if (fromBefore?.length === session.q.length * shown.length) {
-      this.#fade = new Fade(carriedOver(fromBefore, shown), session.q);
+      this.#transition = new ShapeTransition(carriedOver(fromBefore, shown), session.q);
       this.#show();
     }
     this.onChange();
@@ -84,7 +84,7 @@ export class Posing {
     this.onChange();
   }
 
-  /** Of all handles, from rest. */
+  /** Motions of all handles, from rest. */
   get motions(): Motion[] {
     return this.session.model.handles.map((_, handle) => this.session.motion(handle));
   }
@@ -111,7 +111,7 @@ export class Posing {
 
   /** Asks for a motion of a handle; it is solved for before the next picture. */
   wish(handle: number, motion: Motion): void {
-    if (this.#isCancelled) return; // the pointer goes on, the drag does not
+    if (this.#isCancelled) return; // the pointer still moves, the drag is over
     this.#wishes.set(handle, motion);
     this.stage.draw();
   }
@@ -121,7 +121,7 @@ export class Posing {
     return this.#wishes.get(handle) ?? this.session.motion(handle);
   }
 
-  /** Does what a drag does some times, and goes back to rest. `follow` does what follows a solve. */
+  /** Runs what a drag runs a few times, and returns to rest. `follow` runs what follows a solve. */
   warmUp(follow: () => void): void {
     const show = () => {
       this.#show();
@@ -139,20 +139,20 @@ export class Posing {
     this.#solved(report);
   }
 
-  /** Shows the next step of the way from the model before; before each picture. */
+  /** Before each picture: shows the next step of the transition from the model before. */
   advance(seconds: number): void {
-    if (!this.#fade) return;
-    this.#fade.advance(seconds);
-    if (this.#fade.isOver) this.#fade = null;
+    if (!this.#transition) return;
+    this.#transition.advance(seconds);
+    if (this.#transition.isOver) this.#transition = null;
     this.#show();
   }
 
-  /** Whether more pictures are wanted, although nothing is asked for. */
+  /** Whether a transition needs more pictures. */
   get isOnTheWay(): boolean {
-    return this.#fade !== null;
+    return this.#transition !== null;
   }
 
-  /** The begin of a drag: until its end there is no undo, and it can be cancelled. */
+  /** Begins a drag: until its end there is no undo, and it can be cancelled. */
   grab(): void {
     this.#beforeDrag = this.motions;
     this.#isCancelled = false;
@@ -162,7 +162,7 @@ export class Posing {
     return this.#beforeDrag !== null;
   }
 
-  /** Takes a drag back; what the pointer does until it is let go counts no more. */
+  /** Cancels a drag: the pointer has no effect until it is released. */
   cancelDrag(): void {
     const before = this.#beforeDrag;
     if (!before || this.#isCancelled) return;
@@ -171,13 +171,13 @@ export class Posing {
     this.onCancelled();
   }
 
-  /** The end of a drag in which nothing moved. */
+  /** Ends a drag in which nothing moved. */
   release(): void {
     this.#beforeDrag = null;
     this.#isCancelled = false;
   }
 
-  /** The end of a drag: a step of undo. */
+  /** Ends a drag: a step of undo. */
   commit(): void {
     const isCancelled = this.#isCancelled;
     this.release();
@@ -247,7 +247,7 @@ export class Posing {
   /** Coordinates of the shape that is shown. */
   get #shown(): Float64Array {
     const { q } = this.session;
-    return this.#fade?.at(q) ?? q;
+    return this.#transition?.at(q) ?? q;
   }
 
   #show(): void {

@@ -39,7 +39,7 @@ export class HandleDrag {
     listenToPointers(this.#canvas, acts, signal);
   }
 
-  /** Looks at handles some times, as if they had moved: the browser makes fast code of what has run often. */
+  /** Searches for handles a few times, as if they had moved: the browser makes fast code of what has run often. */
   warmUp(): void {
     const { session, surface } = this.#posing;
     for (let time = 0; time < WARMING; time++) {
@@ -71,7 +71,7 @@ export class HandleDrag {
     return { handle: best, point: place };
   }
 
-  /** Where the centre of a handle is in the window. */
+  /** The position of a handle's centre in the window. */
   screen(handle: number): [number, number] {
     const { stage, session } = this.#posing;
     const place = new Vector3(...session.place(handle))

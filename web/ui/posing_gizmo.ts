@@ -4,7 +4,7 @@ import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Posing } from "./posing.ts";
 import type { Axis } from "./stage.ts";
 
-/** Of the model's axes, as everywhere: red, green, blue; and what the pointer is on. */
+/** Colours of the model's axes: red, green, blue; and of the arrow that the pointer is on. */
 const [X, Y, Z, ACTIVE] = ["#e8402f", "#3fae3a", "#2f74e8", "#ffd23f"];
 
 /** Which colour the arrows along the stage's x, y (up) and z have, by the model's axis that points up. */
@@ -41,7 +41,7 @@ export class Gizmo {
     });
   }
 
-  /** Looks for its arrows below places around it some times, as a pointer does that comes to it. */
+  /** Searches for its arrows a few times, as a pointer that approaches does, so that the browser makes fast code. */
   warmUp(): void {
     const helper = this.#controls.getHelper();
     this.#controls.attach(this.#proxy);
@@ -53,7 +53,7 @@ export class Gizmo {
     this.#controls.detach();
   }
 
-  /** Whether it hears the pointer. */
+  /** Whether it listens to the pointer. */
   set isListening(on: boolean) {
     this.#controls.enabled = on;
   }
@@ -68,7 +68,7 @@ export class Gizmo {
     return this.#controls.axis !== null;
   }
 
-  /** Takes back a drag that goes on, as the posing does. */
+  /** Cancels the present drag, as the posing does. */
   cancel(): void {
     if (!this.#controls.dragging) return;
     this.#controls.reset();

@@ -13,7 +13,7 @@ import {
 import { handleColor } from "./handle_colors.ts";
 import type { Posing } from "./posing.ts";
 
-/** A dot at every handle, and the sampled box of each that has left it. */
+/** A dot at every handle, and the sampled box of each handle that has left it. */
 export class Marks {
   readonly #posing: Posing;
   readonly #dots: Sprite[];

@@ -1,6 +1,6 @@
 import { PosingSession, type PosingModel } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
-import { chooser, choice, enable, h, mark, section, tell, toggle } from "./dom.ts";
+import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -15,7 +15,7 @@ import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import type { Motions, View, ViewOptions } from "./view.ts";
 
-const HELP = "Drag a coloured part. Shift-drag turns it. Drag beside it to look around.";
+const HELP = "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.";
 
 /** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
 export interface PosingView extends View {
@@ -109,8 +109,8 @@ export async function posingView(
         enable(redo, posing.canRedo),
       ].includes(true),
     () => hud.warn(warningOf(posing.session)),
-    () => tell(figures, posing.selected < 0 ? HELP : described(posing.session, posing.selected)),
-    () => hud.tell(),
+    () => setText(figures, posing.selected < 0 ? HELP : described(posing.session, posing.selected)),
+    () => hud.update(),
   );
   posing.onChange = () => {
     follow();
@@ -136,7 +136,7 @@ export async function posingView(
 
   const polish = toggle(
     "Polish",
-    "When a handle is let go, a few iterations in the full space",
+    "Improves the shape in the full space when a handle is released",
     true,
     (on) => {
       if (polishing) polishing.isOn = on;
@@ -223,8 +223,8 @@ export async function posingView(
 }
 
 function warningOf({ outside, model }: PosingSession): string {
-  const told = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);
-  return told.length === 0 ? "" : `Beyond what was sampled: ${told.join("; ")}`;
+  const parts = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);
+  return parts.length === 0 ? "" : `Beyond what was sampled: ${parts.join("; ")}`;
 }
 
 function described(session: PosingSession, handle: number): string {

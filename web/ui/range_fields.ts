@@ -5,7 +5,7 @@ import { h } from "./dom.ts";
 export interface Unit {
   readonly label: string;
   readonly sign: string;
-  /** The field's number for one of the value. */
+  /** The field's number divided by the value. */
   readonly factor: number;
   readonly most: number;
 }

@@ -1,49 +1,49 @@
 const PAUSE = 200; // milliseconds: numbers that change faster cannot be read, and each change lays out some of the page
-const REST = 800; // milliseconds without a change, where no picture comes: then all is told
+const REST = 800; // milliseconds without a change, where no picture comes: then all parts are updated
 
-/** Tells things that change with the pictures of a drag: one of them before a picture, a few times a second at most, so
- * that no picture waits for all of them. What is told last is always the last state. */
+/** Updates texts that change with the pictures of a drag: one of them before a picture, a few times a second at most, so
+ * that no picture waits for all of them. The last update always shows the last state. */
 export class Readout {
   readonly #parts: readonly (() => boolean)[];
   readonly #isDue: boolean[];
   #next = 0;
-  #told = 0;
+  #shown = 0;
   #asked = 0;
   #timer = 0;
 
-  /** Each part tells something, and whether that was new. */
+  /** Each part updates something, and returns whether it has changed. */
   constructor(...parts: (() => boolean)[]) {
     this.#parts = parts;
     this.#isDue = parts.map(() => false);
   }
 
-  /** Something has changed. */
+  /** Notes that something has changed. */
   ask(): void {
     this.#isDue.fill(true);
     this.#asked = performance.now();
     if (!this.#timer) this.#timer = window.setTimeout(() => this.#rest(), REST);
   }
 
-  /** Before a picture: tells the next thing that is new. */
+  /** Before a picture: updates the next part that has changed. */
   advance(): void {
     const { length } = this.#parts;
     const now = performance.now();
-    if (now - this.#told < PAUSE / length) return;
+    if (now - this.#shown < PAUSE / length) return;
     for (let tried = 0; tried < length; tried++) {
       const part = this.#next;
       this.#next = (part + 1) % length;
       if (!this.#isDue[part]) continue;
       this.#isDue[part] = false;
       if (!this.#parts[part]()) continue;
-      this.#told = now;
+      this.#shown = now;
       return;
     }
   }
 
-  /** Tells all, as after a click. */
+  /** Updates all parts, as after a click. */
   now(): void {
     this.dispose();
-    this.#told = performance.now();
+    this.#shown = performance.now();
     this.#isDue.fill(false);
     for (const part of this.#parts) part();
   }

@@ -2,7 +2,7 @@ import { UnreadableModel } from "../engine/index.ts";
 import { keepQuery } from "./address.ts";
 import type { Failed, PageMessage, ServerMessage } from "../engine/messages.ts";
 
-/** A message to the server as it is written: the connection numbers it. */
+/** A message to the server before the connection numbers it. */
 type Unnumbered<M> = M extends PageMessage ? Omit<M, "request"> : never;
 export type Request = Unnumbered<PageMessage>;
 export type Answer<T extends ServerMessage["type"]> = Extract<ServerMessage, { type: T }>;
@@ -13,7 +13,7 @@ export interface Reply<T extends ServerMessage["type"]> {
   readonly bytes: ArrayBuffer | null;
 }
 
-/** What the server said no to, in its words. */
+/** The server refused a request; the message is in its words. */
 export class Refused extends Error {}
 
 interface Waiting {
@@ -22,16 +22,16 @@ interface Waiting {
   reject(error: Error): void;
 }
 
-/** Open; lost, and tried again; refused, as the token is no longer that of the server; or taken over by another page. */
+/** Open; lost, and tried again; refused, because the server has another token; or taken over by another page. */
 export type Connection = "open" | "lost" | "refused" | "elsewhere";
 
 const TAKEN_OVER = 4001; // as snapspace/server/live.py closes connections
 const PAUSES = [0.5, 1, 2, 4, 8]; // seconds before the connection is tried again
 
-/** The connection to the server of `snapspace view`. It comes back by itself if it is lost, to the same workspace if the
- * server still has that. */
+/** The connection to the server of `snapspace view`. A lost connection is opened again, to the same workspace if the
+ * server still has it. */
 export class Server {
-  /** What the connection is; told after every change, once. */
+  /** Called once after every change of the connection. */
   onConnection: (connection: Connection) => void = () => {};
   readonly #address: URL;
   readonly #listeners = new Map<string, Set<(message: never) => void>>();
@@ -57,7 +57,7 @@ export class Server {
     this.on("workspace", ({ id, job }) => {
       this.#address.searchParams.set("workspace", id);
       keepQuery("workspace", id);
-      this.#requests = Math.max(this.#requests, job ?? 0); // those before the page was loaded again
+      this.#requests = Math.max(this.#requests, job ?? 0); // requests of the page before it was reloaded
     });
   }
 
@@ -72,7 +72,7 @@ export class Server {
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
       this.#tries = 0;
-      this.#tell("open");
+      this.#report("open");
     };
     socket.onmessage = ({ data }) => this.#take(data);
     socket.onclose = ({ code }) => {
@@ -105,7 +105,7 @@ export class Server {
     return new Promise((resolve, reject) => {
       const request = this.send(message);
       signal?.addEventListener("abort", () => {
-        if (this.#waiting.delete(request)) reject(new Refused("Another request came in its place."));
+        if (this.#waiting.delete(request)) reject(new Refused("A newer request replaced this one."));
       });
       this.#waiting.set(request, { type, resolve: resolve as (answer: unknown) => void, reject });
     });
@@ -148,7 +148,7 @@ export class Server {
     this.#listeners.get(message.type)?.forEach((act) => act(message as never));
   }
 
-  /** Another token, or an address with it, as the server printed it. */
+  /** Connects with another token, given alone or in an address, as the server printed it. */
   renew(given: string): void {
     const address = URL.canParse(given) ? new URL(given) : null;
     const token = address?.searchParams.get("token") ?? given;
@@ -161,7 +161,7 @@ export class Server {
     this.connect();
   }
 
-  #tell(connection: Connection): void {
+  #report(connection: Connection): void {
     if (connection === this.#connection) return;
     this.#connection = connection;
     this.onConnection(connection);
@@ -170,14 +170,14 @@ export class Server {
   async #lost(code: number): Promise<void> {
     this.#waiting.forEach(({ reject }) => reject(new Refused("The connection to the server was lost.")));
     this.#waiting.clear();
-    if (code === TAKEN_OVER) return this.#tell("elsewhere");
-    if (await this.#isRefused()) return this.#tell("refused");
-    this.#tell("lost");
+    if (code === TAKEN_OVER) return this.#report("elsewhere");
+    if (await this.#isRefused()) return this.#report("refused");
+    this.#report("lost");
     const pause = PAUSES[Math.min(this.#tries++, PAUSES.length - 1)];
     this.#retry = window.setTimeout(() => this.connect(), 1000 * pause);
   }
 
-  /** Whether the server is there and refuses the token: a websocket does not tell why it is closed. */
+  /** Whether the server is there and refuses the token: a websocket does not say why it was closed. */
   async #isRefused(): Promise<boolean> {
     const answer = await fetch(this.address("mesh/-/0", {}), { cache: "no-store" }).catch(() => null);
     return answer?.status === 403;

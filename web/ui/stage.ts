@@ -19,10 +19,10 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
 export type Axis = "x" | "y" | "z";
 
-/** Around a shape in a small picture, of its size. */
+/** The margin around a shape in a small picture, as a share of its size. */
 const MARGIN = 0.05;
 
-/** From the middle to the camera. */
+/** The direction from the middle to the camera. */
 const VIEW = new Vector3(0.62, 0.36, 0.8).normalize();
 
 /** Canvas, camera, studio light and ground. Models stand in `root`, which is about one unit large. */
@@ -36,9 +36,9 @@ export class Stage {
   up: Axis = "z";
   /** Called before each picture that is drawn. */
   beforeFrame: (seconds: number) => void = () => {};
-  /** Called after it: what moves by itself asks for the next one here. */
+  /** Called after each picture: animations ask for the next one here. */
   afterFrame: () => void = () => {};
-  /** Called after the graphics were lost and are there again: what was computed there is gone. */
+  /** Called when lost graphics are back: what was computed there is gone. */
   restored: () => void = () => {};
   readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
   #height = 0.5;
@@ -74,7 +74,7 @@ export class Stage {
     this.#resize();
   }
 
-  /** Asks for a picture; several wishes before it is drawn are one, those of `beforeFrame` included. */
+  /** Asks for a picture. Several requests before it is drawn, also by `beforeFrame`, give one picture. */
   draw(): void {
     if (this.#asked) return;
     this.#asked = true;
@@ -169,7 +169,7 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     const aspect = clientWidth / clientHeight;
-    // what was seen from side to side stays so when the window becomes narrow
+    // keeps the visible width when the window becomes narrow
     const narrowness = (a: number) => Math.max(1, 1 / a);
     const away = this.camera.position.clone().sub(this.controls.target);
     away.multiplyScalar(narrowness(aspect) / narrowness(this.camera.aspect));

@@ -27,7 +27,7 @@ import type { Deformer } from "./deformer.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
 
-/** What its colours tell. */
+/** What its colours show. */
 export type Colors = "own" | "displacement" | "strain";
 const COLORS: readonly Colors[] = ["own", "displacement", "strain"];
 
@@ -55,7 +55,7 @@ export class Surface {
   #weights: readonly number[] = [1];
   #scale: StrainScale | null = null;
 
-  /** `forceCpu` takes the way of browsers that cannot draw into float textures. */
+  /** `forceCpu` computes as in browsers that cannot draw into float textures. */
   constructor(
     renderer: WebGLRenderer,
     space: ShapeSpace,
@@ -124,21 +124,21 @@ export class Surface {
     this.#deformer.update(coefficients);
   }
 
-  /** Another shape, 3 numbers per vertex, to go to. */
+  /** The shape to blend to, 3 numbers per vertex. */
   set goal(positions: Float32Array) {
     this.#goal = positions;
     this.#deformer.goal = positions;
     if (this.#picker) this.#picker.goal = positions;
   }
 
-  /** Goes a share of the way from the shape to the goal. */
+  /** Shows the shape at a share of the path to the goal. */
   blend(share: number): void {
     this.#share = share;
     this.#picker?.show(this.#coefficients, share);
     this.#deformer.update(this.#coefficients, share);
   }
 
-  /** Computes again what the graphics processor had. */
+  /** Computes again what was lost on the graphics processor. */
   refresh(): void {
     this.#deformer.update(this.#coefficients, this.#share);
   }
@@ -150,7 +150,7 @@ export class Surface {
     return shape;
   }
 
-  /** What a ray hits of the shape before its rigid motion, as it is drawn; the first time takes some milliseconds. */
+  /** Where a ray hits the shape, before its rigid motion and as it is drawn. The first call takes some milliseconds. */
   pick({ origin, direction }: Ray): Hit | null {
     if (!this.#picker) {
       this.#picker = new ShapePicker(this.space, this.faces);
@@ -160,7 +160,7 @@ export class Surface {
     return this.#picker.pick(origin.toArray(), direction.toArray());
   }
 
-  /** As after another shape: what was computed for rays is forgotten. */
+  /** Forgets what was computed for rays, as after another shape. */
   forgetPicks(): void {
     this.#picker?.show(this.#coefficients, this.#share);
   }

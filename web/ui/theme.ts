@@ -1,6 +1,6 @@
 import { toggle } from "./dom.ts";
 
-/** Dark or light: as the system says, until the button is used. Tells now and after every change. */
+/** Follows the system's dark or light theme until the button is used. Calls `act` now and after every change. */
 export function followTheme(act: (dark: boolean) => void): void {
   const system = matchMedia("(prefers-color-scheme: dark)");
   let chosen: boolean | null = null;

@@ -21,7 +21,7 @@ export function thumbnail(stage: Stage, poses: Surface, hidden: Surface, weights
   stage.lookAt(poses.positions());
   renderer.setViewport(0, 0, PIXELS / ratio, PIXELS / ratio);
   renderer.render(scene, camera);
-  // the viewport begins below, a picture above
+  // viewports count from the bottom, pictures from the top
   const top = renderer.domElement.height - PIXELS;
   copy.getContext("2d")!.drawImage(renderer.domElement, 0, top, PIXELS, PIXELS, 0, 0, PIXELS, PIXELS);
   renderer.setViewport(0, 0, renderer.domElement.width / ratio, renderer.domElement.height / ratio);

@@ -1,4 +1,4 @@
-/** Sends a file. The promise is kept once the server has all of it, and broken with the server's words. */
+/** Sends a file. Resolves once the server has all of it, and rejects with the server's words. */
 export function sendFile(
   address: URL,
   file: File,
@@ -6,14 +6,14 @@ export function sendFile(
   signal: AbortSignal,
 ): Promise<void> {
   return new Promise((resolve, reject) => {
-    const request = new XMLHttpRequest(); // fetch tells no progress of uploads
+    const request = new XMLHttpRequest(); // fetch does not report the progress of uploads
     request.open("POST", address);
     request.upload.onprogress = ({ loaded, total }) => onProgress(loaded, total);
     request.onload = () =>
       request.status < 400
         ? resolve()
         : reject(new Error(request.responseText || `status ${request.status}`));
-    request.onerror = () => reject(new Error(`The server did not take ${file.name}.`));
+    request.onerror = () => reject(new Error(`${file.name} could not be sent: the server does not answer.`));
     request.onabort = () => resolve();
     signal.addEventListener("abort", () => request.abort());
     request.send(file);

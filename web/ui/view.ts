@@ -18,13 +18,13 @@ export type Motions = ReadonlyMap<string, Motion>;
 export interface ViewOptions {
   readonly up: Axis;
   readonly forceCpu: boolean;
-  /** Leaves the camera as it is, and what stands before it. */
+  /** Leaves the camera and the stage as they are. */
   readonly keepView?: boolean;
-  /** Where handles are at first, if all that the model has are among them; else at rest. */
+  /** The first motions of the handles, if all handles of the model are among them; otherwise they are at rest. */
   readonly motions?: Motions;
   /** Poses that take part at first, by name, and their weights; if the model has them all. */
   readonly blend?: { readonly names: readonly string[]; readonly weights: readonly number[] };
-  /** Goes to the view in which handles are chosen on the model's body; missing where no server does it. */
+  /** Goes to the view in which handles are chosen on the model's body; missing without a server. */
   readonly choose?: () => void;
   /** Improves frames when a handle is let go. */
   readonly polish?: Polish;

@@ -11,7 +11,7 @@ export interface WeightActions {
 
 /** The weights of the chosen poses: a slider and a number for each, and a button that takes it away.
  *
- * There are always as many rows; the last ones are hidden. So the focus stays in its row when others come and go. */
+ * The number of rows is fixed and unused rows are hidden, so that the focus stays in its row when others come and go. */
 export class WeightRows {
   readonly element: HTMLElement;
   readonly #names: readonly string[];
@@ -47,7 +47,7 @@ export class WeightRows {
         remove.disabled = last === 0;
       }
       if (!hadFocus || (place <= last && !remove.disabled)) return;
-      // what had the focus has gone
+      // the element with the focus is gone
       const { input, remove: button } = this.#rows[Math.min(place, last)];
       (last === 0 ? input : button).focus();
     });
@@ -60,7 +60,7 @@ function weightRow(weigh: (weight: number) => void, remove: () => void) {
   const number = h("input", { type: "number", min: 0, max: 100, step: "any", required: true });
   const input = h("input", { type: "range", min: 0, max: 1, step: 0.001 });
   const button = h("button", { type: "button", className: "small bare", onclick: remove }, "✕");
-  let isTyped = false; // what is being typed stays until it is done
+  let isTyped = false; // keeps a number that is being typed
   input.addEventListener("input", () => weigh(input.valueAsNumber));
   number.addEventListener("input", () => (isTyped = true));
   number.addEventListener("change", () => {

@@ -1,4 +1,4 @@
-import { choiceOf, lacking, listed, messageOf, type Choice } from "../engine/choice.ts";
+import { choiceOf, lacking, handleMessages, orderedHandleMessages, type Choice } from "../engine/choice.ts";
 import { partMessages } from "../engine/parts.ts";
 import { readModel, type PosingModel } from "../engine/index.ts";
 import type { Failed, Model, Progress, Workspace as Given } from "../engine/messages.ts";
@@ -26,14 +26,14 @@ export class Workspace {
   #choice: Choice = choiceOf([]);
   #sampling: Sampling | null = null;
   /** The newest model of the computation that was started last. */
-  #model: { told: Model; content: PosingModel } | null = null;
+  #model: { sent: Model; content: PosingModel } | null = null;
   #posing: PosingView | null = null;
   /** Where the handles were when posing was left. */
   #motions: Motions = new Map();
   /** Number of the request that computes, or 0. */
   #job = 0;
   #isRunning = false;
-  /** Whether a lost connection came back, until its mesh is there. */
+  /** Whether a lost connection is back, until its mesh has come. */
   #isBack = false;
   /** Whether handles are chosen although there is a model, as before the page was loaded again. */
   #staysChoosing = location.hash === CHOOSING;
@@ -75,12 +75,12 @@ export class Workspace {
     window.addEventListener("pagehide", () => this.#keep());
   }
 
-  /** Handles on the body of the server's own model. */
+  /** Starts choosing handles on the body of the server's own model. */
   edit(): void {
     void this.#try(() => void this.#server.send({ type: "edit" }));
   }
 
-  /** Another mesh, from a file. */
+  /** Opens another mesh from a file. */
   upload(file: File): void {
     if (this.#given) void this.#reading.upload(file, this.#given);
   }
@@ -91,7 +91,7 @@ export class Workspace {
     if (given.kind === "model") return; // the page has shown it
     if (this.#mesh && before?.id !== given.id) {
       this.#isBack = true; // the connection was lost; what was chosen here stays
-      if (given.kind === "empty") this.#panel.fault("The server has forgotten the mesh: drop it here again.");
+      if (given.kind === "empty") this.#panel.fault("The server no longer has the mesh. Drop it here again.");
     }
     if (given.kind !== "mesh" || given.mesh === null) {
       if (!this.#isBack) this.#await(given);
@@ -105,7 +105,7 @@ export class Workspace {
       return;
     }
     if (this.#isBack && isSame) {
-      if (this.#isRunning) this.#panel.fault("The server has forgotten the computation; compute again.");
+      if (this.#isRunning) this.#panel.fault("The server no longer has the computation. Compute again.");
       [this.#isBack, this.#isRunning] = [false, false];
       this.#update();
       this.#keep();
@@ -116,12 +116,12 @@ export class Workspace {
     this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
     [this.#model, this.#job, this.#isRunning] = [null, given.job ?? 0, given.is_running ?? false];
-    this.#motions = motionsOf(location.hash); // of a page that was loaded again
+    this.#motions = motionsOf(location.hash); // after a reload
     this.#panel.clear();
     this.#choosing(true);
   }
 
-  /** Without a mesh: asks for one, or waits for it. */
+  /** Shows that there is no mesh: asks for one, or waits for it. */
   #await(given: Given): void {
     [this.#mesh, this.#posing] = [null, null];
     this.#shell.empty();
@@ -165,18 +165,18 @@ export class Workspace {
     keepHash(() => CHOOSING);
   }
 
-  /** Tells the server what is chosen, soon. */
+  /** Sends the choice to the server soon. */
   #keepSoon(): void {
     if (!this.#keeping) this.#keeping = window.setTimeout(() => this.#keep(), KEEP_PAUSE);
   }
 
-  /** Tells the server what is chosen: it is there again when the page is loaded again. */
+  /** Sends the choice to the server, so that a reload finds it. */
   #keep(): void {
     clearTimeout(this.#keeping);
     this.#keeping = 0;
     if (!this.#mesh || !this.#sampling || !this.#server.isOpen) return;
     const { seed: _, ...sampling } = this.#sampling;
-    const [handles, parts] = [listed(this.#choice.handles), partMessages(this.#choice.parts)];
+    const [handles, parts] = [handleMessages(this.#choice.handles), partMessages(this.#choice.parts)];
     this.#server.send({ type: "keep", handles, parts, ...sampling, up: this.#shell.stage.up });
   }
 
@@ -185,7 +185,7 @@ export class Workspace {
     const { stage, module } = this.#shell;
     const { content } = this.#model!;
     this.#leave();
-    const polish = polishAt(this.#server, () => this.#model!.told.number);
+    const polish = polishAt(this.#server, () => this.#model!.sent.number);
     const motions = this.#motions;
     const options = { ...this.#shell.options(stage.up), up: stage.up, keepView: true, polish, motions };
     const view = await posingView(stage, await module, content, options);
@@ -202,11 +202,11 @@ export class Workspace {
 
   async #compute(): Promise<void> {
     if (!this.#panel.isValid()) return;
-    await this.#tellChoice();
+    await this.#sendChoice();
     const { translation: _, angle: __, ...wanted } = this.#sampling!;
     this.#panel.clear();
     this.#model = null;
-    this.#motions = new Map(); // of handles that were other ones
+    this.#motions = new Map(); // they are of the handles before
     this.#staysChoosing = false;
     keepHash(() => "");
     this.#keep();
@@ -216,9 +216,9 @@ export class Workspace {
     this.#update();
   }
 
-  async #tellChoice(): Promise<void> {
+  async #sendChoice(): Promise<void> {
     const { translation, angle } = this.#sampling!;
-    const [handles, parts] = [messageOf(this.#choice.handles), partMessages(this.#choice.parts)];
+    const [handles, parts] = [orderedHandleMessages(this.#choice.handles), partMessages(this.#choice.parts)];
     await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
   }
 
@@ -229,7 +229,7 @@ export class Workspace {
   }
 
   async #save(): Promise<void> {
-    if (this.#posing === null) await this.#tellChoice();
+    if (this.#posing === null) await this.#sendChoice();
     const { message } = await this.#server.ask(
       { type: "save", name: null, up: this.#shell.stage.up },
       "saved",
@@ -242,25 +242,25 @@ export class Workspace {
     else if (progress.request === this.#job && this.#isRunning) this.#panel.progress(progress);
   }
 
-  #take(told: Model): void {
-    this.#later(() => this.#show(told));
+  #take(sent: Model): void {
+    this.#later(() => this.#show(sent));
   }
 
   #later(act: () => Promise<void>): void {
     this.#queue = this.#queue.then(() => this.#try(act));
   }
 
-  /** A better model, or the first: it is posed at once. */
-  async #show(told: Model): Promise<void> {
-    if (told.request !== this.#job || told.number === this.#model?.told.number) return;
-    const content = readModel(await this.#server.fetched(told.address), this.#mesh!.name) as PosingModel;
-    if (told.request !== this.#job) return;
+  /** Takes a better model, or the first one, which is posed at once. */
+  async #show(sent: Model): Promise<void> {
+    if (sent.request !== this.#job || sent.number === this.#model?.sent.number) return;
+    const content = readModel(await this.#server.fetched(sent.address), this.#mesh!.name) as PosingModel;
+    if (sent.request !== this.#job) return;
     const isFirst = this.#model === null;
-    // the newest model is that which is posed: polishing takes its number
+    // set after posing has the model, because polishing uses its number
     await this.#posing?.replace(content);
-    this.#model = { told, content };
-    this.#isRunning &&= !told.final;
-    this.#panel.model(told);
+    this.#model = { sent, content };
+    this.#isRunning &&= !sent.final;
+    this.#panel.model(sent);
     if (isFirst && !this.#staysChoosing) await this.#pose();
     this.#update();
   }
@@ -290,7 +290,7 @@ export class Workspace {
       await act();
     } catch (error) {
       if (error instanceof Refused) this.#panel.fault(error.message);
-      else this.#shell.tell(readable(error), true);
+      else this.#shell.showMessage(readable(error), true);
     }
   }
 }

@@ -9,12 +9,12 @@ const MEGABYTE = 2 ** 20;
 const SURFACES = [".obj", ".off", ".ply", ".stl"];
 const TETS = [".mesh", ".msh", ".vtk", ".vtu", ".veg"];
 
-/** The box before everything: asks for a mesh, sends it, and waits until the server has read and filled it. */
+/** The box above everything: asks for a mesh, sends it, and waits until the server has read and filled it. */
 export class ReadingBox {
   readonly #shell: AppShell;
   readonly #server: Server;
   readonly #bar = new ProgressBar();
-  readonly #elapsed = h("span", { className: "told" });
+  readonly #elapsed = h("span", { className: "detail" });
   #clock = 0;
   #given: Given | null = null;
   #sending: AbortController | null = null;
@@ -35,20 +35,20 @@ export class ReadingBox {
       { className: "formats" },
       `A closed surface (${SURFACES.join(" ")}), which is filled with tets, or tets (${TETS.join(" ")}).`,
     );
-    this.#shell.tell("Drop a mesh here", false, formats, this.#picker());
+    this.#shell.showMessage("Drop a mesh here", false, formats, this.#picker());
   }
 
   async upload(file: File, given: Given): Promise<void> {
     this.#given = given;
     const known = [...SURFACES, ...TETS, ".snapspace"];
     if (!known.some((suffix) => file.name.toLowerCase().endsWith(suffix))) {
-      this.failed(`${file.name} is no mesh that is read here: ${known.join(" ")}.`);
+      this.failed(`${file.name} cannot be read here. Open a file of these types: ${known.join(" ")}.`);
       return;
     }
     if (file.size > given.upload_limit) {
       const [size, most] = [file.size, given.upload_limit].map((bytes) => (bytes / MEGABYTE).toFixed(0));
       this.failed(
-        `${file.name} has ${size} MB, and the server takes up to ${most} MB. ` +
+        `${file.name} has ${size} MB, but the server takes at most ${most} MB. ` +
           "Start it with a larger --upload-limit, or with the mesh: `snapspace view MESH`.",
       );
       return;
@@ -71,17 +71,17 @@ export class ReadingBox {
     }
   }
 
-  /** The server reads a mesh. */
+  /** Shows that the server reads a mesh. */
   wait(given: Given): void {
     this.#given = given;
-    this.#show("The mesh is being read");
+    this.#show("Reading the mesh");
   }
 
   progress(progress: Progress): void {
     if (this.#isShown) this.#bar.show(progress);
   }
 
-  /** The connection is lost: what the server was reading is not known any more. */
+  /** Stops the clock after the connection was lost. */
   lose(): void {
     clearInterval(this.#clock);
   }
@@ -89,7 +89,7 @@ export class ReadingBox {
   failed(message: string): void {
     this.#isShown = false;
     clearInterval(this.#clock);
-    this.#shell.tell(message.replace(/^snapspace: /, ""), true, this.#picker());
+    this.#shell.showMessage(message.replace(/^snapspace: /, ""), true, this.#picker());
   }
 
   #show(text: string): void {
@@ -97,10 +97,10 @@ export class ReadingBox {
     this.#bar.element.hidden = true;
     this.#countFrom(performance.now());
     const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
-    this.#shell.tell(text, false, this.#bar.element, this.#elapsed, cancel);
+    this.#shell.showMessage(text, false, this.#bar.element, this.#elapsed, cancel);
   }
 
-  /** Tells how long it has taken, once that is worth telling. */
+  /** Shows how long it has taken, after the first second. */
   #countFrom(begin: number): void {
     clearInterval(this.#clock);
     this.#elapsed.textContent = "";

@@ -23,7 +23,7 @@ function container(header: object | string, data = 0): ArrayBuffer {
   return content.buffer;
 }
 
-test("what is no model is told", () => {
+test("a file that is not a model is refused", () => {
   refused(new ArrayBuffer(0), /fewer than 8 bytes/);
   refused(
     new TextEncoder().encode("solid teapot, no model at all").buffer as ArrayBuffer,
@@ -58,7 +58,7 @@ test("what is no model is told", () => {
 });
 
 for (const file of ["posing.snapspace", "posing.packed", "blending.snapspace", "blending.packed"])
-  test(`a file that is cut off or altered is told: ${file}`, () => {
+  test(`a file that is cut off or altered is refused: ${file}`, () => {
     const whole = bytes(file);
     for (const share of [0.001, 0.1, 0.5, 0.999])
       refused(whole.slice(0, Math.floor(share * whole.byteLength)), /not a complete/);
@@ -71,7 +71,7 @@ for (const file of ["posing.snapspace", "posing.packed", "blending.snapspace", "
     refused(altered, new RegExp(`'${name}' is missing`));
   });
 
-test("an energy without a minimum at rest is told", async () => {
+test("an energy without a minimum at rest is refused", async () => {
   const model = readModel(bytes("posing.packed"), "") as PosingModel;
   const elastic = {
     kind: "quartic",
@@ -88,18 +88,18 @@ for (const file of [
   "cubature.packed",
   "blending.packed",
 ])
-  test(`a material that the core does not know is told by name: ${file}`, async () => {
+  test(`a material that the core does not know is named: ${file}`, async () => {
     const model = readModel(bytes(file), "") as PosingModel;
     const unknown = { ...model, material: "mud" };
     await assert.rejects(Core.create(core, unknown), (error) => {
       assert.ok(error instanceof UnreadableModel);
-      return /of material 'mud', which this page does not know. Open it with the Snapspace/.test(
+      return /of material 'mud', which this page does not know. Open it with the version of Snapspace/.test(
         error.message,
       );
     });
   });
 
-test("moduli that do not fit the material are told", async () => {
+test("moduli that do not fit the material are refused", async () => {
   const model = readModel(bytes("cubature.packed"), "") as PosingModel;
   const { elastic } = model;
   assert.equal(elastic.kind, "cubature");

@@ -7,7 +7,7 @@ import {
   inOrder,
   lacking,
   losses,
-  messageOf,
+  orderedHandleMessages,
   nameFault,
   withMore,
   withNewHandle,
@@ -34,10 +34,13 @@ test("the first handle holds the shape, the others move", () => {
   assert.equal(lacking(two), "");
 });
 
-test("a vertex belongs to one handle, and what was taken over is told", () => {
+test("a vertex belongs to one handle, and handles that lose some are reported", () => {
   const three = withNewHandle(select(two, 3, 4, 7, 8));
   assert.deepEqual(sets(three), { "handle 1": [1, 2], "handle 3": [3, 4, 7, 8] });
-  assert.equal(losses(two, three), "Taken over: 1 of handle 1; all of handle 2, which is gone.");
+  assert.equal(
+    losses(two, three),
+    "Taken from other handles: 1 of handle 1; all of handle 2, which is removed.",
+  );
   assert.equal(losses(two, two), "");
   const grown = withMore(select(two, 2, 9), two.handles[1].key);
   assert.deepEqual(sets(grown), { "handle 1": [1, 3], "handle 2": [2, 7, 8, 9] });
@@ -67,7 +70,7 @@ test("the server gets the fixed ones first, and what it gave comes back the same
     moving: false,
     angle: [0.1, 0.2, 0.3],
   });
-  const message = messageOf(swapped.handles);
+  const message = orderedHandleMessages(swapped.handles);
   assert.deepEqual(
     message.map(({ name, moving }) => [name, moving]),
     [
@@ -82,7 +85,7 @@ test("the server gets the fixed ones first, and what it gave comes back the same
     translation: null,
     angle: [0.1, 0.2, 0.3],
   });
-  assert.deepEqual(messageOf(choiceOf(message).handles), message);
+  assert.deepEqual(orderedHandleMessages(choiceOf(message).handles), message);
   assert.equal(inOrder(swapped.handles)[0].name, "handle 2");
 });
 

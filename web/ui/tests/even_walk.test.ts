@@ -8,11 +8,11 @@ const MOST_SOLVES = 18;
 /** Walks to the end: shares, numbers of solves and motions of the steps, and the jumps. */
 function walked(curve: (share: number, from: number) => number, even: number, length: number) {
   let solves = 0;
-  const way: ShapePath<number> = {
+  const path: ShapePath<number> = {
     solve: (share, from) => (solves++, curve(share, from)),
     motion: (from, to) => Math.abs(to - from),
   };
-  const walk = new EvenWalk(way, curve(0, 0), length);
+  const walk = new EvenWalk(path, curve(0, 0), length);
   const [shares, motions, costs, jumps] = [[0], [] as number[], [] as number[], [] as number[]];
   while (walk.share < 1) {
     const before = walk.shape;
@@ -60,7 +60,7 @@ function bistable(share: number, from: number): number {
   return x;
 }
 
-test("a jump that no step is small enough for is told, once and where it is", () => {
+test("a jump that no step resolves is reported once, with its place", () => {
   const even = 0.02;
   const { jumps, motions, shares, costs } = walked(bistable, even, 2);
   const fold = 0.5 + 2 / (3 * Math.sqrt(3)) / 1.2;

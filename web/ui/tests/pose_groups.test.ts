@@ -29,7 +29,7 @@ test("each pose is in one group, and a group has two at least", () => {
   assert.deepEqual(poseGroups(["a", "b"]), [{ name: "", poses: [0, 1] }]);
 });
 
-test("in its group a pose is told by what differs", () => {
+test("in its group a pose is named by what differs", () => {
   const [group] = poseGroups(["cat-01", "cat-02"]);
   assert.equal(nameInGroup("cat-01", group), "01");
   const [others] = poseGroups(["rest", "run"]);

@@ -1,9 +1,9 @@
-/** How long a shape takes to go over into another one, and the most of it between two pictures, in seconds. */
+/** The duration of a transition, and its longest step between two pictures, in seconds. */
 const DURATION = 0.3;
 const LONGEST_STEP = 0.05;
 
-/** The way from a shape to another that moves meanwhile, both in the coordinates of one model. */
-export class Fade {
+/** A smooth transition from a shape to another one that may move meanwhile, both in the coordinates of one model. */
+export class ShapeTransition {
   readonly #offset: Float64Array;
   #passed = 0;
 
@@ -15,12 +15,12 @@ export class Fade {
     return this.#passed >= DURATION;
   }
 
-  /** So many seconds pass. A picture that comes late, as the first of a model does, is no jump. */
+  /** Lets `seconds` pass. A late picture, such as the first of a model, causes no jump. */
   advance(seconds: number): void {
     this.#passed += Math.min(seconds, LONGEST_STEP);
   }
 
-  /** What is shown in place of the shape that it goes over into: it begins and ends without speed. */
+  /** The shape to show in place of `to`. It begins and ends without speed. */
   at(to: ArrayLike<number>): Float64Array {
     const share = Math.min(this.#passed / DURATION, 1);
     const left = 1 - share * share * (3 - 2 * share);
