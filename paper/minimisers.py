@@ -55,7 +55,7 @@ def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> Flo
 def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
     """The same of the M-projections of the full solutions, the least that is possible, (k,)."""
     shapes = reference.shapes
-    away = shapes - subspace.tau[:, None]
-    miss = away - subspace.basis @ subspace.coordinates(shapes)
+    away = shapes - subspace.tau
+    miss = away - subspace.coordinates(shapes) @ subspace.basis.T
     errors: FloatArray = mass_norms(subspace.mass, miss) / mass_norms(subspace.mass, away)
     return errors
