@@ -50,11 +50,11 @@ def by_responses(snapshots: ss.Snapshots, d: int) -> ss.AffineSubspace:
     small = SMALL * np.diag(problem.domain.half_widths)
     first = ss.affine_subspace(problem.guesses(small).T, problem)
     rows = snapshots.displacements.array()
-    left = rows - (apply_mass(first.mass, rows.T).T @ first.basis) @ first.basis.T
+    left = rows - (apply_mass(first.mass, rows) @ first.basis) @ first.basis.T
     count = d - first.dimension
     if count <= 0:
         return first.leading(d)
-    rest = ss.pca(problem.tau[:, None] + left.T, problem.tau, first.mass, dimension=count)
+    rest = ss.pca(problem.tau + left, problem.tau, first.mass, dimension=count)
     return ss.affine_subspace(np.column_stack([first.basis, rest.basis]), problem)
 
 

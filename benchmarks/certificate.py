@@ -101,7 +101,7 @@ def estimates(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         goals = {"covered": "about 0.9", "ms": "<= 1" if name == "quick" else ""}
         rows += [(f"{name}: {k}", v, goals.get(k, "")) for k, v in result[name].items()]
     result["others"] = {}
-    five = mass_norms(model.subspace.mass, estimated_errors(model, reference.parameters).T)
+    five = mass_norms(model.subspace.mass, estimated_errors(model, reference.parameters))
     sizes = np.array([s for s, *_ in others])
     table = np.column_stack([np.array([rest for _, *rest in others]), five / sizes])
     labels = ("residual by A^-1", "first step, M-norm", "distance to nearest sample", "five steps")

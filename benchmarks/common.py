@@ -86,8 +86,8 @@ def references(problem: ss.PosingProblem, count: int) -> ss.Snapshots:
 def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> np.ndarray:
     """Relative M-norm errors of the projections of full solutions."""
     shapes = reference.shapes
-    projected = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(shapes)
-    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
+    projected = subspace.tau + subspace.coordinates(shapes) @ subspace.basis.T
+    size = mass_norms(subspace.mass, shapes - subspace.tau)
     errors: np.ndarray = mass_norms(subspace.mass, projected - shapes) / size
     return errors
 
@@ -99,8 +99,8 @@ def reduced_errors(model: ss.PosingModel, reference: ss.Snapshots) -> np.ndarray
         session.reset()
         session.set_parameters(w)
         misses.append(session.vertices.reshape(-1) - reference.problem.base - row)
-    size = mass_norms(model.subspace.mass, reference.displacements.array().T)
-    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses).T) / size
+    size = mass_norms(model.subspace.mass, reference.displacements.array())
+    errors: np.ndarray = mass_norms(model.subspace.mass, np.array(misses)) / size
     return errors
 
 

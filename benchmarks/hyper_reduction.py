@@ -139,7 +139,7 @@ def row_of(
 
 def relative(mass: Any, shapes: np.ndarray, truth: np.ndarray) -> np.ndarray:
     """Relative M-norm errors (k,) of displacements (k, 3n)."""
-    errors: np.ndarray = mass_norms(mass, (shapes - truth).T) / mass_norms(mass, truth.T)
+    errors: np.ndarray = mass_norms(mass, shapes - truth) / mass_norms(mass, truth)
     return errors
 
 

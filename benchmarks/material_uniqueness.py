@@ -51,9 +51,9 @@ def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
             found[start] = batch.shapes
             inverted += [report.inverted_tets for report in batch.reports]
             converged += sum(report.status.name == "converged" for report in batch.reports)
-        mass, size = body.mass(), mass_norms(body.mass(), found["rest"].T)
+        mass, size = body.mass(), mass_norms(body.mass(), found["rest"])
         pairs = combinations((shapes for start, shapes in found.items() if start != STRONG), 2)
-        far = np.max([mass_norms(mass, (a - b).T) / size for a, b in pairs], axis=0)
+        far = np.max([mass_norms(mass, a - b) / size for a, b in pairs], axis=0)
         row: dict[str, Any] = {
             "problem": name,
             "material": kind,
@@ -61,7 +61,7 @@ def uniqueness(name: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
             "max": float(far.max()),
         }
         for start in list(starts)[1:]:
-            apart = mass_norms(mass, (found[start] - found["rest"]).T) / size
+            apart = mass_norms(mass, found[start] - found["rest"]) / size
             row[f"{start}, max"] = float(apart.max())
         row["inverted tets, median"] = float(np.median(inverted))
         row["inverted, max"] = int(np.max(inverted))

@@ -50,8 +50,8 @@ def measured(
     problem: ss.PosingProblem, samples: np.ndarray, start: np.ndarray, exact: np.ndarray
 ) -> dict[str, float]:
     """The start's error, and the evaluations of a loose solve and of a settled one."""
-    mass, size = problem.mass(), mass_norms(problem.mass(), exact.T)
-    error = mass_norms(mass, (start - exact).T) / size
+    mass, size = problem.mass(), mass_norms(problem.mass(), exact)
+    error = mass_norms(mass, start - exact) / size
     result = {"error": float(np.median(error))}
     for name, options in (
         ("loose", {"tolerance": 1e3 * problem.solving.tolerance}),

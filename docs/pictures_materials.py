@@ -45,7 +45,7 @@ def solution(problem: ss.PosingProblem) -> NDArray[np.float64]:
     steps = np.linspace(0.1, 1.0, 10)[:, None] * np.array(POSE)
     options = ss.SolverOptions(tolerance=1e-8, block=1)
     solved = ss.solve_snapshots(problem, steps, options=options)
-    shape: NDArray[np.float64] = solved.shapes[:, -1].reshape(-1, 3)
+    shape: NDArray[np.float64] = solved.shapes[-1].reshape(-1, 3)
     return shape
 
 

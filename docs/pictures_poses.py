@@ -111,7 +111,7 @@ def solved_motions(mesh: ss.TetMesh) -> list[FloatArray]:
     for share in (0.25, 0.5, 0.75, 1.0):
         step = ss.solve_snapshots(problem, share * motions, known=known)
         known = step if known is None else known.joined(step)
-        shapes.append(step.shapes.T.reshape(len(motions), -1, 3))
+        shapes.append(step.shapes.reshape(len(motions), -1, 3))
     return shapes
 
 

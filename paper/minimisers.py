@@ -29,7 +29,7 @@ def minimisers(
     exact = problem.material.exact_degree == 4 and subspace.dimension <= MOST_EXACT
     model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
     session = model.session(tolerance=tolerance, minimizer="newton")
-    for parameters, shape in zip(reference.parameters, reference.shapes.T, strict=True):
+    for parameters, shape in zip(reference.parameters, reference.shapes, strict=True):
         start = model.subspace.coordinates(shape)
         if isinstance(session, ss.BlendingSession):
             session.put(parameters, start)
@@ -46,8 +46,8 @@ def minimisers(
 def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
     """|x_red - x_full|_M over |x_full - tau|_M of all full solutions, (k,)."""
     shapes = reference.shapes
-    found = np.array(list(minimisers(subspace, reference))).T
-    size = mass_norms(subspace.mass, shapes - subspace.tau[:, None])
+    found = np.array(list(minimisers(subspace, reference)))
+    size = mass_norms(subspace.mass, shapes - subspace.tau)
     errors: FloatArray = mass_norms(subspace.mass, found - shapes) / size
     return errors
 
@@ -55,7 +55,7 @@ def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> Flo
 def projection_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
     """The same of the M-projections of the full solutions, the least that is possible, (k,)."""
     shapes = reference.shapes
-    away = shapes - subspace.tau[:, None]
-    miss = away - subspace.basis @ subspace.coordinates(shapes)
+    away = shapes - subspace.tau
+    miss = away - subspace.coordinates(shapes) @ subspace.basis.T
     errors: FloatArray = mass_norms(subspace.mass, miss) / mass_norms(subspace.mass, away)
     return errors

@@ -79,7 +79,7 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
     training = cached_snapshots(problem, ss.sample(problem.domain, samples, method="sobol"))
     unseen = unseen_parameters(problem.domain, 1, seed=1)
     reference = cached_snapshots(problem, unseen, reference_options(problem))
-    parameters, full = unseen[0], reference.shapes[:, 0]
+    parameters, full = unseen[0], reference.shapes[0]
 
     def add(name: str, d: int | None, x: np.ndarray, paper: tuple[float, float]) -> None:
         value, gradient = problem.value_and_gradient(x, parameters)

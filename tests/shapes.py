@@ -74,8 +74,8 @@ def random_subspace(
 ) -> AffineSubspace:
     """A subspace of random directions, attached to the rest shape or to another shape tau."""
     tau = mesh.vertices.reshape(-1) if tau is None else tau
-    directions = np.random.default_rng(seed).normal(size=(tau.size, dimension))
-    return pca(tau[:, None] + directions, tau, mass_matrix(mesh), dimension=dimension)
+    directions = np.random.default_rng(seed).normal(size=(tau.size, dimension)).T
+    return pca(tau + directions, tau, mass_matrix(mesh), dimension=dimension)
 
 
 def bent(mesh: TetMesh, angle: float, *, twist: float = 0.0) -> FloatArray:

@@ -138,7 +138,7 @@ class GrowingSamples:
         shapes = reduced_solutions(model, parameters) + self.problem.base
         guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
         reports = [guess] * len(parameters)
-        guesses = Snapshots.from_shapes(self.problem, parameters, shapes.T, reports)
+        guesses = Snapshots.from_shapes(self.problem, parameters, shapes, reports)
         return guesses if self._snapshots is None else self._snapshots.joined(guesses)
 
     def projection_errors(self) -> FloatArray:

@@ -15,6 +15,7 @@ from .quality import dihedral_angles, tet_volumes
 from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
 from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
+from .shape_rows import shape_or_rows, shape_rows
 from .surface import boundary_faces, compact_surface, vertex_normals
 from .tet_mesh import TetMesh
 from .write import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
@@ -43,6 +44,8 @@ __all__ = [
     "read_tet_arrays",
     "read_tets",
     "repair_tets",
+    "shape_or_rows",
+    "shape_rows",
     "tet_volumes",
     "vertex_normals",
     "write_surface",

@@ -7,9 +7,11 @@ A shape vector is (n, 3) vertices flattened, x0 y0 z0 x1 ...; its mass matrix is
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.sparse import coo_array, csr_array, diags_array
 
 from .arrays import FloatArray, IndexArray
+from .shape_rows import shape_or_rows, shape_rows
 from .tet_mesh import TetMesh
 
 _EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
@@ -47,15 +49,15 @@ def mass_of_tets(tets: IndexArray, volumes: FloatArray, *, lumped: bool = False)
     return csr_array(above + above.T + diags_array(diagonal))
 
 
-def apply_mass(mass: csr_array, shapes: FloatArray) -> FloatArray:
-    """(M kron I3) times shape vectors.
+def apply_mass(mass: csr_array, shapes: ArrayLike) -> FloatArray:
+    """(M kron I3) times shape vectors, one per row; for a basis U (3n, d) pass U.T.
 
     Parameters
     ----------
     mass : csr_array, (n, n)
         M, from `mass_matrix`.
-    shapes : ndarray, (3n,) or (3n, k)
-        One shape vector, or one per column.
+    shapes : array_like, (3n,) or (k, 3n)
+        One shape vector, or one per row.
 
     Returns
     -------
@@ -65,18 +67,14 @@ def apply_mass(mass: csr_array, shapes: FloatArray) -> FloatArray:
     Raises
     ------
     ValueError
-        If the number of rows is not 3n.
+        For an array of another shape.
     """
-    shapes = np.asarray(shapes, dtype=np.float64)
-    n = mass.shape[0]
-    if shapes.ndim not in (1, 2) or shapes.shape[0] != 3 * n:
-        raise ValueError(
-            f"apply_mass: shapes must be ({3 * n},) or ({3 * n}, k) for a mass matrix of {n} "
-            f"vertices, got {shapes.shape}"
-        )
-    # row 3i + c, column j  ->  row i, column (c, j): the coordinates become right-hand sides
-    product = mass @ shapes.reshape(n, -1)
-    return np.asarray(product, dtype=np.float64).reshape(shapes.shape)
+    x = shape_or_rows(shapes, 3 * mass.shape[0], who="apply_mass")
+    product = np.empty(x.shape)
+    for target, shape in zip(np.atleast_2d(product), np.atleast_2d(x), strict=True):
+        # the three coordinates are right-hand sides
+        target[:] = (mass @ shape.reshape(-1, 3)).reshape(-1)
+    return product
 
 
 def mass_inner(mass: csr_array, a: FloatArray, b: FloatArray) -> float:
@@ -89,14 +87,17 @@ def mass_inner(mass: csr_array, a: FloatArray, b: FloatArray) -> float:
     return float(np.dot(a, apply_mass(mass, b)))
 
 
-def mass_gram(mass: csr_array, a: FloatArray, b: FloatArray) -> FloatArray:
-    """Inner products A^T (M kron I3) B of all columns of (3n, k) and (3n, l): (k, l)."""
-    if np.ndim(a) != 2 or np.ndim(b) != 2:
-        raise ValueError(
-            f"mass_gram: needs two blocks with one shape per column, got {np.shape(a)} and "
-            f"{np.shape(b)}; mass_inner is for two vectors"
-        )
-    return np.asarray(np.asarray(a).T @ apply_mass(mass, b), dtype=np.float64)
+def mass_gram(mass: csr_array, a: ArrayLike, b: ArrayLike) -> FloatArray:
+    """Inner products A (M kron I3) B^T of all rows of (k, 3n) and (l, 3n): (k, l).
+
+    For a basis U (3n, d) pass U.T. Raises ValueError for other shapes, also for two vectors, which
+    `mass_inner` takes.
+    """
+    size = 3 * mass.shape[0]
+    left = shape_rows(a, size, who="mass_gram", what="a")
+    right = shape_rows(b, size, who="mass_gram", what="b")
+    gram: FloatArray = left @ apply_mass(mass, right).T
+    return gram
 
 
 def mass_norm(mass: csr_array, a: FloatArray) -> float:
@@ -108,19 +109,19 @@ def mass_norm(mass: csr_array, a: FloatArray) -> float:
     return float(np.sqrt(np.dot(a, apply_mass(mass, a))))
 
 
-def mass_norms(mass: csr_array, a: FloatArray) -> FloatArray:
-    """Norms of the columns of a (3n, k) block of shapes, (k,)."""
-    if np.ndim(a) != 2:
-        raise ValueError(
-            f"mass_norms: needs a block with one shape per column, got {np.shape(a)}; mass_norm is "
-            "for a vector"
-        )
-    return np.asarray(np.sqrt(np.einsum("ij,ij->j", a, apply_mass(mass, a))), dtype=np.float64)
+def mass_norms(mass: csr_array, a: ArrayLike) -> FloatArray:
+    """Norms (k,) of the rows of a block of shapes (k, 3n).
+
+    Raises ValueError for other shapes, also for a vector, which `mass_norm` takes.
+    """
+    rows = shape_rows(a, 3 * mass.shape[0], who="mass_norms", what="a")
+    norms: FloatArray = np.sqrt(np.einsum("ij,ij->i", rows, apply_mass(mass, rows)))
+    return norms
 
 
 def _check_vector(shape: FloatArray, *, who: str, block: str) -> None:
     if np.ndim(shape) != 1:
         raise ValueError(
             f"{who}: needs shape vectors (3n,), got {np.shape(shape)}; {block} takes one shape per "
-            "column"
+            "row"
         )

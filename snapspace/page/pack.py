@@ -110,8 +110,8 @@ def packed(
 def _modes_in_other(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
     """The d' modes of one model in those of another, (d, d'): the closest ones in the M-norm."""
     subspace = model.subspace
-    shapes = before.subspace.basis + subspace.tau[:, None]
-    return np.ascontiguousarray(subspace.coordinates(shapes), np.float32)
+    coordinates = subspace.coordinates(before.subspace.basis.T + subspace.tau)  # (d', d)
+    return np.ascontiguousarray(coordinates.T, np.float32)
 
 
 def _posing_metadata(model: PosingModel) -> dict[str, Any]:

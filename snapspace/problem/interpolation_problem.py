@@ -132,7 +132,7 @@ class InterpolationProblem:
     def pose_shapes(self) -> FloatArray:
         """The poses registered to the mean shape, (k, 3n): the solutions for one-hot weights."""
         flat = self.poses.shapes.reshape(len(self.poses), -1)
-        return np.ascontiguousarray(registered(flat.T, self.tau, self._mean_mass).T)
+        return registered(flat, self.tau, self._mean_mass)
 
     @cached_property
     def certain_range(self) -> CertainRange | None:
@@ -182,8 +182,8 @@ class InterpolationProblem:
 
     def registered(self, displacements: FloatArray) -> FloatArray:
         """Displacements (k, 3n) of the same shapes after registration to the mean shape."""
-        shapes = (displacements + self.base).T
-        moved: FloatArray = registered(shapes, self.tau, self._mean_mass).T - self.base
+        moved = registered(displacements + self.base, self.tau, self._mean_mass)
+        moved -= self.base
         return moved
 
     def guesses(self, parameters: FloatArray) -> None:
@@ -253,7 +253,7 @@ class InterpolationProblem:
     def _near_poses(self) -> FloatArray:
         """The poses registered to the first one, (k, 3n); the first is itself."""
         flat = self.poses.shapes.reshape(len(self.poses), -1)
-        near = np.ascontiguousarray(registered(flat.T, self.base, mass_matrix(self.mesh)).T)
+        near = registered(flat, self.base, mass_matrix(self.mesh))
         near[0] = self.base
         return near
 

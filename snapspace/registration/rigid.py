@@ -10,6 +10,7 @@ from scipy.sparse import csr_array
 from scipy.spatial.transform import Rotation
 
 from ..blas import single_threaded_blas
+from ..mesh import shape_or_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -93,8 +94,8 @@ def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArra
 
     Parameters
     ----------
-    shapes : array_like, (3n,) or (3n, k)
-        One shape vector, or one per column; each gets its own motion.
+    shapes : array_like, (3n,) or (k, 3n)
+        One shape vector, or one per row; each gets its own motion.
     onto : array_like, (3n,)
     mass : csr_array, (n, n)
         M, from `mass_matrix`.
@@ -111,14 +112,11 @@ def registered(shapes: ArrayLike, onto: ArrayLike, mass: csr_array) -> FloatArra
         For sizes that do not agree, or coordinates that are not finite.
     """
     target = _Target(onto, mass, who="registered")
-    x = np.asarray(shapes, np.float64)
-    if x.ndim not in (1, 2):
-        raise ValueError(f"registered: shapes must be (3n,) or (3n, k), got {x.shape}")
+    x = shape_or_rows(shapes, 3 * mass.shape[0], who="registered")
     result = np.empty(x.shape)
-    for index in np.ndindex(x.shape[1:]):
-        column = (slice(None), *index)
-        points = target.points_of(x[column], f"column {index[0]} of shapes" if index else "shapes")
-        result[column] = target.registration(points, scale=False).apply(points).reshape(-1)
+    for index in np.ndindex(x.shape[:-1]):
+        points = target.points_of(x[index], f"row {index[0]} of shapes" if index else "shapes")
+        result[index] = target.registration(points, scale=False).apply(points).reshape(-1)
     return result
 
 
@@ -138,7 +136,7 @@ class _Target:
 
     def points_of(self, shape: ArrayLike, what: str) -> FloatArray:
         """A shape vector as (n, 3) points; ValueError unless it fits M and is finite."""
-        # contiguous: BLAS rounds strided columns differently
+        # contiguous: BLAS rounds strided vectors differently
         x = np.ascontiguousarray(shape, np.float64)
         n = self._mass.shape[0]
         if x.shape != (3 * n,):

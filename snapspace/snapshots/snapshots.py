@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..displacements import DisplacementRows, SnapshotGram
+from ..mesh import shape_rows
 from ..problem import Problem
 
 FloatArray = NDArray[np.float64]
@@ -71,7 +72,7 @@ class Snapshots:
         if not isinstance(self.displacements, DisplacementRows):
             raise ValueError(
                 f"Snapshots: displacements are a {type(self.displacements).__name__}, but must be "
-                "DisplacementRows; Snapshots.from_shapes takes an array of shapes (3n, k)"
+                "DisplacementRows; Snapshots.from_shapes takes an array of shapes (k, 3n)"
             )
         if self.displacements.size != self.problem.base.size:
             raise ValueError(
@@ -90,26 +91,31 @@ class Snapshots:
         cls,
         problem: Problem,
         parameters: FloatArray,
-        shapes: FloatArray,
+        shapes: ArrayLike,
         reports: Sequence[SampleReport],
     ) -> Snapshots:
-        """From an array of shapes (3n, k), one per column; the displacements are in memory."""
-        displacements = np.ascontiguousarray(shapes.T) - problem.base
-        return cls(problem, parameters, DisplacementRows(displacements, problem.base.size), reports)
+        """From an array of shapes (k, 3n), one per row; the displacements are in memory.
+
+        Raises ValueError for shapes in another layout, and as `Snapshots`.
+        """
+        size = problem.base.size
+        rows = shape_rows(shapes, size, who="Snapshots.from_shapes")
+        displacements = np.subtract(rows, problem.base, order="C")
+        return cls(problem, parameters, DisplacementRows(displacements, size), reports)
 
     def __len__(self) -> int:
         return len(self.reports)
 
     @property
     def shapes(self) -> FloatArray:
-        """All shapes, (3n, k), one per column, positions x0 y0 z0 x1 ...
+        """All shapes, (k, 3n), one per row, positions x0 y0 z0 x1 ...
 
         Each call makes a new array of 24 k n bytes. `displacements` gives single rows, or blocks
         of columns, without the others.
         """
         shapes = self.displacements.array()
         shapes += self.problem.base
-        return shapes.T
+        return shapes
 
     @property
     def converged(self) -> NDArray[np.bool_]:

@@ -11,7 +11,7 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, shared_mass
-from ..mesh import apply_mass
+from ..mesh import apply_mass, shape_or_rows
 
 FloatArray = NDArray[np.float64]
 
@@ -71,10 +71,25 @@ class AffineSubspace:
 
     @single_threaded_blas
     def coordinates(self, shapes: ArrayLike) -> FloatArray:
-        """q = U^T M (x - tau) of the M-projection of shapes (3n,) or (3n, k): (d,) or (d, k)."""
-        x = np.asarray(shapes, np.float64)
-        offset = x - (self.tau if x.ndim == 1 else self.tau[:, None])
-        coordinates: FloatArray = self.basis.T @ apply_mass(self.mass, offset)
+        """Coordinates q = U^T M (x - tau) of the M-projection of shapes.
+
+        Parameters
+        ----------
+        shapes : array_like, (3n,) or (k, 3n)
+            One shape, or one per row.
+
+        Returns
+        -------
+        ndarray
+            (d,), or (k, d) with one sample per row.
+
+        Raises
+        ------
+        ValueError
+            For an array of another shape.
+        """
+        x = shape_or_rows(shapes, self.tau.size, who="AffineSubspace.coordinates")
+        coordinates: FloatArray = apply_mass(self.mass, x - self.tau) @ self.basis
         return coordinates
 
     def row_coordinates(self, displacements: DisplacementRows) -> FloatArray:

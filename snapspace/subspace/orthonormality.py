@@ -27,10 +27,10 @@ def check_orthonormal(subspace: AffineSubspace, *, who: str) -> None:
         )
     if not np.isfinite(subspace.basis).all():
         raise ValueError(f"{who}: the basis of the subspace has numbers that are not finite")
-    probes = np.random.default_rng(0).standard_normal((d, min(d, _PROBES)))
-    probes /= np.linalg.norm(probes, axis=0)
-    images = subspace.basis.T @ apply_mass(subspace.mass, subspace.basis @ probes)
-    deviation = float(np.linalg.norm(images - probes, axis=0).max())
+    probes = np.random.default_rng(0).standard_normal((d, min(d, _PROBES))).T
+    probes /= np.linalg.norm(probes, axis=1, keepdims=True)
+    images = apply_mass(subspace.mass, probes @ subspace.basis.T) @ subspace.basis
+    deviation = float(np.linalg.norm(images - probes, axis=1).max())
     if not deviation <= TOLERANCE:
         raise ValueError(
             f"{who}: the basis of the subspace is not M-orthonormal: U^T M U deviates from the "

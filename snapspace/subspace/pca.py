@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import cholesky, eigh, solve_triangular
 from scipy.sparse import csr_array
 
 from ..blas import single_threaded_blas
 from ..displacements import DisplacementRows, SnapshotGram, orthonormalise
-from ..mesh import mass_norm
+from ..mesh import mass_norm, shape_rows
 from ..problem import PosingProblem, solutions_beyond_tau
 from .affine_subspace import AffineSubspace, check_dimension
 from .handle_products import handle_products
@@ -119,7 +119,7 @@ def snapshot_pca(
 
 
 def pca(
-    shapes: FloatArray,
+    shapes: ArrayLike,
     tau: FloatArray,
     mass: csr_array,
     *,
@@ -131,16 +131,22 @@ def pca(
 
     Parameters
     ----------
-    shapes : (3n, k), one shape per column
+    shapes : (k, 3n), one shape per row
     tau : (3n,), shape through which the subspace goes
     mass : csr_array, (n, n), scalar mass matrix
     dimension, energy_fraction
         As for `snapshot_pca` without handles; result and errors are the same as well.
     gram : (k, k), optional
         Inner products (x_i - tau)^T M (x_j - tau), if they are known.
+
+    Raises
+    ------
+    ValueError
+        For shapes or a Gram matrix of another shape.
     """
     _check_size(dimension, energy_fraction)
-    rows = DisplacementRows(np.subtract(shapes.T, tau, order="C"), tau.size)
+    checked = shape_rows(shapes, tau.size, who="pca")
+    rows = DisplacementRows(np.subtract(checked, tau, order="C"), tau.size)
     if gram is None:
         products = SnapshotGram(mass)
         products.add(rows)

@@ -106,7 +106,7 @@ def split_errors(
                 projection, value_scale=model.value_scale, scale=model.coordinate_scale
             )
         miss = row - (subspace.shape(projection) - subspace.tau)
-        size, least = mass_norms(subspace.mass, np.column_stack([row, miss]))
+        size, least = mass_norms(subspace.mass, np.stack([row, miss]))
         inside = [np.linalg.norm(a - b) for a, b in _part_ends(projection, every, reduced)]
         outside = [np.hypot(least, np.linalg.norm(q - projection)) for q in (every, reduced)]
         target[:] = np.array([least, *inside, *outside]) / size

@@ -55,7 +55,7 @@ def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) ->
         full = subspace.tau + row
         reduced = problem.aligned(subspace.shape(solution), full)
         projected = subspace.shape(projection)
-        misses = np.column_stack([reduced - full, projected - full, row])
+        misses = np.stack([reduced - full, projected - full, row])
         norms = mass_norms(subspace.mass, misses)
         target[:] = norms[:2] / norms[2]
     return errors

@@ -83,7 +83,7 @@ def _lower_minima(
     below = np.array([report.value for report in begun.reports]) < threshold
     if not below.any():
         return {}
-    shapes = begun.select(below).shapes.T
+    shapes = begun.select(below).shapes
     again = _solved_from(model, parameters[below], shapes, options, threads)
     solved = zip(apart[below], threshold[below], again.displacements, again.reports, strict=True)
     return {
@@ -114,5 +114,5 @@ def _solved_from(
     """Full solutions from given shapes (k, 3n)."""
     problem = model.problem
     guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
-    starts = Snapshots.from_shapes(problem, parameters, shapes.T, [guess] * len(shapes))
+    starts = Snapshots.from_shapes(problem, parameters, shapes, [guess] * len(shapes))
     return solve_snapshots(problem, parameters, options=options, threads=threads, known=starts)

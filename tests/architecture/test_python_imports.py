@@ -22,7 +22,7 @@ ALLOWED: dict[str, set[str]] = {
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
     "mesh": {"disk", "input_error", "notice"},
-    "registration": {"blas"},
+    "registration": {"blas", "mesh"},
     "sampling": set(),
     "pictures": {"disk", "extras"},
     "stuffing": {"mesh"},

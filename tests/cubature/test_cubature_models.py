@@ -93,8 +93,8 @@ def test_a_drag_there_and_back_ends_where_it_started(cubature_model: PosingModel
     there = session.vertices
     for euler in [*path[::-1], *path]:
         session.move("head", euler=euler)
-    size = mass_norms(cubature_model.subspace.mass, (there - path[0]).reshape(-1, 1))
-    miss = mass_norms(cubature_model.subspace.mass, (session.vertices - there).reshape(-1, 1))
+    size = mass_norms(cubature_model.subspace.mass, (there - path[0]).reshape(1, -1))
+    miss = mass_norms(cubature_model.subspace.mass, (session.vertices - there).reshape(1, -1))
     assert miss < 1e-3 * size
 
 

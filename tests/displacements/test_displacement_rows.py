@@ -115,8 +115,9 @@ def snapshots() -> Snapshots:
 
 def test_snapshots_convert_to_shapes_and_back(snapshots: Snapshots) -> None:
     base = snapshots.problem.base
-    assert snapshots.shapes.shape == (base.size, 4)
-    np.testing.assert_array_equal(snapshots.shapes[:, 2], base + snapshots.displacements[2])
+    assert snapshots.shapes.shape == (4, base.size)
+    assert snapshots.shapes.flags.c_contiguous
+    np.testing.assert_array_equal(snapshots.shapes[2], base + snapshots.displacements[2])
     again = Snapshots.from_shapes(
         snapshots.problem, snapshots.parameters, snapshots.shapes, snapshots.reports
     )
@@ -128,7 +129,7 @@ def test_snapshots_convert_to_shapes_and_back(snapshots: Snapshots) -> None:
 def test_selecting_copies_no_shape(snapshots: Snapshots) -> None:
     some = snapshots.select(np.array([True, False, False, True]))
     assert np.shares_memory(some.displacements[1], snapshots.displacements[3])
-    np.testing.assert_array_equal(some.shapes, snapshots.shapes[:, [0, 3]])
+    np.testing.assert_array_equal(some.shapes, snapshots.shapes[[0, 3]])
     assert some.reports == [snapshots.reports[0], snapshots.reports[3]]
     assert len(some.select(np.zeros(2, bool))) == 0
 
@@ -144,3 +145,5 @@ def test_snapshots_that_do_not_fit_are_refused(snapshots: Snapshots) -> None:
         Snapshots(problem, w, rows[:3], reports)
     with pytest.raises(ValueError, match="4 displacements and 0 reports, but each sample needs"):
         Snapshots(problem, w, rows, [])
+    with pytest.raises(ValueError, match=r"from_shapes: .* one shape per row; .*: shapes\.T"):
+        Snapshots.from_shapes(problem, w, snapshots.shapes.T, reports)

@@ -43,7 +43,7 @@ def model_of(snapshots: Snapshots, dimension: int) -> ReducedModel:
 
 
 def norms(model: ReducedModel, rows: FloatArray) -> FloatArray:
-    return mass_norms(model.problem.mass(), rows.T)
+    return mass_norms(model.problem.mass(), rows)
 
 
 def test_the_estimate_vanishes_where_reduced_and_full_solutions_agree() -> None:

@@ -101,7 +101,7 @@ def test_bounds_of_single_handles_survive(tmp_path: Path) -> None:
 def test_a_model_without_snapshots_survives(tmp_path: Path) -> None:
     problem = posing_bar()
     tau = problem.mesh.vertices.reshape(-1)
-    shapes = tau[:, None] + np.random.default_rng(0).normal(size=(tau.size, 2))
+    shapes = tau + np.random.default_rng(0).normal(size=(2, tau.size))
     made = reduce(problem, pca(shapes, tau, mass_matrix(problem.mesh), dimension=2), threads=1)
     again = load(made.save(tmp_path / "m.snapspace"))
     assert_same_model(again, made)

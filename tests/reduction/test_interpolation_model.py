@@ -183,7 +183,7 @@ def test_the_training_data_are_the_samples_and_the_poses(
         missed = mass_norm(subspace.mass, subspace.shape(q) - pose)
         assert missed < 1e-4 * mass_norm(subspace.mass, pose - subspace.tau)
     solved = solve_snapshots(problem, parameters[:3], threads=1)
-    for q, shape in zip(coordinates[:3], solved.shapes.T, strict=True):
+    for q, shape in zip(coordinates[:3], solved.shapes, strict=True):
         assert np.linalg.norm(q - subspace.coordinates(shape)) < 1e-3 * np.linalg.norm(q)
 
 
@@ -231,6 +231,6 @@ def test_a_subspace_of_another_shape_is_refused(blending_model: InterpolationMod
     with pytest.raises(ValueError, match=re.escape(message)):
         reduce(problem, random_subspace(problem.mesh, 4))
     nearby = problem.tau + 1e-12
-    shapes = deformed(problem.mesh, 0.1)[:, None]
+    shapes = deformed(problem.mesh, 0.1)[None]
     with pytest.raises(ValueError, match=re.escape(message)):
         reduce(problem, pca(shapes, nearby, problem.mass(), dimension=1))

@@ -46,7 +46,7 @@ def test_training_coordinates_are_those_of_the_snapshots(posing_model: ReducedMo
     subspace = posing_model.subspace
     rng = np.random.default_rng(4)
     parameters, coordinates = rng.normal(size=(5, 12)), rng.normal(size=(5, 20))
-    shapes = subspace.tau[:, None] + subspace.basis @ coordinates.T
+    shapes = subspace.tau + coordinates @ subspace.basis.T
     reports = [SampleReport("converged", 1, 1, 0.0, 0.0, 0.0, 0.0, 0)] * 5
     snapshots = Snapshots.from_shapes(posing_model.problem, parameters, shapes, reports)
     model = reduce(posing_model.problem, subspace, snapshots=snapshots)

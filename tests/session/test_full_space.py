@@ -37,7 +37,7 @@ def test_all_directions_together_give_the_full_solution(solver: str) -> None:
 
     model = reduce(problem, random_subspace(mesh, 60), energy="exact", threads=1)
     session = model.session(tolerance=1e-14)
-    for parameters, shape, report in zip(w, full.shapes.T, full.reports, strict=True):
+    for parameters, shape, report in zip(w, full.shapes, full.reports, strict=True):
         session.reset()
         frame = session.pose(parameters)
         assert frame.converged

@@ -62,7 +62,7 @@ def test_a_polished_shape_is_lower_and_nearer_to_the_full_solution(session: Sess
     tight = SolverOptions(tolerance=1e-12, max_iterations=5000)
     solved = solve_snapshots(problem, parameters, options=tight)
     left = []
-    for w, shape in zip(parameters, solved.shapes.T, strict=True):
+    for w, shape in zip(parameters, solved.shapes, strict=True):
         frame = framed(session, w).vertices.reshape(-1)
         before, value = mass_norm(mass, problem.aligned(frame, shape) - shape), np.inf
         row = []

@@ -48,7 +48,7 @@ def old() -> Snapshots:
 def given_shapes(problem: PosingProblem, w: FloatArray, shapes: FloatArray) -> Snapshots:
     """Snapshots of any shapes (k, 3n), as if they were solutions."""
     report = SampleReport("converged", 9, 11, 1.0, 1e-3, 1e-6, 0.1, 0)
-    return Snapshots.from_shapes(problem, w, shapes.T, [report] * len(w))
+    return Snapshots.from_shapes(problem, w, shapes, [report] * len(w))
 
 
 def following(problem: PosingProblem, w: FloatArray, *, seed: int = 0) -> FloatArray:
@@ -69,7 +69,7 @@ def test_handles_that_moved_rigidly_are_found_exactly(w: FloatArray, seed: int) 
     x = following(new, w, seed=seed)
     result = carry_over(given_shapes(PROBLEM, np.zeros((1, 12)), x[None]), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
-    np.testing.assert_array_equal(result.shapes[:, 0], x)
+    np.testing.assert_array_equal(result.shapes[0], x)
     assert new.handle_energy(x, new.offsets(result.parameters[0])) < 1e-22
 
 
@@ -86,7 +86,7 @@ def test_motions_count_from_the_handle_that_is_fixed(
     other = PROBLEM.with_handles(Handles([X < 0.1, (X > 0.4) & (X < 0.6)]))
     result = carry_over(given_shapes(other, np.zeros((1, 6)), there), new)
     np.testing.assert_allclose(result.parameters[0], w, rtol=0, atol=1e-12)
-    np.testing.assert_allclose(result.shapes[:, 0], x, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(result.shapes[0], x, rtol=0, atol=1e-12)
 
 
 def test_the_same_handles_keep_every_bit(old: Snapshots) -> None:
@@ -118,7 +118,7 @@ def test_no_motion_nearby_fits_better(old: Snapshots) -> None:
     new = PROBLEM.with_handles(Handles([X < 0.3, X > 0.6]))
     result = carry_over(old, new)
     rng = np.random.default_rng(0)
-    for w, x in zip(result.parameters, result.shapes.T, strict=True):
+    for w, x in zip(result.parameters, result.shapes, strict=True):
         best = new.value_and_gradient(x, w)[0]
         for _ in range(20):
             other = new.value_and_gradient(x, w + 1e-3 * rng.normal(size=w.size))[0]
@@ -133,7 +133,7 @@ def test_fixing_another_handle_moves_solutions_rigidly(old: Snapshots, name: str
     assert list(result.reports) == list(old.reports)
     mass = PROBLEM.mass()
     for w, x, before, report in zip(
-        result.parameters, result.shapes.T, old.shapes.T, old.reports, strict=True
+        result.parameters, result.shapes, old.shapes, old.reports, strict=True
     ):
         assert np.abs(x - before).max() > 0.1
         back = rigid_registration(x, before, mass).apply(x)
@@ -177,7 +177,7 @@ def test_a_fitted_handle_is_off_by_its_softness() -> None:
 def test_a_point_has_no_rotation(old: Snapshots) -> None:
     vertex = int(np.flatnonzero(KNEE)[0])
     result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("point", [vertex])))
-    moved = old.shapes.T.reshape(len(old), -1, 3)[:, vertex] - MESH.vertices[vertex]
+    moved = old.shapes.reshape(len(old), -1, 3)[:, vertex] - MESH.vertices[vertex]
     np.testing.assert_allclose(result.parameters[:, 12:15], moved, rtol=0, atol=1e-14)
     assert not result.parameters[:, 15:].any()
 
@@ -187,7 +187,7 @@ def test_a_line_takes_the_smallest_rotation(old: Snapshots) -> None:
     pair = np.flatnonzero(KNEE)[[0, -1]]
     result = carry_over(old, PROBLEM.with_handles(HANDLES.adding("line", pair)))
     before = np.subtract(*MESH.vertices[pair])
-    for w, x in zip(result.parameters, result.shapes.T, strict=True):
+    for w, x in zip(result.parameters, result.shapes, strict=True):
         after = np.subtract(*x.reshape(-1, 3)[pair])
         cosine = before @ after / (np.linalg.norm(before) * np.linalg.norm(after))
         rotation = rotation_matrix(w[15:])
@@ -209,7 +209,7 @@ def test_an_added_handle_exerts_little_force() -> None:
     new = problem.with_handles(problem.handles.adding("knee", knee))
     result = carry_over(solved(problem), new)
     iterations = []
-    for starts in (result.shapes.T - new.base, np.zeros_like(result.shapes.T)):
+    for starts in (result.shapes - new.base, np.zeros_like(result.shapes)):
         batch = core_solve(
             new,
             "fast",
@@ -240,7 +240,7 @@ def failing(snapshots: Snapshots, *failed: int) -> Snapshots:
 def test_snapshots_that_did_not_converge_are_left_out(old: Snapshots) -> None:
     new = PROBLEM.with_handles(HANDLES.without("belly"))
     result = carry_over(failing(old, 1, 3), new)
-    np.testing.assert_array_equal(result.shapes, old.shapes[:, [0, 2, 4]])
+    np.testing.assert_array_equal(result.shapes, old.shapes[[0, 2, 4]])
     twice = carry_over(result, PROBLEM)
     assert [report.status for report in twice.reports] == ["carried"] * 3
 

@@ -42,7 +42,7 @@ def solutions(problem: PosingProblem, samples: FloatArray) -> FloatArray:
 
 def errors(problem: PosingProblem, found: FloatArray, exact: FloatArray) -> FloatArray:
     mass = problem.mass()
-    return np.asarray(mass_norms(mass, (found - exact).T) / mass_norms(mass, exact.T))
+    return np.asarray(mass_norms(mass, found - exact) / mass_norms(mass, exact))
 
 
 @pytest.mark.parametrize("angle", [0.1, 1.0, np.pi, 6.0, 12.0])

@@ -37,7 +37,7 @@ def solve(
     """Shapes (k, 3n) of converged solves."""
     solved = solve_snapshots(problem, weights, options=tight(solver), threads=1)
     assert solved.converged.all()
-    return np.ascontiguousarray(solved.shapes.T)
+    return solved.shapes
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -70,7 +70,7 @@ def test_rigidly_moved_copies_give_a_rigid_copy(solver: Solver) -> None:
 def test_one_hot_weights_give_back_the_pose(solver: Solver) -> None:
     solved = solve_snapshots(PROBLEM, np.eye(3), options=SolverOptions(solver=solver), threads=1)
     assert solved.converged.all()
-    assert solved.shapes.T == pytest.approx(PROBLEM.pose_shapes, abs=1e-9)
+    assert solved.shapes == pytest.approx(PROBLEM.pose_shapes, abs=1e-9)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -111,7 +111,7 @@ def test_fast_and_newton_agree_on_the_minimum() -> None:
     values = [report.value for report in newton.reports]
     assert [report.value for report in fast.reports] == pytest.approx(values, rel=1e-6)
     assert fast.shapes == pytest.approx(newton.shapes, abs=1e-5)
-    for w, x, report in zip(weights, newton.shapes.T, newton.reports, strict=True):
+    for w, x, report in zip(weights, newton.shapes, newton.reports, strict=True):
         value, gradient = PROBLEM.value_and_gradient(x, w)
         tension = max(np.linalg.norm(PROBLEM.value_and_gradient(x, e)[1]) for e in np.eye(3))
         assert report.value == pytest.approx(value, rel=1e-9)
@@ -171,7 +171,7 @@ def test_the_volume_stays_from_cylinder_to_helix(coil: InterpolationProblem) -> 
     def volumes(shapes: list[FloatArray]) -> FloatArray:
         return np.array([tet_volumes(x.reshape(-1, 3), coil.poses.tets).sum() for x in shapes])
 
-    assert np.abs(volumes(list(solved.shapes.T)) / ends - 1).max() < 0.05
+    assert np.abs(volumes(list(solved.shapes)) / ends - 1).max() < 0.05
     linear = volumes([coil.linear_blend(w) for w in weights]) / ends
     assert linear[4] < 0.7
     assert linear.min() == pytest.approx(0.38, abs=0.02)
@@ -181,5 +181,5 @@ def test_the_path_from_cylinder_to_helix_has_no_jumps(coil: InterpolationProblem
     """All samples end in one family of minima, so consecutive steps are alike."""
     share = np.linspace(0, 1, 41)
     solved = solve_snapshots(coil, np.column_stack([1 - share, share]), threads=1)
-    steps = np.linalg.norm(np.diff(solved.shapes, axis=1), axis=0)
+    steps = np.linalg.norm(np.diff(solved.shapes, axis=0), axis=1)
     assert np.abs(np.diff(np.log(steps))).max() < 0.2

@@ -54,7 +54,7 @@ def test_solves_converge(height: float) -> None:
     weights = np.array([[0.5, 0.5], [0.2, 0.8], [0.05, 0.95], [0.9, 0.1]])
     solved = solve_snapshots(problem, weights, threads=1)
     assert solved.converged.all(), solved.summary()
-    for w, shape in zip(weights, solved.shapes.T, strict=True):
+    for w, shape in zip(weights, solved.shapes, strict=True):
         value, gradient = problem.value_and_gradient(shape, w)
         known = min(problem.value_and_gradient(x, w)[0] for x in problem.pose_shapes)
         assert 0 < value < known

@@ -44,9 +44,9 @@ def values(snapshots: Snapshots) -> FloatArray:
 
 def error(snapshots: Snapshots, limit: Snapshots) -> FloatArray:
     """Distances from the limit, relative to the displacement from rest."""
-    rest = limit.problem.mesh.vertices.reshape(-1, 1)
-    distance = np.linalg.norm(snapshots.shapes - limit.shapes, axis=0)
-    relative: FloatArray = distance / np.linalg.norm(limit.shapes - rest, axis=0)
+    rest = limit.problem.mesh.vertices.reshape(-1)
+    distance = np.linalg.norm(snapshots.shapes - limit.shapes, axis=1)
+    relative: FloatArray = distance / np.linalg.norm(limit.shapes - rest, axis=1)
     return relative
 
 
@@ -84,24 +84,24 @@ def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str) -> None
         "Newton-CG": {"hessp": hessian_product, "options": {"xtol": 1e-12}},
         "L-BFGS-B": {"options": {"maxiter": 20_000, "maxfun": 20_000, "ftol": 0.0, "gtol": 1e-10}},
     }
-    for column in range(2):
+    for row in range(2):
         found = minimize(
             problem.value_and_gradient,
             problem.mesh.vertices.reshape(-1),
-            args=(minimisers.parameters[column],),
+            args=(minimisers.parameters[row],),
             jac=True,
             method=method,
             **methods[method],
         )
-        np.testing.assert_allclose(minimisers.reports[column].value, found.fun, rtol=1e-12)
-        np.testing.assert_allclose(minimisers.shapes[:, column], found.x, rtol=0, atol=1e-6)
+        np.testing.assert_allclose(minimisers.reports[row].value, found.fun, rtol=1e-12)
+        np.testing.assert_allclose(minimisers.shapes[row], found.x, rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_no_force_is_left(problem: PosingProblem, samples: FloatArray, solver: Solver) -> None:
     """Elastic and handle forces balance to 1e-6 of either, by the problem's own gradient."""
     solved = solve_snapshots(problem, samples, options=tight(solver), threads=1)
-    for w, x, report in zip(samples, solved.shapes.T, solved.reports, strict=True):
+    for w, x, report in zip(samples, solved.shapes, solved.reports, strict=True):
         value, gradient = problem.value_and_gradient(x, w)
         _, elastic = problem.energy.value_and_gradient(x)
         left, scale = float(np.linalg.norm(gradient)), float(np.linalg.norm(elastic))
@@ -186,7 +186,7 @@ def test_warm_starts_change_iterations_not_energies(minimisers: Snapshots) -> No
         for block in (96, 12)
     )
     # the first two blocks wait for no other block
-    np.testing.assert_array_equal(cold.shapes[:, :24], warm.shapes[:, :24])
+    np.testing.assert_array_equal(cold.shapes[:24], warm.shapes[:24])
     np.testing.assert_allclose(values(warm), values(cold), rtol=1e-10)
     # the last three have 27 starts or more; fewer do not improve a bar's good guesses
     iterations = [[r.iterations for r in s.reports[60:]] for s in (cold, warm)]

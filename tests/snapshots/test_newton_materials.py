@@ -74,7 +74,7 @@ def test_no_force_is_left(kind: type[Material]) -> None:
     samples = parameters(problem, SAMPLES)
     found = solve_snapshots(problem, samples, options=tight("newton"), threads=1)
     assert found.converged.all()
-    for w, x, report in zip(samples, found.shapes.T, found.reports, strict=True):
+    for w, x, report in zip(samples, found.shapes, found.reports, strict=True):
         value, gradient = problem.value_and_gradient(x, w)
         _, elastic = problem.energy.value_and_gradient(x)
         assert np.linalg.norm(gradient) < 1e-6 * np.linalg.norm(elastic)

@@ -88,10 +88,10 @@ def projection_error(
 ) -> float | None:
     """Median error of samples in the best subspace of all earlier ones, from dense shapes alone."""
     good = snapshots.converged
-    known = solutions_beyond_tau(problem)[1].T
+    known = solutions_beyond_tau(problem)[1]
     # in these coordinates the M-norm is the Euclidean one
     root = np.kron(np.linalg.cholesky(problem.mass().toarray()).T, np.eye(3))
-    shapes, known = (root @ (x - problem.tau[:, None]) for x in (snapshots.shapes, known))
+    shapes, known = (root @ (x - problem.tau).T for x in (snapshots.shapes, known))
     training = np.hstack([shapes[:, :before][:, good[:before]], known])
     unseen = shapes[:, before:stop][:, good[before:stop]]
     if not training.shape[1] or not unseen.shape[1]:

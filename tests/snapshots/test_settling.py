@@ -33,7 +33,7 @@ def solved(problem: PosingProblem, **options: Any) -> Snapshots:
 
 def errors(snapshots: Snapshots, limit: Snapshots) -> NDArray[np.float64]:
     """Errors in the M-norm, relative to the displacement."""
-    mass, rest = limit.problem.mass(), limit.problem.base[:, None]
+    mass, rest = limit.problem.mass(), limit.problem.base
     misses: NDArray[np.float64] = mass_norms(mass, snapshots.shapes - limit.shapes)
     return misses / mass_norms(mass, limit.shapes - rest)
 

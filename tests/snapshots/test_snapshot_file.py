@@ -26,7 +26,7 @@ def test_everything_is_read_again(posing_snapshots: Snapshots, tmp_path: Path) -
     path = written(posing_snapshots, tmp_path)
     found, few = load_snapshots(path, posing_snapshots.problem), np.arange(60) < 4
     np.testing.assert_array_equal(found.parameters, posing_snapshots.parameters[few])
-    np.testing.assert_array_equal(found.shapes, posing_snapshots.shapes[:, few])
+    np.testing.assert_array_equal(found.shapes, posing_snapshots.shapes[few])
     assert found.reports == list(posing_snapshots.reports[:4])
     assert list(tmp_path.iterdir()) == [path], "no temporary file is left"
     content = path.read_bytes()

@@ -56,7 +56,7 @@ def test_carried_snapshots_are_usable_but_not_converged(
 def test_carried_snapshots_are_part_of_the_basis(fresh: Snapshots, from_before: Snapshots) -> None:
     both = fresh.joined(from_before)
     subspace = snapshot_pca(both, dimension=7)
-    again = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(both.shapes)
+    again = subspace.tau + subspace.coordinates(both.shapes) @ subspace.basis.T
     np.testing.assert_allclose(again, both.shapes, rtol=0, atol=1e-9)
 
 

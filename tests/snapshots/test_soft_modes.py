@@ -86,8 +86,8 @@ def test_the_minimum_does_not_depend_on_the_seed() -> None:
         ).shapes
         for soft in (True, False)
     ]
-    displacements = np.linalg.norm(shapes[0] - problem.base[:, None], axis=0)
-    misses = np.linalg.norm(shapes[0] - shapes[1], axis=0) / displacements
+    displacements = np.linalg.norm(shapes[0] - problem.base, axis=1)
+    misses = np.linalg.norm(shapes[0] - shapes[1], axis=1) / displacements
     assert np.median(misses) < 1e-3, misses
 
 

@@ -33,7 +33,7 @@ def test_a_tiny_budget_is_reported(solver: Solver, precision: Precision, roundin
         "1 of 6 samples converged, 5 max_iterations, 2 iterations on average, "
         "at most 0 inverted tets"
     )
-    for w, x, report in zip(samples, solved.shapes.T, solved.reports, strict=True):
+    for w, x, report in zip(samples, solved.shapes, solved.reports, strict=True):
         value, gradient = problem.value_and_gradient(x, w)  # the report is of the returned shape
         assert report.value == pytest.approx(value, rel=rounding)
         norm = float(np.linalg.norm(gradient))
@@ -49,7 +49,7 @@ def test_unconverged_snapshots_start_no_others(solver: Solver) -> None:
     after = solve_snapshots(problem, samples, options=options, threads=1)
     alone = solve_snapshots(problem, samples[8:], options=options, threads=1)
     assert not after.converged.any()
-    np.testing.assert_array_equal(after.shapes[:, 8:], alone.shapes)
+    np.testing.assert_array_equal(after.shapes[8:], alone.shapes)
 
 
 def test_unconverged_snapshots_are_left_out_of_the_basis() -> None:
@@ -74,7 +74,7 @@ def test_inverted_tets_are_counted() -> None:
     problem = posing_bar(bound=3.0)
     solved = solve_snapshots(problem, [[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0]], threads=1)
     assert solved.reports[0].inverted_tets > 0
-    assert solved.reports[0].inverted_tets == problem.energy.inverted_tets(solved.shapes[:, 0])
+    assert solved.reports[0].inverted_tets == problem.energy.inverted_tets(solved.shapes[0])
     assert f"at most {solved.reports[0].inverted_tets} inverted tets" in solved.summary()
 
 

@@ -37,7 +37,7 @@ def test_no_motion_is_the_rest_shape(solver: Solver) -> None:
     report = solved.reports[0]
     assert report.converged and report.iterations <= 1
     assert report.value == 0.0
-    np.testing.assert_array_equal(solved.shapes[:, 0], problem.mesh.vertices.reshape(-1))
+    np.testing.assert_array_equal(solved.shapes[0], problem.mesh.vertices.reshape(-1))
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
@@ -84,7 +84,7 @@ def test_symmetric_motions_give_symmetric_shapes(solver: Solver) -> None:
     motions = np.array([[0.2, 0.0, 0.0, 0, 0, 0], [-0.1, 0.15, 0.15, 0, 0, 0]])
     solved = solve_snapshots(problem, motions, options=tight(solver), threads=1)
     assert solved.converged.all()
-    for shape in solved.shapes.T.reshape(2, -1, 3):
+    for shape in solved.shapes.reshape(2, -1, 3):
         np.testing.assert_allclose(shape[image][:, [0, 2, 1]], shape, atol=1e-7)
 
 
@@ -94,7 +94,7 @@ def test_mirrored_motions_give_mirrored_shapes(solver: Solver) -> None:
     problem = posing_bar()
     motions = np.array([[0.1, 0.2, -0.05, 0.2, 0, 0], [0.1, -0.05, 0.2, -0.2, 0, 0]])
     solved = solve_snapshots(problem, motions, options=tight(solver), threads=1)
-    one, other = solved.shapes.T.reshape(2, -1, 3)
+    one, other = solved.shapes.reshape(2, -1, 3)
     np.testing.assert_allclose(other, one[mirrored(problem)][:, [0, 2, 1]], atol=1e-7)
     assert np.abs(other - one).max() > 0.1
 

@@ -22,7 +22,7 @@ def directions(count: int, *, seed: int = 0) -> FloatArray:
 
 
 def products(basis: FloatArray) -> FloatArray:
-    return basis.T @ apply_mass(PROBLEM.mass(), basis)
+    return basis.T @ apply_mass(PROBLEM.mass(), basis.T).T
 
 
 def left(directions: FloatArray, basis: FloatArray) -> float:
@@ -48,7 +48,7 @@ def test_leading_columns_span_leading_directions_and_keep_their_signs() -> None:
     basis = affine_subspace(given, PROBLEM).basis
     for k in range(1, 6):
         assert left(given[:, :k], basis[:, :k]) < 1e-12
-    assert (np.diag(basis.T @ apply_mass(PROBLEM.mass(), given)) > 0).all()
+    assert (np.diag(basis.T @ apply_mass(PROBLEM.mass(), given.T).T) > 0).all()
 
 
 def test_nearly_dependent_directions_give_an_orthonormal_basis() -> None:
@@ -84,7 +84,7 @@ def test_the_subspace_of_poses_contains_the_mean_shape() -> None:
     subspace = affine_subspace(np.random.default_rng(1).normal(size=(problem.tau.size, 3)), problem)
     np.testing.assert_array_equal(subspace.tau, problem.tau)
     mass = problem.mass()
-    gram = subspace.basis.T @ apply_mass(mass, subspace.basis)
+    gram = subspace.basis.T @ apply_mass(mass, subspace.basis.T).T
     assert gram == pytest.approx(np.eye(3), abs=1e-13)
 
 

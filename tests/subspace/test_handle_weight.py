@@ -52,7 +52,7 @@ def test_handles_count_for_more_than_their_mass(snapshots: Snapshots, weight: fl
     expected = pca(snapshots.shapes, problem.tau, heavy, dimension=6).basis
     for d in range(1, 7):
         assert subspace_angles(subspace.basis[:, :d], expected[:, :d]).max() < 1e-6
-    gram = mass_gram(problem.mass(), subspace.basis, subspace.basis)
+    gram = mass_gram(problem.mass(), subspace.basis.T, subspace.basis.T)
     np.testing.assert_allclose(gram, np.eye(6), rtol=0, atol=1e-12)
 
 
@@ -87,10 +87,10 @@ def test_energies_beyond_a_dimension_sum_to_its_squared_error(
     snapshots: Snapshots, weight: float
 ) -> None:
     subspace = snapshot_pca(snapshots, dimension=6, handle_weight=weight)
-    displacements = snapshots.shapes - subspace.tau[:, None]
+    displacements = snapshots.shapes - subspace.tau
     for d in range(1, 7):
         smaller = subspace.leading(d)
-        left = displacements - smaller.basis @ smaller.coordinates(snapshots.shapes)
+        left = displacements - smaller.coordinates(snapshots.shapes) @ smaller.basis.T
         expected = mass_gram(subspace.mass, left, left).trace()
         energies = smaller.snapshot_energies
         assert energies is not None

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, identity
 
 from snapspace import AffineSubspace, pca
-from snapspace.mesh import mass_gram, mass_matrix, mass_norms
+from snapspace.mesh import mass_gram, mass_matrix, mass_norm, mass_norms
 
 from ..shapes import CORNER_TET, irregular_bar
 
@@ -24,23 +24,23 @@ MASSES = {"consistent": mass_matrix(MESH), "lumped": mass_matrix(MESH, lumped=Tr
 
 
 def planted(amplitudes: FloatArray, count: int, *, seed: int = 0) -> FloatArray:
-    """Snapshots (3n, count) around TAU in a random space with one amplitude per direction."""
+    """Snapshots (count, 3n) around TAU in a random space with one amplitude per direction."""
     rng = np.random.default_rng(seed)
     directions = rng.normal(size=(TAU.size, len(amplitudes)))
     weights = rng.normal(size=(len(amplitudes), count))
-    return TAU[:, None] + directions @ (amplitudes[:, None] * weights)
+    return TAU + (directions @ (amplitudes[:, None] * weights)).T
 
 
 def squared_error(shapes: FloatArray, basis: FloatArray, mass: csr_array) -> float:
     """Sum of the squared M-distances of the snapshots from tau + span of an M-orthonormal basis."""
-    displacements = shapes - TAU[:, None]
-    left = displacements - basis @ mass_gram(mass, basis, displacements)
+    displacements = shapes - TAU
+    left = displacements - mass_gram(mass, displacements, basis.T) @ basis.T
     return float((mass_norms(mass, left) ** 2).sum())
 
 
 def angles(a: FloatArray, b: FloatArray, mass: csr_array) -> FloatArray:
     """Sines of the principal angles between two M-orthonormal bases."""
-    left = b - a @ mass_gram(mass, a, b)
+    left = b.T - mass_gram(mass, b.T, a.T) @ a.T
     return np.asarray(np.sqrt(np.maximum(np.linalg.eigvalsh(mass_gram(mass, left, left)), 0.0)))
 
 
@@ -48,13 +48,13 @@ def test_by_hand() -> None:
     """Four unit masses: snapshots 3 e1, -4 e1, 2 e2 have eigenvalues 25 and 4 along e1 and e2."""
     tau = CORNER_TET.reshape(-1)
     e1, e2 = np.eye(12)[[0, 7]]
-    shapes = tau[:, None] + np.column_stack([3 * e1, -4 * e1, 2 * e2])
+    shapes = tau + np.stack([3 * e1, -4 * e1, 2 * e2])
     subspace = pca(shapes, tau, csr_array(identity(4)), dimension=2)
     np.testing.assert_allclose(subspace.snapshot_energies, [25.0, 4.0, 0.0], atol=1e-12)
     np.testing.assert_allclose(subspace.basis, np.column_stack([e1, e2]), atol=1e-12)
     coordinates = subspace.coordinates(shapes)
-    np.testing.assert_allclose(coordinates, [[3, -4, 0], [0, 0, 2]], atol=1e-12)
-    np.testing.assert_allclose(subspace.shape([3.0, 0.0]), shapes[:, 0], atol=1e-12)
+    np.testing.assert_allclose(coordinates, [[3, 0], [-4, 0], [0, 2]], atol=1e-12)
+    np.testing.assert_allclose(subspace.shape([3.0, 0.0]), shapes[0], atol=1e-12)
     assert subspace.leading(1).energy_fraction == pytest.approx(25 / 29)
 
 
@@ -63,7 +63,7 @@ def test_orthonormal_over_six_decades(mass: csr_array) -> None:
     """The Gram matrix alone would leave an error of 1e-4 in the last direction."""
     shapes = planted(10.0 ** -np.arange(7.0), 20)
     subspace = pca(shapes, TAU, mass, dimension=7)
-    gram = mass_gram(mass, subspace.basis, subspace.basis)
+    gram = mass_gram(mass, subspace.basis.T, subspace.basis.T)
     np.testing.assert_allclose(gram, np.eye(7), rtol=0, atol=1e-12)
     # the space contains every planted direction, even the weakest
     assert squared_error(shapes, subspace.basis, mass) < 1e-20 * subspace.snapshot_energies[0]
@@ -80,7 +80,7 @@ def test_error_is_the_sum_of_the_discarded_eigenvalues(mass: csr_array, dimensio
         rtol=1e-6,
         atol=1e-13 * subspace.snapshot_energies[0],
     )
-    total = (mass_norms(mass, shapes - TAU[:, None]) ** 2).sum()
+    total = (mass_norms(mass, shapes - TAU) ** 2).sum()
     assert subspace.snapshot_energies.sum() == pytest.approx(total, rel=1e-12)
     kept = 1.0 - squared_error(shapes, subspace.basis, mass) / total
     assert subspace.energy_fraction == pytest.approx(kept, abs=1e-12)
@@ -107,9 +107,9 @@ def test_beats_random_subspaces() -> None:
     best = squared_error(shapes, pca(shapes, TAU, mass, dimension=4).basis, mass)
     for seed in range(20):
         rng = np.random.default_rng(seed)
-        mixed = (shapes - TAU[:, None]) @ rng.normal(size=(12, 4))
-        for directions in (mixed, rng.normal(size=(TAU.size, 4))):
-            other = pca(TAU[:, None] + directions, TAU, mass, dimension=4)
+        mixed = rng.normal(size=(12, 4)).T @ (shapes - TAU)
+        for directions in (mixed, rng.normal(size=(TAU.size, 4)).T):
+            other = pca(TAU + directions, TAU, mass, dimension=4)
             assert squared_error(shapes, other.basis, mass) > 1.001 * best
 
 
@@ -122,13 +122,13 @@ def test_for_any_snapshots(seed: int, count: int, dimension: int) -> None:
     shapes = planted(rng.uniform(0.1, 1.0, 5), count, seed=seed)
     subspace = pca(shapes, TAU, mass, dimension=dimension)
     scale = subspace.snapshot_energies[0]
-    gram = mass_gram(mass, subspace.basis, subspace.basis)
+    gram = mass_gram(mass, subspace.basis.T, subspace.basis.T)
     np.testing.assert_allclose(gram, np.eye(dimension), rtol=0, atol=1e-12)
     assert squared_error(shapes, subspace.basis, mass) == pytest.approx(
         subspace.snapshot_energies[dimension:].sum(), rel=1e-9, abs=1e-12 * scale
     )
 
-    shuffled = pca(shapes[:, rng.permutation(count)], TAU, mass, dimension=dimension)
+    shuffled = pca(shapes[rng.permutation(count)], TAU, mass, dimension=dimension)
     np.testing.assert_allclose(
         shuffled.snapshot_energies, subspace.snapshot_energies, atol=1e-13 * scale
     )
@@ -146,8 +146,8 @@ def test_signs_are_fixed() -> None:
     shapes = planted(np.array([3.0, 1.0, 0.4, 0.1]), 9)
     subspace = pca(shapes, TAU, mass, dimension=4)
     assert (subspace.basis.max(axis=0) > -subspace.basis.min(axis=0)).all()
-    mirrored = pca(2.0 * TAU[:, None] - shapes, TAU, mass, dimension=4)
-    shuffled = pca(shapes[:, ::-1], TAU, mass, dimension=4)
+    mirrored = pca(2.0 * TAU - shapes, TAU, mass, dimension=4)
+    shuffled = pca(shapes[::-1], TAU, mass, dimension=4)
     for other in (mirrored, shuffled):
         np.testing.assert_allclose(other.basis, subspace.basis, atol=1e-11)
 
@@ -183,7 +183,7 @@ def test_a_fraction_met_exactly_needs_no_more() -> None:
     """With eigenvalues 9 and 1 one direction holds 90 %, so 90 % needs no second one."""
     e1, e2 = np.eye(12)[:2]
     tau = np.arange(12.0)
-    shapes = tau[:, None] + np.column_stack([3 * e1, e2])
+    shapes = tau + np.stack([3 * e1, e2])
     mass = csr_array(identity(4))
     assert pca(shapes, tau, mass, energy_fraction=0.9).dimension == 1
     assert pca(shapes, tau, mass, energy_fraction=0.9 + 1e-9).dimension == 2
@@ -192,15 +192,15 @@ def test_a_fraction_met_exactly_needs_no_more() -> None:
 def test_projection_is_idempotent_and_nearest() -> None:
     mass = MASSES["consistent"]
     subspace = pca(planted(np.array([2.0, 1.0, 0.5]), 9), TAU, mass, dimension=3)
-    x = planted(np.array([1.0]), 1, seed=9)[:, 0]
+    x = planted(np.array([1.0]), 1, seed=9)[0]
     q = subspace.coordinates(x)
     np.testing.assert_allclose(subspace.coordinates(subspace.shape(q)), q, rtol=1e-12, atol=1e-13)
-    distance = mass_norms(mass, (subspace.shape(q) - x)[:, None])[0]
+    distance = mass_norm(mass, subspace.shape(q) - x)
     for step in np.random.default_rng(1).normal(size=(10, 3)):
-        assert mass_norms(mass, (subspace.shape(q + 0.1 * step) - x)[:, None])[0] > distance
-    block = np.column_stack([x, subspace.tau])
+        assert mass_norm(mass, subspace.shape(q + 0.1 * step) - x) > distance
+    block = np.stack([x, subspace.tau])
     np.testing.assert_allclose(
-        subspace.coordinates(block), np.column_stack([q, np.zeros(3)]), rtol=1e-12, atol=1e-15
+        subspace.coordinates(block), np.stack([q, np.zeros(3)]), rtol=1e-12, atol=1e-15
     )
 
 
@@ -235,15 +235,28 @@ SHAPES = planted(np.array([2.0, 1.0, 0.5]), 5)
         (SHAPES, {"energy_fraction": 0.0}, "energy_fraction is 0.0, but must be in (0, 1]"),
         (SHAPES, {"energy_fraction": 1.1}, "energy_fraction is 1.1, but must be in (0, 1]"),
         (
-            np.tile(TAU[:, None], 4),
+            np.tile(TAU, (4, 1)),
             {"dimension": 1},
             "pca: all 4 snapshots equal the reference shape, so there is no direction to span",
+        ),
+        (
+            SHAPES.T,
+            {"dimension": 1},
+            f"pca: shapes has shape ({TAU.size}, 5), but a mesh of {TAU.size // 3} vertices needs "
+            f"(k, {TAU.size}), one shape per row; transpose it: shapes.T",
         ),
     ],
 )
 def test_refuses(shapes: FloatArray, options: dict[str, Any], message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)):
         pca(shapes, TAU, MASSES["consistent"], **options)
+
+
+def test_coordinates_refuse_columns_with_the_cure() -> None:
+    subspace: AffineSubspace = pca(SHAPES, TAU, MASSES["consistent"], dimension=3)
+    message = f"AffineSubspace.coordinates: shapes has shape ({TAU.size}, 5), but"
+    with pytest.raises(ValueError, match=re.escape(message) + r".*; transpose it: shapes\.T"):
+        subspace.coordinates(SHAPES.T)
 
 
 @pytest.mark.parametrize("dimension", [0, 4, -2])

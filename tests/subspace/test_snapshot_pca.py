@@ -34,7 +34,7 @@ def test_is_the_pca_about_rest_with_the_mass_of_the_mesh(
     mesh = snapshots.problem.mesh
     subspace = snapshot_pca(snapshots, dimension=6, lumped=lumped, handle_weight=0)
     mass = mass_matrix(mesh, lumped=lumped)
-    gram = mass_gram(mass, subspace.basis, subspace.basis)
+    gram = mass_gram(mass, subspace.basis.T, subspace.basis.T)
     np.testing.assert_allclose(gram, np.eye(6), rtol=0, atol=1e-12)
     np.testing.assert_array_equal(subspace.tau, mesh.vertices.reshape(-1))
     same = pca(snapshots.shapes, subspace.tau, mass, dimension=6)
@@ -44,7 +44,7 @@ def test_is_the_pca_about_rest_with_the_mass_of_the_mesh(
 
 def test_all_snapshots_are_in_their_own_span(snapshots: Snapshots) -> None:
     subspace = snapshot_pca(snapshots, dimension=10)
-    again = subspace.tau[:, None] + subspace.basis @ subspace.coordinates(snapshots.shapes)
+    again = subspace.tau + subspace.coordinates(snapshots.shapes) @ subspace.basis.T
     np.testing.assert_allclose(again, snapshots.shapes, rtol=0, atol=1e-9)
 
 
@@ -85,11 +85,11 @@ def test_more_dimensions_never_hurt(snapshots: Snapshots) -> None:
     subspace = snapshot_pca(snapshots, dimension=10)
     problem = snapshots.problem
     unseen = solve_snapshots(problem, parameters(problem, 4, seed=11), threads=1).shapes
-    displacements = unseen - subspace.tau[:, None]
+    displacements = unseen - subspace.tau
     errors = []
     for dimension in range(1, 11):
         smaller = subspace.leading(dimension)
-        left = displacements - smaller.basis @ smaller.coordinates(unseen)
+        left = displacements - smaller.coordinates(unseen) @ smaller.basis.T
         errors.append(np.diag(mass_gram(subspace.mass, left, left)))
     assert (np.diff(errors, axis=0) <= 1e-15).all()
     assert np.mean(errors[-1]) < 0.01 * np.mean(errors[0])

@@ -36,7 +36,7 @@ def test_figures_match_their_definitions(
     model, subspace, problem = blending_model, blending_model.subspace, blending_model.problem
     session = model.session()
     for i, w in enumerate(unseen_parameters(model.problem.domain, COUNT, seed=4)):
-        full = checked.reference.shapes[:, i]
+        full = checked.reference.shapes[i]
         assert checked.reference.reports[i].converged
         size = mass_norm(subspace.mass, full - subspace.tau)
         session.reset()
