@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import snapspace as ss
+from snapspace.validation.unseen import reference_options, unseen_parameters
 
 FloatArray = NDArray[np.float64]
 
@@ -33,3 +34,15 @@ def cached_snapshots(
     FOLDER.mkdir(parents=True, exist_ok=True)
     ss.save_snapshots(solved, path)
     return solved
+
+
+def training(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> ss.Snapshots:
+    """Full solutions at the first Sobol points of the domain, for subspaces."""
+    return cached_snapshots(problem, ss.sample(problem.domain, count, method="sobol"))
+
+
+def unseen(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> ss.Snapshots:
+    """Tight full solutions at parameters that no subspace was made of; those that converged."""
+    parameters = unseen_parameters(problem.domain, count, seed=1)
+    solved = cached_snapshots(problem, parameters, reference_options(problem))
+    return solved.select(solved.converged)

@@ -13,6 +13,8 @@ import snapspace as ss
 from snapspace import generators
 from snapspace.material import material_class
 
+#: The paper's material, and the default of Snapspace.
+MATERIALS = ("stvk", "stable-neo-hookean")
 #: Volume of the Armadillo in the paper.
 ARMADILLO_VOLUME = 234741.0
 

@@ -12,15 +12,13 @@ from dataclasses import dataclass
 from itertools import zip_longest
 
 import snapspace as ss
-from snapspace.validation.unseen import reference_options, unseen_parameters
 
 from . import rivals
-from .cached import cached_snapshots
-from .cases import read
+from .cached import training, unseen
+from .cases import MATERIALS, read
 from .minimisers import projection_errors, relative_errors
 from .result import Result
 
-MATERIALS = ("stvk", "stable-neo-hookean")
 UNSEEN = 10
 
 
@@ -59,13 +57,8 @@ def run(*, quick: bool = False) -> Result:
 def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
     case = read(row.name, kind, quick=quick)
     problem = case.problem
-    sampled = ss.sample(problem.domain, row.samples, method="sobol")
-    training = cached_snapshots(problem, sampled)
-    unseen = unseen_parameters(problem.domain, UNSEEN, seed=1)
-    reference = cached_snapshots(problem, unseen, reference_options(problem))
-    reference = reference.select(reference.converged)
-    ours = ss.snapshot_pca(training, dimension=row.ours)
-    wanted = [("ours", ours)]
+    reference = unseen(problem, UNSEEN)
+    wanted = [("ours", ss.snapshot_pca(training(problem, row.samples), dimension=row.ours))]
     wanted += [("VM + MD", rivals.modal_subspace(problem, d)) for d in row.rivals]
     if isinstance(problem, ss.PosingProblem):  # beyond the paper: modes alone
         wanted.append(("VM", rivals.vibration_subspace(problem, row.rivals[1])))

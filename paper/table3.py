@@ -12,15 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 import snapspace as ss
-from snapspace.validation.unseen import reference_options, unseen_parameters
 
 from . import rivals
-from .cached import cached_snapshots
-from .cases import read
+from .cached import training, unseen
+from .cases import MATERIALS, read
 from .minimisers import minimisers
 from .result import Result
-
-MATERIALS = ("stvk", "stable-neo-hookean")
 
 
 @dataclass(frozen=True)
@@ -76,10 +73,8 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
     assert isinstance(problem, ss.PosingProblem)
     samples, ours = (60, 20) if quick else (column.samples, column.ours)
     dimensions = column.dimensions[:QUICK] if quick else column.dimensions
-    training = cached_snapshots(problem, ss.sample(problem.domain, samples, method="sobol"))
-    unseen = unseen_parameters(problem.domain, 1, seed=1)
-    reference = cached_snapshots(problem, unseen, reference_options(problem))
-    parameters, full = unseen[0], reference.shapes[0]
+    reference = unseen(problem, 1)
+    parameters, full = reference.parameters[0], reference.shapes[0]
 
     def add(name: str, d: int | None, x: np.ndarray, paper: tuple[float, float]) -> None:
         value, gradient = problem.value_and_gradient(x, parameters)
@@ -94,7 +89,9 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
         )
 
     add("full", None, full, column.full)
-    wanted = [("ours", ss.snapshot_pca(training, dimension=ours), column.our_paper)]
+    wanted = [
+        ("ours", ss.snapshot_pca(training(problem, samples), dimension=ours), column.our_paper)
+    ]
     for d, paper in zip(dimensions, column.biharmonic, strict=False):
         wanted.append(("biharmonic", rivals.biharmonic_subspace(problem, d), paper))
     for d, paper in zip(dimensions, column.radial, strict=False):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -76,8 +76,7 @@ class FullEnergy:
 
     def leading(self, dimension: int) -> FullEnergy:
         """The energy on the first coordinates."""
-        basis = self.basis[:, :dimension]
-        return FullEnergy(self.parts, self.weights, self.origins, basis, self.threads)
+        return replace(self, basis=self.basis[:, :dimension])
 
     @single_threaded_blas
     def _columns(self, blocks: csr_array, piece: slice) -> FloatArray:
@@ -114,9 +113,7 @@ class FullBlends:
 
     def at(self, weights: ArrayLike) -> FullEnergy:
         """The energy for weights (poses,)."""
-        all_poses = self.energies
-        w = np.asarray(weights, np.float64)
-        return FullEnergy(all_poses.parts, w, all_poses.origins, all_poses.basis, all_poses.threads)
+        return replace(self.energies, weights=np.asarray(weights, np.float64))
 
     def leading(self, dimension: int) -> FullBlends:
         """The energies on the first coordinates."""
@@ -127,9 +124,8 @@ def full_energy(
     problem: PosingProblem, subspace: AffineSubspace, *, threads: int | None = None
 ) -> FullEnergy:
     """The elastic energy of all tets on a subspace attached to the rest shape."""
-    energy = core.ElasticEnergy(problem.mesh.vertices, problem.mesh.tets, problem.material.core)
     origin = (subspace.tau - problem.base)[None]
-    return FullEnergy([energy], np.ones(1), origin, subspace.basis, threads or 0)
+    return FullEnergy([problem.energy.core], np.ones(1), origin, subspace.basis, threads or 0)
 
 
 def full_blends(

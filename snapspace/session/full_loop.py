@@ -43,9 +43,12 @@ class FullLoop:
     ----------
     energy : FullEnergy
     projection : of the tets' Hessians, as the problem has it
+    single : bool; ValueError if true, since all numbers are in double precision
     """
 
-    def __init__(self, energy: FullEnergy, projection: str) -> None:
+    def __init__(self, energy: FullEnergy, projection: str, *, single: bool) -> None:
+        if single:
+            raise ValueError(_NO_SINGLE)
         self._whole = self._energy = energy
         self._projection = getattr(core.Projection, projection)
         self._q = np.zeros(energy.dimension)
@@ -68,7 +71,7 @@ class FullLoop:
     def dimension(self, dimension: int) -> None:
         kept = self._q[:dimension]
         self._q = np.concatenate([kept, np.zeros(dimension - len(kept))])
-        self._energy = self._energy_now().leading(dimension)
+        self._energy = self._whole.leading(dimension)
 
     def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
         """Objective at q and its gradient (d,)."""
@@ -122,10 +125,6 @@ class FullLoop:
             iterations += 1
         return FullReport(status, iterations, evaluations, value, float(np.linalg.norm(gradient)))
 
-    def _energy_now(self) -> FullEnergy:
-        """The energy in all dimensions that the frame is solved for."""
-        return self._whole
-
     def _with_handles(
         self, q: FloatArray, value: float, gradient: FloatArray
     ) -> tuple[float, FloatArray]:
@@ -168,10 +167,8 @@ class FullPosingLoop(FullLoop):
     """That of posing: set offsets, solve from the last frame."""
 
     def __init__(self, model: PosingModel, *, single: bool) -> None:
-        if single:
-            raise ValueError(_NO_SINGLE)
         assert isinstance(model.elastic, FullEnergy)
-        super().__init__(model.elastic, model.problem.solving.projection)
+        super().__init__(model.elastic, model.problem.solving.projection, single=single)
         self._handles = model.handles
         self.set_offsets(np.zeros((len(model.problem.handles), 3, 4)))
 
@@ -196,11 +193,9 @@ class FullBlendingLoop(FullLoop):
     """That of blending: set weights, solve from the last frame."""
 
     def __init__(self, model: InterpolationModel, *, single: bool) -> None:
-        if single:
-            raise ValueError(_NO_SINGLE)
         assert isinstance(model.blends, FullBlends)
         self._blends = model.blends
-        super().__init__(model.blends.energies, model.problem.solving.projection)
+        super().__init__(model.blends.energies, model.problem.solving.projection, single=single)
 
     def set_weights(self, weights: FloatArray) -> None:
         """Weights (poses,)."""
