@@ -3,29 +3,43 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 import time
-from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol, cast
 
-from . import table2, table3
 from .cases import meshes_folder
-from .orderings import errors_in_order, objectives_in_order
-from .result import FOLDER, Result
-
-PROGRAMS: dict[str, Callable[..., Result]] = {"table2": table2.run, "table3": table3.run}
+from .orderings import Rows
+from .result import FOLDER, PICTURES, Result
 
 
-#: What is wrong with the rows of a program, in lines.
-CHECKS = {"table2": errors_in_order, "table3": objectives_in_order}
+class Program(Protocol):
+    """A module of this package that is an experiment."""
+
+    def run(self, *, quick: bool = False) -> Result:
+        """Its rows, on real meshes or, quick, on small generated shapes."""
+
+    def faults(self, rows: Rows) -> list[str]:
+        """Orderings that the rows break, in lines; digits are not judged."""
+
+    def draw(self, rows: Rows, folder: Path) -> None:
+        """Writes the pictures NAME.png or NAME_*.png."""
+
+
+#: Modules in the order in which they run.
+PROGRAMS = ("table2", "table3")
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m paper", description=__doc__)
-    parser.add_argument("programs", nargs="*", metavar="NAME", help=f"of {', '.join(PROGRAMS)}")
+    parser.add_argument(
+        "programs", nargs="*", metavar="NAME", help=f"one of {', '.join(PROGRAMS)}; all by default"
+    )
     parser.add_argument("--quick", action="store_true", help="on small generated shapes")
     parser.add_argument("--check", action="store_true", help="fail where an ordering is wrong")
     parser.add_argument("--results", type=Path, default=FOLDER, help="folder of the JSON files")
+    parser.add_argument("--pictures", type=Path, default=PICTURES, help="folder of the pictures")
     options = parser.parse_args()
     names = options.programs or list(PROGRAMS)
     unknown = [name for name in names if name not in PROGRAMS]
@@ -36,10 +50,13 @@ def main() -> int:
     faults: list[str] = []
     for name in names:
         begin = time.perf_counter()
-        result = PROGRAMS[name](quick=options.quick)
+        program = cast(Program, importlib.import_module(f"paper.{name}"))
+        result = program.run(quick=options.quick)
         result.print()
         print(f"{result.save(options.results)}, {time.perf_counter() - begin:.0f} s")
-        faults += CHECKS[name](result.rows)
+        faults += program.faults(result.rows)
+        options.pictures.mkdir(parents=True, exist_ok=True)
+        program.draw(result.rows, options.pictures)
     for fault in faults:
         print(f"paper: {fault}", file=sys.stderr)
     return 1 if faults and options.check else 0

@@ -16,13 +16,13 @@ def errors_in_order(rows: Rows) -> list[str]:
     as far from the truth as the rest shape.
     """
     faults = []
-    for title, group in _groups(rows):
-        ours = _named(group, "ours")[0]
+    for title, group in by_case(rows):
+        ours = named(group, "ours")[0]
         for row in group:
             if row is not ours and row["d"] <= ours["d"] and row["mean"] <= ours["mean"]:
                 faults.append(f"{title}: {row['subspace']} is better than ours, d = {row['d']}")
-        for plain in _named(group, "VM"):
-            modal = [row for row in _named(group, "VM + MD") if row["d"] == plain["d"]]
+        for plain in named(group, "VM"):
+            modal = [row for row in named(group, "VM + MD") if row["d"] == plain["d"]]
             faults += [
                 f"{title}: VM holds more than VM + MD, d = {row['d']}"
                 for row in modal
@@ -34,13 +34,13 @@ def errors_in_order(rows: Rows) -> list[str]:
 def objectives_in_order(rows: Rows) -> list[str]:
     """Faults of table 3: no subspace is below the full solution, and objectives fall with d."""
     faults = []
-    for title, group in _groups(rows):
-        full, ours = _named(group, "full")[0], _named(group, "ours")[0]
+    for title, group in by_case(rows):
+        full, ours = named(group, "full")[0], named(group, "ours")[0]
         for row in group:
             if row["F"] < full["F"] * (1.0 - 1e-6):
                 faults.append(f"{title}: {row['subspace']}, d = {row['d']}, is below the minimum")
         for name in ("biharmonic", "radial basis"):
-            rivals = _named(group, name)
+            rivals = named(group, name)
             if rivals and rivals[0]["F"] <= ours["F"]:
                 faults.append(f"{title}: {name} is better than ours, d = {rivals[0]['d']}")
             for before, after in pairwise(rivals):
@@ -49,10 +49,10 @@ def objectives_in_order(rows: Rows) -> list[str]:
     return faults
 
 
-def _groups(rows: Rows) -> Iterator[tuple[str, list[dict[str, Any]]]]:
+def by_case(rows: Rows) -> Iterator[tuple[str, list[dict[str, Any]]]]:
     for (shape, material), group in groupby(rows, lambda row: (row["shape"], row["material"])):
         yield f"{shape}, {material}", list(group)
 
 
-def _named(rows: Rows, name: str) -> list[dict[str, Any]]:
+def named(rows: Rows, name: str) -> list[dict[str, Any]]:
     return [row for row in rows if row["subspace"] == name]

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 FOLDER = Path(__file__).parent / "results"
+PICTURES = Path(__file__).parents[1] / "docs" / "pictures" / "paper"
 
 
 @dataclass

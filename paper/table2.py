@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import zip_longest
+from pathlib import Path
 
 import snapspace as ss
 
@@ -17,6 +18,7 @@ from . import rivals
 from .cached import training, unseen
 from .cases import MATERIALS, read
 from .minimisers import projection_errors, relative_errors
+from .orderings import Rows, errors_in_order
 from .result import Result
 
 UNSEEN = 10
@@ -76,3 +78,10 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
             deviation=float(errors.std()),
             unseen=len(errors),
         )
+
+
+faults = errors_in_order
+
+
+def draw(rows: Rows, folder: Path) -> None:
+    """Draws nothing: a table needs no picture."""

@@ -8,6 +8,7 @@ solution, with a tolerance of 1e-7.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from . import rivals
 from .cached import training, unseen
 from .cases import MATERIALS, read
 from .minimisers import minimisers
+from .orderings import Rows, objectives_in_order
 from .result import Result
 
 
@@ -98,3 +100,10 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
         wanted.append(("radial basis", rivals.radial_basis_subspace(problem, d), paper))
     for name, subspace, paper in wanted:
         add(name, subspace.dimension, next(minimisers(subspace, reference)), paper)
+
+
+faults = objectives_in_order
+
+
+def draw(rows: Rows, folder: Path) -> None:
+    """Draws nothing: a table needs no picture."""
