@@ -62,6 +62,7 @@ lint: setup
 	$(BIN)/mypy
 	$(BIN)/python tools/check_readme_types.py
 	$(BIN)/python tools/build_page.py --check
+	$(BIN)/python tools/check_online.py
 	$(BIN)/clang-format --dry-run --Werror $$(find core web/engine -name '*.h' -o -name '*.cpp')
 
 format: setup
