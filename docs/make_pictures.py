@@ -30,7 +30,7 @@ PICTURES: dict[str, Callable[[], NDArray[np.uint8]]] = {
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", metavar="name", help=f"of {', '.join(PICTURES)}")
+    parser.add_argument("names", nargs="*", metavar="name", help=f"one of {', '.join(PICTURES)}")
     names = parser.parse_args().names or list(PICTURES)
     for name in names:
         if name not in PICTURES:
