@@ -68,7 +68,14 @@ EXPORTS = {
     ),
     "registration": ("RigidMotion", "matched_scales", "registered", "rigid_registration"),
     "sampling": ("sample",),
-    "session": ("BlendingSession", "FrameReport", "Polished", "PosingSession", "Session"),
+    "session": (
+        "BlendingSession",
+        "Dynamics",
+        "FrameReport",
+        "Polished",
+        "PosingSession",
+        "Session",
+    ),
     "snapshots": (
         "Checkpoint",
         "CheckpointNotice",

@@ -75,6 +75,7 @@ from .registration import (
 from .sampling import sample
 from .session import (
     BlendingSession,
+    Dynamics,
     FrameReport,
     Polished,
     PosingSession,
@@ -128,6 +129,7 @@ __all__ = [
     "Cubature",
     "CubatureErrors",
     "DisplacementRows",
+    "Dynamics",
     "ElasticEnergy",
     "EmbeddedSurface",
     "ErrorCurve",

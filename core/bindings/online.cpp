@@ -88,7 +88,25 @@ void bind_loop(nb::module_& m) {
                 {tolerance, value_scale, coordinate_scale, max_iterations, max_evaluations});
           },
           nb::kw_only(), nb::arg("method"), nb::arg("tolerance"), nb::arg("max_iterations"),
-          nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"));
+          nb::arg("max_evaluations"), nb::arg("value_scale"), nb::arg("coordinate_scale"))
+      .def(
+          "step",
+          [](LiveLoop& self, VectorIn target, double weight, online::Method method,
+             double tolerance, int max_iterations, int max_evaluations, double value_scale,
+             double coordinate_scale) {
+            const double* aim = checked_coordinates(self.solver->dimension(), target);
+            const online::StepReport step = self.solver->step(
+                self.q.data(), weight, aim, method,
+                {tolerance, value_scale, coordinate_scale, max_iterations, max_evaluations});
+            return std::make_pair(step.report, step.before);
+          },
+          nb::arg("target"), nb::kw_only(), nb::arg("weight"), nb::arg("method"),
+          nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("max_evaluations"),
+          nb::arg("value_scale"), nb::arg("coordinate_scale"),
+          "Report, and the objective before the step.")
+      .def(
+          "softest", [](LiveLoop& self) { return self.solver->softest(); },
+          "The smallest curvature at q = 0, for handles at rest or equal weights.");
 }
 
 void bind_posing(nb::module_& m) {

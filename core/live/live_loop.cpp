@@ -1,5 +1,6 @@
 #include "live/live_loop.h"
 
+#include <memory>
 #include <utility>
 
 #include "live/second_thread.h"
@@ -7,6 +8,7 @@
 #include "online/blended_quartic.h"
 #include "online/blending_solver.h"
 #include "online/cubature.h"
+#include "online/inertial_minimizer.h"
 #include "online/posing_solver.h"
 #include "online/quartic.h"
 
@@ -92,11 +94,22 @@ class SolverOf final : public LiveSolver {
   online::Report solve(double* q, online::Method method, const online::Termination& stop) override {
     return solver_.solve(q, method, stop);
   }
+  online::StepReport step(double* q, double weight, const double* target, online::Method method,
+                          const online::Termination& stop) override {
+    return solver_.step(inertia(), weight, target, method, q, stop);
+  }
+  double softest() override { return solver_.softest(inertia()); }
   [[nodiscard]] int inputs() const override { return inputs_of(solver_); }
   void set_inputs(const double* inputs) override { set_inputs_of(solver_, inputs); }
 
  private:
+  online::InertialMinimizer& inertia() {
+    if (!inertia_) inertia_ = std::make_unique<online::InertialMinimizer>(solver_.capacity());
+    return *inertia_;
+  }
+
   Solver solver_;
+  std::unique_ptr<online::InertialMinimizer> inertia_;
 };
 
 online::Storage storage(bool single) {

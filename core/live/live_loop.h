@@ -41,6 +41,12 @@ class LiveSolver : public ReducedFunction {
   /// Solves from q, in place.
   virtual online::Report solve(double* q, online::Method method,
                                const online::Termination& stop) = 0;
+  /// Steps in time from q, in place, with inertia of this weight about the target (d). The first
+  /// call allocates memory.
+  virtual online::StepReport step(double* q, double weight, const double* target,
+                                  online::Method method, const online::Termination& stop) = 0;
+  /// The smallest curvature at q = 0, for handles at rest or equal weights.
+  virtual double softest() = 0;
   /// How many inputs a frame sets: offsets (12 numbers each) of handles, or weights of poses.
   [[nodiscard]] virtual int inputs() const = 0;
   virtual void set_inputs(const double* inputs) = 0;

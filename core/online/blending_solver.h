@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "online/frame_minimizer.h"
+#include "online/inertial_minimizer.h"
 #include "online/objective.h"
 
 namespace snapspace::online {
@@ -35,9 +36,7 @@ class BlendingSolver final : public Objective {
   /// Restricts the problem to the first coordinates, 1 <= dimension <= capacity; weights are kept.
   void set_dimension(int dimension) {
     elastic_.set_dimension(dimension);
-    elastic_.set_weights(equal_.data());
-    minimizer_.prepare(*this, dimension);
-    elastic_.set_weights(weights_.data());
+    at_equal_weights([&] { minimizer_.prepare(*this, dimension); });
   }
 
   /// Sets the weights of the poses.
@@ -61,7 +60,29 @@ class BlendingSolver final : public Objective {
     return minimizer_.minimize(*this, weights_.data(), method, q, stop);
   }
 
+  /// A step in time from q to the next coordinates, in place; see InertialMinimizer.
+  StepReport step(InertialMinimizer& inertia, double weight, const double* target, Method method,
+                  double* q, const Termination& stop) {
+    if (!inertia.is_prepared(dimension(), weight))
+      at_equal_weights([&] { inertia.prepare(*this, dimension(), weight); });
+    return inertia.minimize(*this, target, method, Elastic::kHessianIsExpensive, q, stop);
+  }
+
+  /// The smallest curvature at the mean shape.
+  double softest(InertialMinimizer& inertia) {
+    double softest = 0.0;
+    at_equal_weights([&] { softest = inertia.softest(*this, dimension()); });
+    return softest;
+  }
+
  private:
+  template <class Act>
+  void at_equal_weights(Act act) {
+    elastic_.set_weights(equal_.data());
+    act();
+    elastic_.set_weights(weights_.data());
+  }
+
   Elastic elastic_;
   std::vector<double> weights_, equal_;
   FrameMinimizer minimizer_;

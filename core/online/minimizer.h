@@ -23,6 +23,13 @@ struct Report {
   double gradient_norm;
 };
 
+/// A step in time: how its solve ended, with the value of the objective alone, and that value at
+/// the coordinates before the step.
+struct StepReport {
+  Report report;
+  double before;
+};
+
 /// The three tests of Gill, Murray & Wright (1981; paper, sec. 6.2) with tolerance eps. All must
 /// hold:
 ///   F_{k-1} - F_k     < eps (1 + |F_k|)

@@ -9,6 +9,7 @@
 #include "online/newton.h"
 #include "online/objective.h"
 #include "online/spd_inverse.h"
+#include "simd/vectors.h"
 
 namespace snapspace::online {
 
@@ -53,6 +54,32 @@ class Minimizers {
     return bfgs_.minimize(objective, d_, q, inverse_.data(), stop);
   }
 
+  /// Largest eigenvalue of the prepared inverse, by power iteration; two work arrays of d numbers.
+  [[nodiscard]] double largest_of_inverse(double* vector, double* product) const {
+    // All coordinates differ, so that no eigenvector of a symmetric model is missed.
+    for (int i = 0; i < d_; ++i) vector[i] = 1.0 / (1.0 + i);
+    double largest = 0.0;
+    for (int iteration = 0; iteration < kPowerIterations; ++iteration) {
+      const double length = std::sqrt(dot(vector, vector, d_));
+      for (int i = 0; i < d_; ++i) vector[i] /= length;
+      for (int i = 0; i < d_; ++i)
+        product[i] = dot(inverse_.data() + static_cast<std::size_t>(i) * d_, vector, d_);
+      largest = dot(product, vector, d_);
+      std::copy_n(product, d_, vector);
+    }
+    return largest;
+  }
+
+  /// The smallest positive entry of the Hessian's diagonal, or 1 if there is none.
+  [[nodiscard]] double softest_coordinate() const {
+    double softest = 0.0;
+    for (int i = 0; i < d_; ++i) {
+      const double entry = hessian_[diagonal(i)];
+      if (entry > 0.0 && (softest == 0.0 || entry < softest)) softest = entry;
+    }
+    return softest > 0.0 ? softest : 1.0;
+  }
+
   /// BFGS from q (d), in place, continued with the approximation of the last frame if that
   /// converged. If its line search fails, BFGS runs again from the inverse at tau; the report
   /// counts both runs.
@@ -72,6 +99,7 @@ class Minimizers {
 
  private:
   // Shares of the largest diagonal entry. A saddle's negative eigenvalues are far smaller.
+  static constexpr int kPowerIterations = 60;
   static constexpr double kFirstShift = 1e-8, kShiftFactor = 4.0, kLargestShift = 0.1;
 
   [[nodiscard]] std::size_t diagonal(int i) const {

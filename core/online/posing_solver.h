@@ -3,6 +3,7 @@
 
 #include "online/frame_minimizer.h"
 #include "online/handle_quadric.h"
+#include "online/inertial_minimizer.h"
 #include "online/objective.h"
 
 namespace snapspace::online {
@@ -57,6 +58,16 @@ class PosingSolver final : public Objective {
   Report solve(double* q, Method method, const Termination& stop) {
     return minimizer_.minimize(*this, handles_.pull(), method, q, stop);
   }
+
+  /// A step in time from q to the next coordinates, in place; see InertialMinimizer.
+  StepReport step(InertialMinimizer& inertia, double weight, const double* target, Method method,
+                  double* q, const Termination& stop) {
+    if (!inertia.is_prepared(dimension(), weight)) inertia.prepare(*this, dimension(), weight);
+    return inertia.minimize(*this, target, method, Elastic::kHessianIsExpensive, q, stop);
+  }
+
+  /// The smallest curvature at rest.
+  double softest(InertialMinimizer& inertia) { return inertia.softest(*this, dimension()); }
 
  private:
   Elastic elastic_;

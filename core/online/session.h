@@ -11,6 +11,7 @@
 #include "online/blended_quartic.h"
 #include "online/blending_solver.h"
 #include "online/cubature.h"
+#include "online/inertial_minimizer.h"
 #include "online/posing_solver.h"
 #include "online/quartic.h"
 #include "online/residual_probe.h"
@@ -28,6 +29,7 @@ struct snapspace_session {
   std::unique_ptr<Blending> blending;
   std::unique_ptr<BlendingCubature> blending_cubature;
   std::unique_ptr<snapspace::online::ResidualProbe> probe;
+  std::unique_ptr<snapspace::online::InertialMinimizer> inertia;
   snapspace_basis basis;
   std::vector<double> q;         // all coordinates of the model
   std::vector<double> gradient;  // work array of snapspace_value, as long as q

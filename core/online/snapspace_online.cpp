@@ -1,6 +1,7 @@
 #include "online/snapspace_online.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -15,10 +16,13 @@ using snapspace::online::BlendedCubature;
 using snapspace::online::BlendedQuartic;
 using snapspace::online::BlendingSolver;
 using snapspace::online::Cubature;
+using snapspace::online::InertialMinimizer;
 using snapspace::online::Method;
 using snapspace::online::Quartic;
 using snapspace::online::read_material;
 using snapspace::online::Report;
+using snapspace::online::StepReport;
+using snapspace::online::Termination;
 using PosingSolver = snapspace::online::PosingSolver<Quartic>;
 using CubatureSolver = snapspace::online::PosingSolver<Cubature>;
 using BlendingQuarticSolver = BlendingSolver<BlendedQuartic>;
@@ -59,6 +63,29 @@ int set_offsets(snapspace_session& session, Solver& solver, const double* offset
   solver.set_offsets(offsets);
   std::copy_n(offsets, size, session.state.data());
   return SNAPSPACE_OK;
+}
+
+bool are_options(const snapspace_options* options) {
+  return options && options->tolerance > 0.0 && options->value_scale > 0.0 &&
+         options->coordinate_scale > 0.0 && options->max_iterations >= 1 &&
+         options->max_evaluations >= 1;
+}
+
+std::pair<Method, Termination> read_options(const snapspace_options& options) {
+  return {options.method == SNAPSPACE_BFGS ? Method::bfgs : Method::newton,
+          {options.tolerance, options.value_scale, options.coordinate_scale, options.max_iterations,
+           options.max_evaluations}};
+}
+
+snapspace_report c_report(const Report& report) {
+  return {static_cast<snapspace_status>(report.status), report.iterations, report.evaluations,
+          report.value, report.gradient_norm};
+}
+
+InertialMinimizer& inertia_of(snapspace_session& session) {
+  if (!session.inertia)
+    session.inertia = std::make_unique<InertialMinimizer>(static_cast<int>(session.q.size()));
+  return *session.inertia;
 }
 
 }  // namespace
@@ -172,19 +199,37 @@ int snapspace_dimension(const snapspace_session* session) {
 
 int snapspace_solve(snapspace_session* session, const snapspace_options* options,
                     snapspace_report* report) {
-  if (!session || !options || !report || !(options->tolerance > 0.0) ||
-      !(options->value_scale > 0.0) || !(options->coordinate_scale > 0.0) ||
-      options->max_iterations < 1 || options->max_evaluations < 1)
-    return SNAPSPACE_BAD_ARGUMENT;
-  const Method method = options->method == SNAPSPACE_BFGS ? Method::bfgs : Method::newton;
-  const snapspace::online::Termination stop{options->tolerance, options->value_scale,
-                                            options->coordinate_scale, options->max_iterations,
-                                            options->max_evaluations};
+  if (!session || !report || !are_options(options)) return SNAPSPACE_BAD_ARGUMENT;
+  const auto [method, stop] = read_options(*options);
   double* q = session->q.data();
   const Report result =
       session->with_solver([&](auto& solver) { return solver.solve(q, method, stop); });
-  *report = {static_cast<snapspace_status>(result.status), result.iterations, result.evaluations,
-             result.value, result.gradient_norm};
+  *report = c_report(result);
+  return SNAPSPACE_OK;
+}
+
+int snapspace_softest(snapspace_session* session, double* curvature) {
+  if (!session || !curvature) return SNAPSPACE_BAD_ARGUMENT;
+  InertialMinimizer& inertia = inertia_of(*session);
+  *curvature = session->with_solver([&](auto& solver) { return solver.softest(inertia); });
+  return SNAPSPACE_OK;
+}
+
+int snapspace_step(snapspace_session* session, double weight, const double* target,
+                   const snapspace_options* options, snapspace_report* report, double* before) {
+  if (!session || !target || !report || !before || !are_options(options) || !(weight > 0.0))
+    return SNAPSPACE_BAD_ARGUMENT;
+  if (!all_finite(target, session->dimension()) || !std::isfinite(weight))
+    return SNAPSPACE_NOT_FINITE;
+  const auto [method, stop] = read_options(*options);
+  InertialMinimizer& inertia = inertia_of(*session);
+  double* q = session->q.data();
+  const auto step = [&, method = method, stop = stop](auto& solver) {
+    return solver.step(inertia, weight, target, method, q, stop);
+  };
+  const StepReport result = session->with_solver(step);
+  *report = c_report(result.report);
+  *before = result.before;
   return SNAPSPACE_OK;
 }
 

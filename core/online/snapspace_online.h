@@ -3,9 +3,9 @@
  *
  * A session is made from the arrays of a .snapspace file (safetensors layout). It takes new handle
  * positions or pose weights, solves, and returns coordinates and vertices. No function throws,
- * prints, reads files or starts threads. Only the functions that create a session or set its probe
- * allocate memory; if there is none, they end the program as C++ does. A session may be used by one
- * thread at a time.
+ * prints, reads files or starts threads. Only the functions that create a session or set its probe,
+ * and the first step in time, allocate memory; if there is none, they end the program as C++ does.
+ * A session may be used by one thread at a time.
  *
  * All numbers are doubles unless declared otherwise, and all arrays are row-major. Functions return
  * 0, or one of the errors below; after an error the session is unchanged.
@@ -139,6 +139,19 @@ int snapspace_dimension(const snapspace_session* session);
 /* Solves from the present coordinates. */
 int snapspace_solve(snapspace_session* session, const snapspace_options* options,
                     snapspace_report* report);
+
+/* The smallest curvature of the reduced objective at rest, or at the mean shape for equal weights.
+ * The softest motion vibrates with frequency sqrt(curvature / density) / (2 pi). The first call
+ * allocates memory. */
+int snapspace_softest(snapspace_session* session, double* curvature);
+
+/* A step in time of length dt, by implicit Euler: minimises the reduced objective + weight / 2
+ * |q - target|^2, with weight = density / dt^2 > 0. target (dimension) are the coordinates that the
+ * body would reach without forces: q + dt * velocity. report->value is the objective without the
+ * last term, and *before is that at the coordinates before the step. The first call allocates
+ * memory. */
+int snapspace_step(snapspace_session* session, double weight, const double* target,
+                   const snapspace_options* options, snapspace_report* report, double* before);
 
 /* The reduced objective at coordinates q (dimension), for the current offsets or weights. The
  * session is unchanged. */

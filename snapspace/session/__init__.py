@@ -1,9 +1,10 @@
 """Sessions: live solves of reduced models."""
 
 from .blending_session import BlendingSession
+from .dynamics import Dynamics
 from .frame_report import FrameReport
 from .polish import Polished
 from .posing_session import PosingSession
 from .session import Session
 
-__all__ = ["BlendingSession", "FrameReport", "Polished", "PosingSession", "Session"]
+__all__ = ["BlendingSession", "Dynamics", "FrameReport", "Polished", "PosingSession", "Session"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -215,6 +215,15 @@ class BlendingSession(Session[InterpolationModel]):
 
     def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
         return BlendingProbe(self.model.problem, self.model.subspace, sample)
+
+    def _aim(self, target: ArrayLike | None) -> Callable[[], None]:
+        before = self._weights
+        if target is not None:
+            self._set_weights(self.model.problem.weights(target))
+        return lambda: self._set_weights(before)
+
+    def _frame(self) -> FloatArray:
+        return np.eye(3, 4)
 
     def _make_loop(self, *, single: bool) -> Any:
         blends = self.model.blends

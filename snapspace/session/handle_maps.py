@@ -23,6 +23,11 @@ def world_map(offset: FloatArray, center: FloatArray) -> FloatArray:
     return np.column_stack([linear, center + offset[:, 3] - linear @ center])
 
 
+def world_maps(offsets: FloatArray, centers: FloatArray) -> FloatArray:
+    """Maps (h, 3, 4) of world positions for offsets (h, 3, 4) about centers (h, 3)."""
+    return np.array([world_map(*pair) for pair in zip(offsets, centers, strict=True)])
+
+
 def wanted_maps(
     motions: Mapping[str, Motion], center: Callable[[str], FloatArray], *, who: str
 ) -> dict[str, FloatArray]:

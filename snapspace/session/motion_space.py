@@ -11,6 +11,9 @@ from ..reduction import PosingModel
 
 FloatArray = NDArray[np.float64]
 
+#: In units of the samples' spacing: motions farther away are not interpolated from the samples.
+FARTHEST = 1e3
+
 
 class MotionSpace:
     """The offsets D_h of the moving handles in the metric of the handle energy.
@@ -57,6 +60,12 @@ class MotionSpace:
     def distance(self, offsets: FloatArray, others: FloatArray) -> float:
         """Distance between two settings of the handles, (h, 3, 4) each."""
         return float(np.linalg.norm(self.point(offsets) - self.point(others)))
+
+    def is_jump(self, offsets: FloatArray, before: FloatArray) -> bool:
+        """Whether a motion is longer than the samples' spacing, yet near enough to interpolate."""
+        with np.errstate(over="ignore"):  # motions far beyond any use
+            length = self.distance(offsets, before)
+        return bool(self.spacing < length < FARTHEST * self.spacing)
 
 
 def distances(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +16,7 @@ from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
 from .given_rotation import Turn, is_rotation
-from .handle_maps import Motion, given_maps, relative_offsets, wanted_maps, world_map
+from .handle_maps import Motion, given_maps, relative_offsets, wanted_maps, world_maps
 from .motion_space import MotionSpace
 from .posing_loop import posing_loop
 from .sample_starts import SampleStarts
@@ -25,9 +25,6 @@ from .session import Session
 from .trajectory import between_maps, checked_path
 
 FloatArray = NDArray[np.float64]
-
-#: In units of the samples' spacing: motions farther away are not interpolated from the samples.
-FARTHEST = 1e3
 
 
 class PosingSession(Session[PosingModel]):
@@ -144,9 +141,7 @@ class PosingSession(Session[PosingModel]):
             raise ValueError("animate: a handle is at a map that is not rigid; call reset() first")
         states = [self._maps]
         for key in keys:
-            states.append(states[-1].copy())
-            for handle, target in self._wanted(key, who="animate").items():
-                states[-1][self.model.problem.handles.index(handle)] = target
+            states.append(self._with(self._wanted(key, who="animate"), states[-1]))
         centers = self.model.problem.centroids
         path = between_maps(np.array(states), centers, *checked_path(frames, len(states), easing))
         return (self._solve_at(maps, relative_offsets(maps, centers)) for maps in path)
@@ -164,10 +159,8 @@ class PosingSession(Session[PosingModel]):
         wanted = finite(matrix, (3, 4), f"move_affine: the matrix of '{handle}'")
         linear = wanted[:, :3]
         if self.model.problem.handles.index(handle) == 0 and not is_rotation(linear):
-            raise ValueError(
-                f"move_affine: '{handle}' is the reference of all other handles and takes rigid "
-                "motions only"
-            )
+            takes = "is the reference of all other handles and takes rigid motions only"
+            raise ValueError(f"move_affine: '{handle}' {takes}")
         return self._solve_at(*self._moved({handle: wanted}))
 
     def pose(self, parameters: ArrayLike) -> FrameReport:
@@ -181,9 +174,7 @@ class PosingSession(Session[PosingModel]):
             For a wrong shape, or a parameter that is not finite.
         """
         offsets = self.model.problem.offsets(parameters)
-        centers = self.model.problem.centroids
-        maps = [world_map(offset, center) for offset, center in zip(offsets, centers, strict=True)]
-        return self._solve_at(np.array(maps), offsets)
+        return self._solve_at(world_maps(offsets, self.model.problem.centroids), offsets)
 
     def put(self, motions: Sequence[tuple[ArrayLike, ArrayLike]], q: ArrayLike) -> None:
         """Takes a frame that was solved elsewhere, for example in the page; nothing is solved.
@@ -217,17 +208,23 @@ class PosingSession(Session[PosingModel]):
         """Names of the handles outside the box of motions in which the model was sampled.
 
         There the reduced solution may be far from the full one. Motions are relative to the first
-        handle; an affine map that is not a rigid motion is outside.
+        handle; affine maps that are not rigid are outside.
         """
-        problem = self.model.problem
-        moving = zip(
-            problem.handles.names[1:], problem.domain.bounds, self._offsets[1:], strict=True
-        )
+        domain, names = self.model.problem.domain, self.model.problem.handles.names
+        moving = zip(names[1:], domain.bounds, self._offsets[1:], strict=True)
         return tuple(name for name, bounds, offset in moving if not is_inside(bounds, offset))
 
     def set_parameters(self, parameters: ArrayLike) -> FrameReport:
         """The same as `pose`."""
         return self.pose(parameters)
+
+    def _aim(self, target: Mapping[str, Motion] | None) -> Callable[[], None]:
+        before = self._maps, self._offsets
+        self._set(*self._moved(self._wanted(target or {}, who="step")))
+        return lambda: self._set(*before)
+
+    def _frame(self) -> FloatArray:
+        return np.asarray(self._maps[0])
 
     def _make_loop(self, *, single: bool) -> Any:
         return posing_loop(self.model, single=single)
@@ -251,15 +248,19 @@ class PosingSession(Session[PosingModel]):
         return wanted_maps(motions, self._center, who=who)
 
     def _center(self, handle: str) -> FloatArray:
-        center: FloatArray = self.model.problem.centroids[self.model.problem.handles.index(handle)]
-        return center
+        problem = self.model.problem
+        return np.asarray(problem.centroids[problem.handles.index(handle)])
 
     def _moved(self, moved: Mapping[str, FloatArray]) -> tuple[FloatArray, FloatArray]:
         """Maps of all handles with some of them moved, and offsets relative to the first handle."""
-        maps = self._maps.copy()
-        for handle, target in moved.items():
-            maps[self.model.problem.handles.index(handle)] = target
+        maps = self._with(moved, self._maps)
         return maps, relative_offsets(maps, self.model.problem.centroids)
+
+    def _with(self, moved: Mapping[str, FloatArray], maps: FloatArray) -> FloatArray:
+        changed = maps.copy()
+        for handle, target in moved.items():
+            changed[self.model.problem.handles.index(handle)] = target
+        return changed
 
     def _solve_at(self, maps: FloatArray, offsets: FloatArray) -> FrameReport:
         """Sets the handles and solves; restores the previous state if the energy overflows."""
@@ -275,9 +276,7 @@ class PosingSession(Session[PosingModel]):
         """Solves; after a jump from the offsets `before` (h, 3, 4), starts from the samples."""
         if len(self.model.training_parameters) < 2:
             return self.solve()
-        with np.errstate(over="ignore"):  # motions far beyond any use
-            jump = self._motions.distance(self._offsets, before)
-        if not self._motions.spacing < jump < FARTHEST * self._motions.spacing:
+        if not self._motions.is_jump(self._offsets, before):
             return self.solve()
         return self._lowest_of([self._starts.after_jump(self._offsets, self._loop)])
 

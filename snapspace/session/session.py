@@ -5,29 +5,25 @@ from __future__ import annotations
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, Generic, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import _core as core
 from ..certificate import Certificate, ResidualProbe, ResidualSample
-from ..reduction import ReducedModel
 from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
 from .frame_report import FrameReport
 from .lowest_of import lowest_of
 from .not_pickled import NotPickled
 from .polish import Polished, Polisher
+from .session_options import MINIMIZERS, check_options
+from .time_steps import Model, TimeSteps
 
 FloatArray = NDArray[np.float64]
-Model = TypeVar("Model", bound=ReducedModel)
-
-MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
-PRECISIONS = ("double", "single")
 
 
-class Session(NotPickled, ABC, Generic[Model]):
+class Session(TimeSteps[Model], NotPickled, ABC):
     """Base class of the sessions of all problems.
 
     `PosingSession` moves handles, `BlendingSession` sets weights; `model.session()` makes either.
@@ -69,22 +65,9 @@ class Session(NotPickled, ABC, Generic[Model]):
         precision: str = "double",
     ) -> None:
         tolerance = self.default_tolerance if tolerance is None else tolerance
-        bounds = (max_iterations, max_evaluations)
-        if not tolerance > 0 or not all(1 <= bound < 2**31 for bound in bounds):
-            raise ValueError(
-                f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
-                f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
-            )
         if minimizer is None:  # the Hessian of a cubature costs d / 4 times its gradient
             minimizer = "newton" if model.cubature is None else "bfgs"
-        if minimizer not in MINIMIZERS:
-            raise ValueError(
-                f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
-            )
-        if precision not in PRECISIONS:
-            raise ValueError(
-                f"Session: unknown precision '{precision}'; known are {', '.join(PRECISIONS)}"
-            )
+        check_options(tolerance, max_iterations, max_evaluations, minimizer, precision)
         self.model = model
         self.tolerance = tolerance
         self.max_iterations = max_iterations
@@ -135,14 +118,7 @@ class Session(NotPickled, ABC, Generic[Model]):
     def solve(self) -> FrameReport:
         """Solves for the current handles or weights, from the current shape."""
         begin = time.perf_counter()
-        report = self._loop.solve(
-            method=MINIMIZERS[self.minimizer],
-            tolerance=self.tolerance,
-            max_iterations=self.max_iterations,
-            max_evaluations=self.max_evaluations,
-            value_scale=self.model.value_scale,
-            coordinate_scale=self.model.coordinate_scale,
-        )
+        report = self._loop.solve(**self._solver_options())
         return FrameReport(
             report.status.name,
             report.iterations,
@@ -151,6 +127,16 @@ class Session(NotPickled, ABC, Generic[Model]):
             report.gradient_norm,
             time.perf_counter() - begin,
         )
+
+    def _solver_options(self) -> dict[str, Any]:
+        return {
+            "method": MINIMIZERS[self.minimizer],
+            "tolerance": self.tolerance,
+            "max_iterations": self.max_iterations,
+            "max_evaluations": self.max_evaluations,
+            "value_scale": self.model.value_scale,
+            "coordinate_scale": self.model.coordinate_scale,
+        }
 
     def polish(
         self,

@@ -1,0 +1,38 @@
+"""Dynamics: the settings of steps in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .finite_input import finite
+
+
+@dataclass(frozen=True)
+class Dynamics:
+    """How a body swings after the motions of its handles, or of its weights.
+
+    frequency : of the body's softest vibration, in Hz, default 2. It sets the density: a model has
+    moduli and lengths, but no unit of time
+    damping : share of the critical damping of that vibration, default 0.05. Implicit Euler damps
+    as well, by about pi * frequency * dt
+    gravity : acceleration (3,) in lengths per square second, in world coordinates, default zero.
+    The body hangs at its handles; a blend, which has none, would fall
+
+    Raises
+    ------
+    ValueError
+        For a frequency that is not positive, a negative damping, or a number that is not finite.
+    """
+
+    frequency: float = 2.0
+    damping: float = 0.05
+    gravity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.frequency) and self.frequency > 0.0):
+            raise ValueError(f"Dynamics: frequency {self.frequency} must be positive, in Hz")
+        if not (np.isfinite(self.damping) and self.damping >= 0.0):
+            raise ValueError(f"Dynamics: damping {self.damping} must be finite and not negative")
+        finite(self.gravity, (3,), "Dynamics: gravity")

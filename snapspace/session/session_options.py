@@ -1,0 +1,27 @@
+"""The options of sessions."""
+
+from __future__ import annotations
+
+from .. import _core as core
+
+MINIMIZERS = {"newton": core.Method.newton, "bfgs": core.Method.bfgs}
+PRECISIONS = ("double", "single")
+
+
+def check_options(
+    tolerance: float, max_iterations: int, max_evaluations: int, minimizer: str, precision: str
+) -> None:
+    """ValueError for an option that a session does not take."""
+    if not tolerance > 0 or not all(1 <= n < 2**31 for n in (max_iterations, max_evaluations)):
+        raise ValueError(
+            f"Session: tolerance {tolerance}, max_iterations {max_iterations} and "
+            f"max_evaluations {max_evaluations} must be positive, the last two below 2^31"
+        )
+    if minimizer not in MINIMIZERS:
+        raise ValueError(
+            f"Session: unknown minimizer '{minimizer}'; known are {', '.join(MINIMIZERS)}"
+        )
+    if precision not in PRECISIONS:
+        raise ValueError(
+            f"Session: unknown precision '{precision}'; known are {', '.join(PRECISIONS)}"
+        )
