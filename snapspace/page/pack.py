@@ -23,6 +23,7 @@ from ..reduction import (
     ReducedModel,
     not_stored,
 )
+from ..subspace import RigidFrames
 from .estimator import estimator_arrays
 from .painted import handle_of_vertex
 from .shape_space import quantised
@@ -137,6 +138,17 @@ def _posing_arrays(model: PosingModel) -> Arrays:
         "handle_K": model.handles.K,
         "handle_L": model.handles.L,
         "handle_S": model.handles.S,
+        **_frame_arrays(model),
+    }
+
+
+def _frame_arrays(model: PosingModel) -> Arrays:
+    """The products that a step in time needs where the first handle moves."""
+    frames = RigidFrames(model.subspace)
+    return {
+        "frame_modes": frames.modes.astype(np.float32),
+        "frame_tau": frames.tau,
+        "frame_ones": frames.ones,
     }
 
 

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reduction import ReducedModel
+from ..subspace import RigidFrames
 from .dynamics import Dynamics
 from .frame_report import FrameReport
-from .rigid_frames import RigidFrames
 
 FloatArray = NDArray[np.float64]
 Model = TypeVar("Model", bound=ReducedModel)
@@ -56,6 +56,7 @@ class TimeSteps(ABC, Generic[Model]):
     _loop: Any
     _dynamics = Dynamics()
     _movement: Movement | None = None
+    _known_softest = (0, 0.0)  # dimension, value
 
     @property
     def dynamics(self) -> Dynamics:
@@ -159,9 +160,13 @@ class TimeSteps(ABC, Generic[Model]):
     def _frames(self) -> RigidFrames:
         return RigidFrames(self.model.subspace)
 
-    @cached_property
+    @property
     def _softest(self) -> float:
-        return float(self._loop.softest())
+        """The smallest curvature in the present dimension."""
+        dimension: int = self._loop.dimension
+        if self._known_softest[0] != dimension:
+            self._known_softest = dimension, float(self._loop.softest())
+        return self._known_softest[1]
 
     def _moving(self) -> Movement:
         """The movement up to now; none if the shape is not that of the last step."""

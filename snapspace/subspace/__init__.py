@@ -3,5 +3,6 @@
 from .affine_subspace import AffineSubspace
 from .directions import affine_subspace
 from .pca import pca, snapshot_pca
+from .rigid_frames import RigidFrames
 
-__all__ = ["AffineSubspace", "affine_subspace", "pca", "snapshot_pca"]
+__all__ = ["AffineSubspace", "RigidFrames", "affine_subspace", "pca", "snapshot_pca"]

@@ -114,7 +114,7 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "animation": {"mesh", "pictures", "reduction"},
-    "page": {"certificate", "disk", "mesh", "model_file", "reduction"},
+    "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace"},
     "server": {
         "accurate",
         "disk",

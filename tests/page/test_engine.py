@@ -13,6 +13,7 @@ import pytest
 
 from snapspace import (
     BlendingSession,
+    Dynamics,
     HandleBox,
     InterpolationModel,
     PosingModel,
@@ -106,6 +107,31 @@ def certain_range(model: InterpolationModel) -> dict[str, Any]:
         "ways": ways.tolist(),
         "reaches": [certain.reach(1 / 3 + way) for way in ways],
     }
+
+
+def steps(model: PosingModel, *, first: bool) -> dict[str, Any]:
+    """Steps in time; with a first handle that moves, and gravity, if `first` is true."""
+    session, names = model.session(), model.problem.handles.names
+    gravity = (0.1, -0.5, 0.2) if first else (0.0, 0.0, 0.0)
+    session.dynamics = Dynamics(frequency=1.5, damping=0.1, gravity=gravity)
+    motions = [{1: ((0.0, 0.2, 0.1), (0.05, 0.1, 0.0))}, {}, {2: ((0.1, 0.0, 0.0), (0.0,) * 3)}]
+    motions += [{0: ((0.0, 0.3, 0.2), (0.2, 0.0, -0.1))} if first else {}, {}, {}]
+    shapes = []
+    for given in motions:
+        session.step(1 / 60, {names[h]: motion for h, motion in given.items()})
+        shapes.append(session.q.tolist())
+    given_motions = [[[h, *motion] for h, motion in given.items()] for given in motions]
+    return {"gravity": gravity, "motions": given_motions, "q": shapes}
+
+
+def blending_steps(model: InterpolationModel) -> dict[str, Any]:
+    session = model.session()
+    weights = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]]
+    shapes = []
+    for given in weights:
+        session.step(1 / 60, given)
+        shapes.append(session.q.tolist())
+    return {"weights": weights, "q": shapes}
 
 
 def values_at(model: PosingModel) -> dict[str, Any]:
@@ -211,6 +237,12 @@ def expected(
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
         "materials": list(materials),
+        "steps": {
+            f"{name}.{ending}": steps(models[name], first=ending == "packed")
+            for name in ("posing", "cubature")
+            for ending in ("packed", "snapspace")
+        },
+        "blending_steps": blending_steps(models["blending-cubature"]),
         "painted": list(regions.values()),
         "values": {kind: values_at(model) for kind, model in materials.items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from snapspace import Dynamics, InterpolationModel, PosingModel, PosingSession, reduce
-from snapspace.session.rigid_frames import RigidFrames
+from snapspace.subspace import RigidFrames
 
 REST: dict[str, Any] = {"head": ((0, 0, 0), (0, 0, 0))}
 TURNED: dict[str, Any] = {"head": ((0.0, 0.3, 0.2), (0.1, 0.2, 0.0))}

@@ -2,6 +2,8 @@ import { CertainRange } from "./certain_range.ts";
 import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
+import { IDENTITY } from "./motion.ts";
+import { TimeSteps } from "./time_steps.ts";
 import { weightEnds, type WeightEnds } from "./weight_ends.ts";
 
 // A solution farther from the mean shape than this many coordinate scales is rejected.
@@ -14,6 +16,8 @@ export class BlendingSession {
   readonly #stop: Termination;
   readonly #certifier: Certifier | null;
   readonly #certain: CertainRange | null;
+  /** Frequency and damping of `step`. */
+  readonly time: TimeSteps;
   #weights: number[] = [];
 
   static async create(module: WebAssembly.Module, model: BlendingModel): Promise<BlendingSession> {
@@ -25,6 +29,7 @@ export class BlendingSession {
     this.#core = core;
     this.#certifier = Certifier.of(model, core);
     this.#certain = CertainRange.of(model);
+    this.time = new TimeSteps(core, null, model.dimension);
     const { valueScale } = core;
     const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-9, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
@@ -51,9 +56,7 @@ export class BlendingSession {
   /** Sets weights that sum to one, and solves, from the present shape or from other coordinates. A blend without a
    * minimum leaves shape and weights as they were. */
   blend(weights: readonly number[], start?: ArrayLike<number>): FrameReport {
-    const total = weights.reduce((sum, w) => sum + w, 0);
-    if (weights.length !== this.model.poses.length || !(Math.abs(total - 1) <= 1e-9))
-      throw new RangeError(`${this.model.poses.length} poses need as many weights, and a sum of one`);
+    this.#check(weights);
     const before = this.#weights;
     const shape = this.q;
     this.#set(weights);
@@ -66,6 +69,21 @@ export class BlendingSession {
       this.#core.q = shape;
     }
     return report;
+  }
+
+  /** Moves time on by dt seconds, in which the weights become these: the shape swings after them. */
+  step(dt: number, weights: readonly number[] = this.#weights): FrameReport {
+    this.#check(weights);
+    const [before, last] = [this.#weights, this.time.moving(IDENTITY)];
+    this.#set(weights);
+    const report = this.time.advance(last, IDENTITY, dt, this.#stop);
+    if (report.status === "not_finite") this.#set(before);
+    return report;
+  }
+
+  /** Speed of the coordinates in units of `coordinateScale`, per second; zero unless the last frame was a step. */
+  get speed(): number {
+    return this.time.speed(IDENTITY) / this.model.coordinateScale;
   }
 
   /** Solves for what is set, from the present shape. */
@@ -99,6 +117,12 @@ export class BlendingSession {
   /** The least and the greatest weight of each of some poses, see `weightEnds`. */
   ends(poses: readonly number[]): WeightEnds[] {
     return weightEnds(this.model, this.#certain, poses);
+  }
+
+  #check(weights: readonly number[]): void {
+    const total = weights.reduce((sum, w) => sum + w, 0);
+    if (weights.length !== this.model.poses.length || !(Math.abs(total - 1) <= 1e-9))
+      throw new RangeError(`${this.model.poses.length} poses need as many weights, and a sum of one`);
   }
 
   #set(weights: readonly number[]): void {

@@ -42,6 +42,7 @@ export class Core {
   readonly #numbers: number; // scratch for arguments and results
   readonly #options: number;
   readonly #report: number;
+  readonly #before: number;
   readonly #hasProbe: boolean;
   /** Unit of energy for the termination tests. */
   readonly valueScale: number;
@@ -67,6 +68,7 @@ export class Core {
     this.#numbers = this.#memory.take(8 * Math.max(inputs, model.dimension));
     this.#options = this.#memory.take(OPTIONS.size);
     this.#report = this.#memory.take(REPORT.size);
+    this.#before = this.#memory.take(8);
     this.#hasProbe = model.estimator !== null;
   }
 
@@ -115,7 +117,40 @@ export class Core {
     this.#memory.write(OPTIONS, this.#options, { method: this.#method, ...stop });
     const begin = performance.now();
     this.#check(this.#call.snapspace_solve(this.#session, this.#options, this.#report));
+    return this.#read(performance.now() - begin);
+  }
+
+  /** The smallest curvature at rest, or at the mean shape. */
+  softest(): number {
+    this.#check(this.#call.snapspace_softest(this.#session, this.#report));
+    return this.#memory.doubles(this.#report, 1)[0];
+  }
+
+  /** A step in time from the present coordinates: `weight` is density / dt^2, and the target is where the body would
+   * come to without forces. Also the objective before the step. */
+  step(
+    weight: number,
+    target: ArrayLike<number>,
+    stop: Termination,
+  ): { report: FrameReport; before: number } {
+    this.#memory.write(OPTIONS, this.#options, { method: this.#method, ...stop });
+    const begin = performance.now();
+    this.#check(
+      this.#call.snapspace_step(
+        this.#session,
+        weight,
+        this.#given(target),
+        this.#options,
+        this.#report,
+        this.#before,
+      ),
+    );
     const milliseconds = performance.now() - begin;
+    const [before] = this.#memory.doubles(this.#before, 1);
+    return { report: this.#read(milliseconds), before };
+  }
+
+  #read(milliseconds: number): FrameReport {
     const { status, ...report } = this.#memory.read(REPORT, this.#report);
     return { ...report, status: STATUS_NAMES[status as Status], milliseconds };
   }

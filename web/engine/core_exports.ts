@@ -58,6 +58,15 @@ export interface CoreExports {
   snapspace_set_dimension(session: number, dimension: number): number;
   snapspace_dimension(session: number): number;
   snapspace_solve(session: number, options: number, report: number): number;
+  snapspace_softest(session: number, curvature: number): number;
+  snapspace_step(
+    session: number,
+    weight: number,
+    target: number,
+    options: number,
+    report: number,
+    before: number,
+  ): number;
   snapspace_value(session: number, q: number, value: number): number;
   snapspace_get_q(session: number, q: number): number;
   snapspace_set_q(session: number, q: number): number;

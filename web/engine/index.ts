@@ -2,6 +2,7 @@ export { CONFIDENCE, type Certificate } from "./certificate.ts";
 export { BlendingSession } from "./blending_session.ts";
 export type { FrameReport } from "./core.ts";
 export { crc32 } from "./crc32.ts";
+export type { Dynamics } from "./time_steps.ts";
 export { UnreadableModel } from "./errors.ts";
 export { vertexStrains, type Rests } from "./membrane_strain.ts";
 export type { BlendingModel, Model, PosingModel } from "./model.ts";

@@ -1,5 +1,6 @@
 import type { Box } from "./sampled_box.ts";
 import type { Estimator } from "./estimator.ts";
+import type { RigidFrames } from "./rigid_frames.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** What the page needs of a model, whether it came as a model file or in an exported page. */
@@ -52,6 +53,8 @@ export interface PosingModel extends ModelBase {
   readonly K: Float64Array<ArrayBuffer>;
   readonly L: Float64Array<ArrayBuffer>;
   readonly S: Float64Array<ArrayBuffer>;
+  /** What steps in time need where the first handle moves; null in model files. */
+  readonly frames: RigidFrames | null;
   /** The modes of the model before in this one, dimension x its dimension, where a server sent that one. */
   readonly fromBefore: Float32Array<ArrayBuffer> | null;
 }

@@ -15,6 +15,7 @@ import {
   type Vector,
 } from "./motion.ts";
 import { beyondBox } from "./sampled_box.ts";
+import { TimeSteps } from "./time_steps.ts";
 
 const WARMING = 8; // solves
 const WARMING_SHARE = 0.05; // of the diagonal
@@ -31,6 +32,8 @@ export class PosingSession {
   readonly #core: Core;
   readonly #stop: Termination;
   readonly #certifier: Certifier | null;
+  /** Frequency, damping and gravity of `step`. */
+  readonly time: TimeSteps;
   #maps: readonly RigidMap[] = [];
   /** Motions relative to the first handle. */
   #relative: readonly Motion[] = [];
@@ -44,6 +47,7 @@ export class PosingSession {
     this.model = model;
     this.#core = core;
     this.#certifier = Certifier.of(model, core);
+    this.time = new TimeSteps(core, model.frames, model.dimension);
     const { valueScale } = core;
     const { coordinateScale } = model;
     this.#stop = { tolerance: 1e-7, valueScale, coordinateScale, maxIterations: 300, maxEvaluations: 500 };
@@ -87,18 +91,24 @@ export class PosingSession {
   /** Puts some handles at motions from rest, and solves once. Motions whose energy is not finite are undone. */
   moveAll(motions: ReadonlyMap<number, Motion>): FrameReport {
     const before = this.#maps;
-    this.#set(
-      this.#maps.map((map, handle) => {
-        const motion = motions.get(handle);
-        if (!motion) return map;
-        const { center } = this.model.handles[handle];
-        const shift = minus(plus(center, motion.translation), applied(motion.rotation, center));
-        return { rotation: motion.rotation, shift };
-      }),
-    );
+    this.#set(this.#mapsOf(motions));
     const report = this.solve();
     if (report.status === "not_finite") this.#set(before);
     return report;
+  }
+
+  /** Moves time on by dt seconds, in which some handles come to motions from rest: the body swings after them. */
+  step(dt: number, motions: ReadonlyMap<number, Motion> = new Map()): FrameReport {
+    const [before, last] = [this.#maps, this.time.moving(this.#maps[0])];
+    if (motions.size > 0) this.#set(this.#mapsOf(motions));
+    const report = this.time.advance(last, this.#maps[0], dt, this.#stop);
+    if (report.status === "not_finite") this.#set(before);
+    return report;
+  }
+
+  /** Speed of the coordinates in units of `coordinateScale`, per second; zero unless the last frame was a step. */
+  get speed(): number {
+    return this.time.speed(this.#maps[0]) / this.model.coordinateScale;
   }
 
   /** Solves for what is set, from the present shape. */
@@ -148,6 +158,16 @@ export class PosingSession {
   /** Euler angles of a handle's motion, in radians. */
   euler(handle: number): Vector {
     return eulerOfRotation(this.#maps[handle].rotation);
+  }
+
+  #mapsOf(motions: ReadonlyMap<number, Motion>): readonly RigidMap[] {
+    return this.#maps.map((map, handle) => {
+      const motion = motions.get(handle);
+      if (!motion) return map;
+      const { center } = this.model.handles[handle];
+      const shift = minus(plus(center, motion.translation), applied(motion.rotation, center));
+      return { rotation: motion.rotation, shift };
+    });
   }
 
   #set(maps: readonly RigidMap[]): void {

@@ -85,6 +85,7 @@ function readPosing(container: Container, name: string): Model {
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),
     S: container.doubles("handle_S", count, 4, 4),
+    frames: null,
     fromBefore: null,
   };
 }

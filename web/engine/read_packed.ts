@@ -11,6 +11,7 @@ import {
   type PoseQuartics,
   type Quartic,
 } from "./model.ts";
+import type { RigidFrames } from "./rigid_frames.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
 /** Reads the model of an exported page (snapspace/page/pack.py). */
@@ -43,6 +44,7 @@ export function readPacked(container: Container): Model {
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),
       S: container.doubles("handle_S", count, 4, 4),
+      frames: readFrames(container, dimension),
       fromBefore: readFromBefore(container, dimension),
     };
   }
@@ -62,6 +64,15 @@ export function readPacked(container: Container): Model {
     blends: readBlends(container, common, poses.length),
     sampleWeights: container.doubles("sample_weights", samples, poses.length),
     sampleCoordinates: container.doubles("sample_coordinates", samples, dimension),
+  };
+}
+
+function readFrames(container: Container, dimension: number): RigidFrames | null {
+  if (!container.has("frame_modes")) return null;
+  return {
+    modes: container.floats("frame_modes", 6, dimension, dimension),
+    tau: container.doubles("frame_tau", 3, 3, dimension),
+    ones: container.doubles("frame_ones", 3, dimension),
   };
 }
 

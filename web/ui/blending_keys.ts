@@ -1,4 +1,4 @@
-/** Keys, while no field has the focus: Space plays, / searches the poses, F and W as in posing. */
+/** Keys, while no field has the focus: Space plays, / searches the poses, F, W and J as in posing. */
 export function listenToBlendingKeys(
   play: HTMLButtonElement,
   search: HTMLInputElement | null,
@@ -14,6 +14,7 @@ export function listenToBlendingKeys(
     else if (key === "/" && search) search.focus();
     else if (key === "f") document.getElementById("frame")?.click();
     else if (key === "w") document.getElementById("wires")?.click();
+    else if (key === "j") document.getElementById("jiggle")?.click();
     else return;
     event.preventDefault();
   };

@@ -8,6 +8,8 @@ import { blendHash, keepHashSoon } from "./address.ts";
 import { chooser, enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
+import { Jiggle } from "./jiggle.ts";
+import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import {
   allWeights,
@@ -107,9 +109,23 @@ export async function blendingView(
     for (const surface of [elastic, straight]) surface.object.matrixWorldNeedsUpdate = true;
     stage.root.updateMatrixWorld();
   };
-  const solve = () => {
+  const jiggle = new Jiggle({
+    step: (dt, dynamics) => {
+      session.time.dynamics = dynamics;
+      return session.step(dt, allWeights(choice, model.poses.length));
+    },
+    settle: () => session.blend(allWeights(choice, model.poses.length)),
+    get speed() {
+      return session.speed;
+    },
+  });
+  const solve = (seconds: number) => {
     const wish = allWeights(choice, model.poses.length);
-    if (!solved || solved.some((w, i) => w !== wish[i])) take(session.blend(wish));
+    const isNew = !solved || solved.some((w, i) => w !== wish[i]);
+    if (isNew && jiggle.isOn && wish.every((w) => w >= 0)) jiggle.wake();
+    else if (isNew) take(session.blend(wish));
+    const report = jiggle.advance(seconds);
+    if (report) take(report);
   };
   const showChoice = () => {
     panel.show(choice);
@@ -134,7 +150,7 @@ export async function blendingView(
   const look = lookSection(stage, [elastic, straight], model, options.up);
   stage.beforeFrame = (seconds) => {
     if (path.playing) walk(seconds);
-    else solve();
+    else solve(seconds);
     look.legend.look();
     hud.frame(seconds);
     readout.ask();
@@ -145,14 +161,14 @@ export async function blendingView(
     for (const surface of [elastic, straight]) surface.refresh();
   };
   stage.afterFrame = () => {
-    if (path.playing) stage.draw();
+    if (path.playing || jiggle.moves) stage.draw();
   };
   const stop = new AbortController();
   listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
   showChoice();
   if (canGoBeyond && choice.weights.some((w) => w < 0)) beyond.click();
-  solve();
+  solve(0);
   const illustrate = (pose: number) => {
     if (pose === model.poses.length || stop.signal.aborted) return;
     const alone = model.poses.map((_, k) => (k === pose ? 1 : 0));
@@ -174,6 +190,7 @@ export async function blendingView(
         hud.dimension(d, model.dimension);
         stage.draw();
       }),
+      jigglePanel(jiggle, () => stage.draw(), null),
       look.element,
       ...chooser(options.choose),
     ],

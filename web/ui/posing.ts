@@ -1,15 +1,11 @@
 import { Color } from "three";
 
-import {
-  eulerOfRotation,
-  rotationOfEuler,
-  type FrameReport,
-  type Motion,
-  type PosingSession,
-} from "../engine/index.ts";
+import type { Dynamics, FrameReport, Motion, PosingSession } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
 import { History } from "./history.ts";
+import { Jiggle } from "./jiggle.ts";
+import { approach } from "./motion_parts.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
 
@@ -25,7 +21,7 @@ export class Posing {
   mode: Mode = "move";
   /** After each solve, many times a second in a drag. */
   onSolved: (report: FrameReport) => void = () => {};
-  /** After the end of a drag. */
+  /** After the end of a drag, and when a swing has come to rest. */
   onReleased: () => void = () => {};
   /** After a drag was cancelled, while the pointer is still down. */
   onCancelled: () => void = () => {};
@@ -37,6 +33,8 @@ export class Posing {
   /** Surface vertices of each handle. */
   #vertices: number[][] = [];
   readonly #wishes = new Map<number, Motion>();
+  /** Steps in time; static frames while it is off. */
+  readonly jiggle: Jiggle;
   #history: History<Motion[]>;
   /** Where the handles were when the present drag began. */
   #beforeDrag: readonly Motion[] | null = null;
@@ -49,6 +47,14 @@ export class Posing {
     this.#session = session;
     this.#surface = surface;
     this.#history = new History(this.motions);
+    const posing = this;
+    this.jiggle = new Jiggle({
+      step: (dt, dynamics) => this.#step(dt, dynamics),
+      settle: () => this.session.solve(),
+      get speed() {
+        return posing.session.speed;
+      },
+    });
     this.#paint();
     this.#show();
   }
@@ -69,7 +75,7 @@ export class Posing {
     [this.#session, this.#surface] = [session, surface];
     this.#paint();
     this.#transition = null;
-    this.#approach(motions);
+    this.#solved(approach(session, motions));
     if (fromBefore?.length === session.q.length * shown.length) {
       this.#transition = new ShapeTransition(carriedOver(fromBefore, shown), session.q);
       this.#show();
@@ -79,7 +85,7 @@ export class Posing {
 
   /** Begins with the handles at motions, as they were left in another view. */
   begin(motions: readonly Motion[]): void {
-    this.#approach(motions);
+    this.#solved(approach(this.session, motions));
     this.#history = new History(this.motions);
     this.onChange();
   }
@@ -134,22 +140,29 @@ export class Posing {
   /** Solves for what was asked since the last time. */
   solveWishes(): void {
     if (this.#wishes.size === 0) return;
+    if (this.jiggle.isOn) {
+      this.jiggle.wake();
+      return;
+    }
     const report = this.session.moveAll(this.#wishes);
     this.#wishes.clear();
     this.#solved(report);
   }
 
-  /** Before each picture: shows the next step of the transition from the model before. */
+  /** Before each picture: swings, and shows the next step of the transition from the model before. */
   advance(seconds: number): void {
+    const report = this.jiggle.advance(seconds);
+    if (report) this.#solved(report);
+    if (report && !this.jiggle.moves && !this.isDragging) this.onReleased();
     if (!this.#transition) return;
     this.#transition.advance(seconds);
     if (this.#transition.isOver) this.#transition = null;
     this.#show();
   }
 
-  /** Whether a transition needs more pictures. */
+  /** Whether a swing or a transition needs more pictures. */
   get isOnTheWay(): boolean {
-    return this.#transition !== null;
+    return this.#transition !== null || this.jiggle.moves;
   }
 
   /** Begins a drag: until its end there is no undo, and it can be cancelled. */
@@ -186,7 +199,7 @@ export class Posing {
       return;
     }
     this.solveWishes();
-    this.#history.push(this.motions);
+    this.#history.push(this.session.model.handles.map((_, handle) => this.motion(handle)));
     this.onChange();
     this.onReleased();
   }
@@ -221,21 +234,19 @@ export class Posing {
     this.#solved(this.session.solve());
   }
 
+  /** One step in time, in which the handles come to where they are asked to be. */
+  #step(dt: number, dynamics: Dynamics): FrameReport {
+    this.session.time.dynamics = dynamics;
+    const report = this.session.step(dt, this.#wishes);
+    this.#wishes.clear();
+    return report;
+  }
+
   #goTo(motions: Motion[] | undefined): void {
     if (!motions) return;
     this.#wishes.clear();
     this.#solved(this.session.moveAll(new Map(motions.entries())));
     this.onChange();
-  }
-
-  /** From rest to motions, in steps as a drag comes there: one large one may end in another minimum. */
-  #approach(motions: readonly Motion[]): void {
-    let report = this.session.solve();
-    for (const share of [0.25, 0.5, 0.75, 1])
-      report = this.session.moveAll(
-        new Map(motions.map((motion, handle) => [handle, partOf(motion, share)])),
-      );
-    this.#solved(report);
   }
 
   #solved(report: FrameReport): void {
@@ -271,14 +282,4 @@ export class Posing {
     const color = new Color(handleColor(handle));
     return handle === this.#selected ? color.lerp(WHITE, 0.1) : color;
   }
-}
-
-function partOf(motion: Motion, share: number): Motion {
-  if (share === 1) return motion;
-  const [a, b, c] = eulerOfRotation(motion.rotation);
-  const [x, y, z] = motion.translation;
-  return {
-    rotation: rotationOfEuler([share * a, share * b, share * c]),
-    translation: [share * x, share * y, share * z],
-  };
 }

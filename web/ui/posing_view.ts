@@ -3,6 +3,7 @@ import { keepHash, poseHash } from "./address.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
 import { Hud } from "./hud.ts";
+import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import { Posing, type Mode } from "./posing.ts";
 import { Polishing } from "./polishing.ts";
@@ -97,7 +98,9 @@ export async function posingView(
     follow();
     readout.ask();
   };
-  posing.onReleased = () => void polishing?.ask();
+  posing.onReleased = () => {
+    if (!posing.jiggle.moves) void polishing?.ask();
+  };
   const motions = () =>
     new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion] as const));
   const readout = new Readout(
@@ -185,6 +188,11 @@ export async function posingView(
       ...chooser(options.choose),
     ),
     quality,
+    jigglePanel(
+      posing.jiggle,
+      () => stage.draw(),
+      model.frames && { diagonal: model.diagonal, up: () => stage.up },
+    ),
     look.element,
   ];
   return {

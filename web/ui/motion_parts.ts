@@ -1,0 +1,25 @@
+import {
+  eulerOfRotation,
+  rotationOfEuler,
+  type FrameReport,
+  type Motion,
+  type PosingSession,
+} from "../engine/index.ts";
+
+/** From rest to motions of all handles, in steps as a drag comes there: one large one may end in another minimum. */
+export function approach(session: PosingSession, motions: readonly Motion[]): FrameReport {
+  let report = session.solve();
+  for (const share of [0.25, 0.5, 0.75, 1])
+    report = session.moveAll(new Map(motions.map((motion, handle) => [handle, partOf(motion, share)])));
+  return report;
+}
+
+function partOf(motion: Motion, share: number): Motion {
+  if (share === 1) return motion;
+  const [a, b, c] = eulerOfRotation(motion.rotation);
+  const [x, y, z] = motion.translation;
+  return {
+    rotation: rotationOfEuler([share * a, share * b, share * c]),
+    translation: [share * x, share * y, share * z],
+  };
+}
