@@ -531,6 +531,12 @@ class LiveLoop:
 
     def solve(self, *, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> Report: ...
 
+    def step(self, target: NDArray[numpy.float64], *, weight: float, method: Method, tolerance: float, max_iterations: int, max_evaluations: int, value_scale: float, coordinate_scale: float) -> tuple[Report, float]:
+        """Report, and the objective before the step."""
+
+    def softest(self) -> float:
+        """The smallest curvature at q = 0, for handles at rest or equal weights."""
+
 class PosingLoop(LiveLoop):
     """The live loop of posing: set offsets, solve from the last frame."""
 

@@ -23,6 +23,11 @@ NEVER = 1e-300
 def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Certificate:
     """The certificate of the current frame, see `Session.certificate`."""
     begin = time.perf_counter()
+    if session.velocity.any():
+        raise ValueError(
+            "certificate: the body is moving, and the estimate is for frames at rest; call solve() "
+            "first"
+        )
     q, estimator = session.q, _estimator(session)
     if thorough:
         ratios = estimator.of_movement

@@ -200,6 +200,8 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     def certificate(self, *, confidence: float = 0.9, thorough: bool = False) -> Certificate:
         """How far the current shape is from the full solution, by a calibrated estimate.
 
+        The shape must be at rest: a body that swings is not near a static solution.
+
         Parameters
         ----------
         confidence : float, default 0.9

@@ -10,7 +10,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from snapspace import Dynamics, InterpolationModel, PosingModel, PosingSession, reduce
+from snapspace import (
+    Dynamics,
+    InterpolationModel,
+    PosingModel,
+    PosingSession,
+    calibrate,
+    reduce,
+)
 from snapspace.subspace import RigidFrames
 
 REST: dict[str, Any] = {"head": ((0, 0, 0), (0, 0, 0))}
@@ -215,3 +222,12 @@ def test_the_energy_of_all_tets_has_no_steps(posing_model: PosingModel) -> None:
     full = reduce(posing_model.problem, posing_model.subspace.leading(5), energy="full")
     with pytest.raises(ValueError, match="energy of all tets"):
         full.session().step(1 / 60)
+
+
+def test_a_moving_body_has_no_certificate(posing_model: PosingModel) -> None:
+    session = calibrate(posing_model, samples=12, threads=1).session()
+    session.step(1 / 60, TURNED)
+    with pytest.raises(ValueError, match="the body is moving"):
+        session.certificate()
+    session.solve()
+    assert session.certificate().relative >= 0.0

@@ -91,9 +91,9 @@ export class BlendingSession {
     return this.#core.solve(this.#stop);
   }
 
-  /** How far the shape is from the full solution; null if the model has no estimate. */
+  /** How far the shape is from the full solution; null if the model has no estimate, or if the shape swings. */
   certificate(): Certificate | null {
-    return this.#certifier?.certify() ?? null;
+    return this.speed > 0 ? null : (this.#certifier?.certify() ?? null);
   }
 
   /** Back to the mean shape: equal weights. */

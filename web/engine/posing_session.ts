@@ -116,9 +116,9 @@ export class PosingSession {
     return this.#core.solve(this.#stop);
   }
 
-  /** How far the shape is from the full solution; null if the model has no estimate. */
+  /** How far the shape is from the full solution; null if the model has no estimate, or if the body swings. */
   certificate(): Certificate | null {
-    return this.#certifier?.certify() ?? null;
+    return this.speed > 0 ? null : (this.#certifier?.certify() ?? null);
   }
 
   /** Back to rest. */
