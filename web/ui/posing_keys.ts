@@ -18,7 +18,8 @@ function handle(posing: Posing, event: KeyboardEvent): void {
     event.preventDefault();
     return;
   }
-  if (event.target instanceof HTMLInputElement) return;
+  const field = event.target;
+  if (field instanceof HTMLInputElement && (field.type !== "range" || event.key.startsWith("Arrow"))) return;
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
     event.shiftKey ? posing.redo() : posing.undo();
   } else if (event.ctrlKey && event.key.toLowerCase() === "y") {
