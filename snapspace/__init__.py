@@ -42,6 +42,7 @@ EXPORTS = {
         "write_surface",
         "write_tets",
     ),
+    "gltf": ("MorphTargets", "fitted_targets", "mode_targets", "write_glb"),
     "model_file": ("load", "load_blending", "load_posing", "save_model"),
     "page": ("export_html",),
     "problem": (

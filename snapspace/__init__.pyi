@@ -18,6 +18,7 @@ from .fitting import (
     PoseFits,
     fit_poses,
 )
+from .gltf import MorphTargets, fitted_targets, mode_targets, write_glb
 from .greedy import greedy_snapshots
 from .material import (
     ARAP,
@@ -147,6 +148,7 @@ __all__ = [
     "Material",
     "MeshNotice",
     "MooneyRivlin",
+    "MorphTargets",
     "NextOption",
     "Polished",
     "PoseFit",
@@ -181,6 +183,7 @@ __all__ = [
     "export_html",
     "fill_surface",
     "fit_poses",
+    "fitted_targets",
     "greedy_snapshots",
     "growing_models",
     "in_box",
@@ -191,6 +194,7 @@ __all__ = [
     "load_snapshots",
     "mass_matrix",
     "matched_scales",
+    "mode_targets",
     "next_option",
     "pca",
     "read_problem",
@@ -210,6 +214,7 @@ __all__ = [
     "stuff_surface",
     "validate",
     "write_animation",
+    "write_glb",
     "write_surface",
     "write_tets",
 ]

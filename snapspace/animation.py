@@ -1,4 +1,4 @@
-"""write_animation: the frames of a session as numbered files, GIF or MP4."""
+"""write_animation: the frames of a session as numbered files, GIF, MP4 or animated glTF."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .gltf import fitted_targets, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
 from .reduction import ReducedModel
 
@@ -28,8 +29,8 @@ def write_animation(
     Parameters
     ----------
     path : path
-        A film, `.gif` or `.mp4`; or else a folder, which is created, for frame-0000.obj,
-        frame-0001.obj and so on. Existing files with these names are replaced.
+        A film, `.gif` or `.mp4`; an animated mesh, `.glb`; or else a folder, which is created, for
+        frame-0000.obj, frame-0001.obj and so on. Existing files with these names are replaced.
     model : ReducedModel
         The model that the shapes belong to.
     shapes : iterable of (n, 3)
@@ -38,10 +39,11 @@ def write_animation(
         Format of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu,
         vtk or mesh.
     frames_per_second : float, default 30
-        The frame rate of a film.
+        The frame rate of a film or a .glb.
     **picture
         Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
-        others, see `pictures.save_film`.
+        others, see `pictures.save_film`. A .glb takes up, colors, and targets: the largest number
+        of morph targets that are fitted to the shapes, default 8, see `gltf.fitted_targets`.
 
     Returns
     -------
@@ -68,10 +70,16 @@ def write_animation(
         rate = frames_per_second
         picture.setdefault("up", model.up)
         return [save_film(target, seen, surface.faces, frames_per_second=rate, **picture)]
+    if target.suffix.lower() == ".glb":
+        count = picture.pop("targets", 8)
+        placed = [_checked(shape, model) for shape in shapes]
+        morphs = fitted_targets(model, placed, count=count)
+        rate = frames_per_second
+        return [write_glb(target, model, morphs, frames_per_second=rate, **picture)]
     if picture:
         raise ValueError(
             f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
-            "folder; give a name that ends in .gif or .mp4"
+            "folder; give a name that ends in .gif, .mp4 or .glb"
         )
     return _written(target, model, shapes, f".{kind}")
 
@@ -92,8 +100,8 @@ def _written(
         raise ValueError(f"write_animation: unknown kind '{suffix[1:]}'; known are {known}")
     if folder.suffix and not folder.is_dir():
         raise ValueError(
-            f"write_animation: {folder} is neither a film (.gif or .mp4) nor a folder; give a name "
-            "without an extension for a new folder"
+            f"write_animation: {folder} is neither a film (.gif, .mp4 or .glb) nor a folder; "
+            "give a name without an extension for a new folder"
         )
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -31,6 +31,7 @@ from .frames import (
     notice_old_frames,
     rate_option,
 )
+from .glb import write_path
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
 from .progress import spinner
@@ -60,7 +61,7 @@ EVEN = ("shape", "weights")
     type=FILE,
     metavar="FILE|DIR",
     help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path "
-    "a folder, or a film as .gif or .mp4.",
+    "a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @format_option
 @rate_option
@@ -128,10 +129,9 @@ def blend(
     if output is not None and is_film(output):
         film = [shape.vertices for shape in shapes]
         rate = frames_per_second or 30.0
-        with spinner("drawing the film"):
-            written = write_animation(
-                output, model, film, frames_per_second=rate, up=up or model.up
-            )
+        write = write_path if output.suffix.lower() == ".glb" else write_animation
+        with spinner("writing the frames"):
+            written = write(output, model, film, frames_per_second=rate, up=up or model.up)
     else:
         written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
     if png is not None:

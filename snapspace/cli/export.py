@@ -1,46 +1,79 @@
-"""`snapspace export`: writes a model as a page that can be mailed."""
+"""`snapspace export`: writes a model as a page, or as glTF, that can be mailed."""
 
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
 from ..page.export import export_html
 from .console import notice, print_json
+from .glb import write_model
 from .loading import load_leading
 from .options import FILE, json_option, leading_option, up_option
 from .units import in_bytes
 
 
-@click.command(short_help="Write a model as one HTML page.")
+@click.command(short_help="Write a model as one HTML page, or as glTF.")
 @click.argument("model", type=FILE)
 @click.option(
     "--html",
     type=FILE,
-    required=True,
     metavar="FILE",
     help="The page to write: one file that opens in any browser, without a network.",
 )
-@click.option("--title", help="Heading of the page [default: the model's name].")
+@click.option(
+    "--glb",
+    type=FILE,
+    metavar="FILE",
+    help="The glTF file to write: the surface with the model's modes as morph targets.",
+)
+@click.option(
+    "--targets",
+    type=click.IntRange(1, 1000),
+    metavar="N",
+    help="Fit at most N morph targets to the training samples, for engines that draw few "
+    "[default: all modes, which are exact].",
+)
+@click.option("--title", help="Heading of the page, name of the mesh [default: the model's name].")
 @leading_option
 @up_option
 @json_option
 def export(
-    model: Path, html: Path, title: str | None, dimension: int | None, up: str | None, as_json: bool
+    model: Path,
+    html: Path | None,
+    glb: Path | None,
+    targets: int | None,
+    title: str | None,
+    dimension: int | None,
+    up: str | None,
+    as_json: bool,
 ) -> None:
-    """Write a model as one HTML page, to be posed or blended in any browser.
+    """Write a model as one HTML page, to be posed or blended in any browser, or as a glTF file.
 
-    The file needs no network and no server: mail it, or publish it with a paper. --dimension makes
-    it smaller.
+    The page needs no network and no server: mail it, or publish it with a paper. --dimension makes
+    it smaller. The shapes of a glTF file are sums of its morph targets; `snapspace pose --path N
+    -o FILE.glb` writes an animation.
 
     \b
-    Example:
+    Examples:
       snapspace export dragon.snapspace --html dragon.html
+      snapspace export dragon.snapspace --glb dragon.glb --targets 8
     """
+    if html is None and glb is None:
+        raise ValueError("export: nothing to write; give --html FILE, --glb FILE, or both")
+    if targets is not None and glb is None:
+        raise ValueError("--targets is for a glTF file; give --glb FILE as well")
     loaded = load_leading(model, dimension)
-    export_html(loaded, html, title=model.stem if title is None else title, up=up)
-    size = html.stat().st_size
-    notice(f"wrote {html}, {in_bytes(size)}; open it in a browser")
+    name = model.stem if title is None else title
+    found: dict[str, Any] = {"dimension": loaded.dimension}
+    if html is not None:
+        export_html(loaded, html, title=name, up=up)
+        size = html.stat().st_size
+        notice(f"wrote {html}, {in_bytes(size)}; open it in a browser")
+        found |= {"file": str(html), "bytes": size}
+    if glb is not None:
+        found |= write_model(glb, loaded, targets=targets, name=name, up=up)
     if as_json:
-        print_json({"file": str(html), "bytes": size, "dimension": loaded.dimension})
+        print_json(found)

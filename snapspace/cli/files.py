@@ -9,6 +9,8 @@ SURFACE_INPUTS = (".obj", ".off", ".ply", ".stl")
 TET_OUTPUTS = (".msh", ".vtu", ".vtk", ".mesh")
 SURFACE_OUTPUTS = (".obj", ".ply", ".off", ".stl")
 FILMS = (".gif", ".mp4")
+#: One file for all frames of a path.
+ANIMATIONS = (*FILMS, ".glb")
 
 
 def make_folder(folder: Path, *, option: str) -> None:

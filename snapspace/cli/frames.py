@@ -9,7 +9,7 @@ import click
 from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from .console import notice
-from .files import FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
+from .files import ANIMATIONS, FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
 
 FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUTPUTS)
 
@@ -28,8 +28,8 @@ rate_option = click.option(
 
 
 def is_film(output: Path | None) -> bool:
-    """Whether an output is a film, by its extension."""
-    return output is not None and output.suffix.lower() in FILMS
+    """Whether an output is one file for all frames, by its extension."""
+    return output is not None and output.suffix.lower() in ANIMATIONS
 
 
 def check_frames_output(
@@ -40,12 +40,13 @@ def check_frames_output(
     if kind is not None and film:
         raise ValueError(f"--format {kind} is for files in a folder, but -o {output} is a film")
     if frames_per_second is not None and not film:
-        raise ValueError("--fps is for a film; give -o FILE.gif or -o FILE.mp4")
+        raise ValueError("--fps is for a film; give -o FILE.gif, FILE.mp4 or FILE.glb")
     if output is None:
         return
     if film:
-        writable_path(output, known=FILMS)
-        need_extra("pictures", who=f"-o {output}")
+        writable_path(output, known=ANIMATIONS)
+        if output.suffix.lower() in FILMS:
+            need_extra("pictures", who=f"-o {output}")
         if output.suffix.lower() == ".mp4":
             need_extra("video", who=f"-o {output}")
     else:
@@ -57,7 +58,7 @@ def _check_folder(output: Path) -> None:
     """Raises ValueError for a name with an extension, unless it is an existing folder."""
     if output.suffix and not output.is_dir():
         raise ValueError(
-            f"{output}: frames go to a film ({' or '.join(FILMS)}) or to a folder; give a name "
+            f"{output}: frames go to a film ({', '.join(ANIMATIONS)}) or to a folder; give a name "
             "without an extension for a new folder"
         )
 

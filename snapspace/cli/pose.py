@@ -39,7 +39,7 @@ from .progress import spinner
     type=FILE,
     metavar="FILE",
     help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path a "
-    "folder, or a film as .gif or .mp4.",
+    "folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @click.option(
     "--path",

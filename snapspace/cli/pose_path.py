@@ -16,6 +16,7 @@ from ..reduction import PosingModel
 from ..session import FrameReport
 from .console import notice, print_facts
 from .frames import is_film, notice_old_frames
+from .glb import write_path
 from .motions import Motion
 
 FloatArray = NDArray[np.float64]
@@ -35,6 +36,12 @@ class PosedPath:
         """Writes the shapes to a folder, or to a film with tinted handles; returns the files."""
         if output is None:
             return []
+        if output.suffix.lower() == ".glb":
+            rate, colors = frames_per_second, handle_colors(self.model)
+            shapes = self.shapes
+            return write_path(
+                output, self.model, shapes, up=up, frames_per_second=rate, colors=colors
+            )
         if is_film(output):
             return write_animation(
                 output,

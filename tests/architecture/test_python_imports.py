@@ -113,7 +113,8 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "validation",
     },
-    "animation": {"mesh", "pictures", "reduction"},
+    "gltf": {"blas", "disk", "reduction"},
+    "animation": {"gltf", "mesh", "pictures", "reduction"},
     "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace"},
     "server": {
         "accurate",

@@ -31,3 +31,21 @@ def test_mistakes_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
     assert "no such model file" in run("export", "none.snapspace", "--html", "a.html").error
     assert "--html" in run("export", model).error
     assert "cannot be written" in run("export", model, "--html", tmp_path / "no" / "a.html").error
+
+
+def test_a_model_becomes_gltf(run: Run, model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "bar.glb"
+    result = run("export", model, "--glb", out, "--json")
+    loaded = load(model)
+    assert result.json["targets"] == loaded.dimension and result.json["target_error"] == 0.0
+    assert result.json["glb_bytes"] == out.stat().st_size
+    few = run("export", model, "--glb", out, "--targets", 3, "--json").json
+    assert few["targets"] == 3 and 0.0 < few["target_error"] < 0.5
+    assert few["glb_bytes"] < result.json["glb_bytes"]
+
+
+def test_mistakes_with_gltf_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
+    assert "must end in .glb" in run("export", model, "--glb", tmp_path / "a.obj").error
+    page = tmp_path / "a.html"
+    assert "give --glb" in run("export", model, "--html", page, "--targets", 3).error
+    assert not page.exists()

@@ -49,7 +49,7 @@ def test_a_path_becomes_a_film(
         (("--path", 3, "--fps", 10, "-o", "frames"), "--fps is for a film"),
         (("--path", 3, "--format", "ply", "-o", "a.gif"), "is for files in a folder"),
         (("--path", 3, "-o", "a.gif", "--png", "a.png"), "--png is a picture of one shape"),
-        (("--path", 3, "-o", "a.avi"), "frames go to a film (.gif or .mp4) or to a folder"),
+        (("--path", 3, "-o", "a.avi"), "frames go to a film (.gif, .mp4, .glb) or to a folder"),
         (("--path", 1), "--path"),
     ],
 )

@@ -1,0 +1,6 @@
+"""glTF: models as meshes with morph targets, for viewers, engines and Blender."""
+
+from .morph_targets import MorphTargets, fitted_targets, mode_targets
+from .write_glb import write_glb
+
+__all__ = ["MorphTargets", "fitted_targets", "mode_targets", "write_glb"]

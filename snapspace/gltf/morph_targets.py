@@ -1,0 +1,148 @@
+"""MorphTargets: shapes of a surface as weighted sums of displacements."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..blas import single_threaded_blas
+from ..reduction import ReducedModel
+from .vertex_normals import vertex_normals
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MorphTargets:
+    """The surfaces base + sum_i weights_i targets_i, as glTF draws them.
+
+    base : (s, 3) vertices for zero weights
+    targets : (m, s, 3) displacements
+    normals : (s, 3) unit normals of the base; normal_targets : (m, s, 3) their changes, which are
+    exact to first order only: viewers add them up and normalise
+    weights : (k, m) weights of k shapes
+    error : largest distance of a vertex of these shapes from where the targets put it, in the
+    mesh's length unit; zero where they are exact
+    """
+
+    base: FloatArray
+    targets: FloatArray
+    normals: FloatArray
+    normal_targets: FloatArray
+    weights: FloatArray
+    error: float
+
+
+def mode_targets(model: ReducedModel, shapes: ArrayLike | None = None) -> MorphTargets:
+    """All modes of a model as targets: exactly tau + U q on the surface.
+
+    Parameters
+    ----------
+    model : ReducedModel
+    shapes : array_like, (k, n, 3), optional
+        Vertices of shapes in the subspace, whose coordinates become the weights. Default: none.
+
+    Notes
+    -----
+    Changes of the normals are those that fit the training samples best, or the given shapes if
+    there are more of them.
+    """
+    surface, subspace = model.surface, model.subspace
+    base = surface.vertices(subspace.tau.reshape(-1, 3))
+    targets = np.array(
+        [surface.vertices(mode.reshape(-1, 3)) for mode in np.ascontiguousarray(subspace.basis.T)]
+    )
+    weights = np.zeros((0, subspace.dimension))
+    error = 0.0
+    if shapes is not None:
+        given = np.asarray(shapes, np.float64)
+        weights = subspace.coordinates(given.reshape(len(given), -1))
+        error = _largest_distance(base, targets, weights, _on_surface(model, given))
+    known = model.training_coordinates
+    if len(weights) > len(known):
+        known = weights
+    normals, changes = _normals(base, targets, known, surface.faces)
+    return MorphTargets(base, targets, normals, changes, weights, error)
+
+
+def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) -> MorphTargets:
+    """The best few targets for given shapes: the least squared distance of all vertices.
+
+    Parameters
+    ----------
+    model : ReducedModel
+    shapes : array_like, (k, n, 3)
+        Vertices of the shapes, such as the frames of a path.
+    count : int, default 8
+        Largest number of targets; many engines draw no more than eight.
+
+    Returns
+    -------
+    MorphTargets
+        With the shape tau as the base. There are fewer targets where fewer are exact.
+
+    Raises
+    ------
+    ValueError
+        For no shapes, or a count that is not positive.
+    """
+    given = np.asarray(shapes, np.float64)
+    if len(given) == 0 or count < 1:
+        raise ValueError(
+            f"fitted_targets: needs shapes and at least one target, not {len(given)} shapes and "
+            f"{count} targets"
+        )
+    surface = model.surface
+    base = surface.vertices(model.subspace.tau.reshape(-1, 3))
+    seen = _on_surface(model, given)
+    targets, weights = _leading((seen - base).reshape(len(given), -1), count)
+    targets = targets.reshape(len(targets), -1, 3)
+    error = _largest_distance(base, targets, weights, seen)
+    normals, changes = _normals(base, targets, weights, surface.faces)
+    return MorphTargets(base, targets, normals, changes, weights, error)
+
+
+def _on_surface(model: ReducedModel, shapes: FloatArray) -> FloatArray:
+    return np.array([model.surface.vertices(shape) for shape in shapes])
+
+
+@single_threaded_blas
+def _leading(rows: FloatArray, count: int) -> tuple[FloatArray, FloatArray]:
+    """Directions (m, 3s), at most `count`, and the rows' weights (k, m), each at most one."""
+    values, vectors = np.linalg.eigh(rows @ rows.T)
+    order = np.argsort(values)[::-1][:count]
+    order = order[values[order] > 1e-14 * max(values.max(), 0.0)]
+    weights = vectors[:, order] * np.sqrt(values[order])
+    largest = np.abs(weights).max(axis=0, initial=0.0)
+    weights, lengths = weights / largest, largest
+    directions = (vectors[:, order] / np.sqrt(values[order])).T @ rows
+    return directions * lengths[:, None], weights
+
+
+@single_threaded_blas
+def _normals(
+    base: FloatArray, targets: FloatArray, weights: FloatArray, faces: NDArray[np.int32]
+) -> tuple[FloatArray, FloatArray]:
+    """Normals of the base, and their changes by target, fitted to the shapes of some weights."""
+    normals = vertex_normals(base, faces)
+    if len(weights) == 0:
+        return normals, np.zeros_like(targets)
+    flat = targets.reshape(len(targets), -1)
+    changes = np.array(
+        [vertex_normals(base + (w @ flat).reshape(-1, 3), faces) - normals for w in weights]
+    )
+    fitted = np.linalg.pinv(weights, rcond=1e-6) @ changes.reshape(len(weights), -1)
+    return normals, fitted.reshape(targets.shape)
+
+
+def _largest_distance(
+    base: FloatArray, targets: FloatArray, weights: FloatArray, shapes: FloatArray
+) -> float:
+    flat = targets.reshape(len(targets), -1)
+    most = 0.0
+    for w, shape in zip(weights, shapes, strict=True):
+        miss = base + (w @ flat).reshape(-1, 3) - shape
+        most = max(most, float(np.sqrt((miss**2).sum(axis=1)).max()))
+    return most
