@@ -11,7 +11,7 @@ COMMANDS = {
     "blend": "Blend poses and write the shapes.",
     "build": "Make a model from a problem.",
     "demo": "Build and paint a model of a generated creature.",
-    "export": "Write a model as one HTML page.",
+    "export": "Write a model as one HTML page, or as glTF.",
     "info": "Show what a file contains.",
     "interpolate": "Make a model that blends poses.",
     "pose": "Move handles and write the shape.",
