@@ -4,27 +4,50 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import ceil, floor, log10
+from itertools import pairwise
+from math import ceil, floor, hypot, log10
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..extras import need_extra
 
+Point: TypeAlias = tuple[float, float]
+
 _INK, _GRID, _PAPER = (58, 56, 54), (226, 224, 220), (255, 255, 255)
-_COLORS = ((31, 95, 168), (200, 82, 36), (44, 132, 78), (120, 80, 150))
+#: Distinct for colour-blind readers too, together with the markers; a curve has one of each.
+_COLORS = (
+    (31, 95, 168),
+    (200, 82, 36),
+    (44, 132, 78),
+    (120, 80, 150),
+    (204, 121, 167),
+    (86, 180, 233),
+    (140, 100, 20),
+    (230, 159, 0),
+    (90, 90, 90),
+    (0, 0, 0),
+)
+_CORNERS = (0, 4, 3, 5)  # of markers; 0 is a disc
+#: Up to this many names stand in the plot's corner, more beside it.
+_INSIDE = 4
 #: Charts are drawn this many times larger and averaged, so that lines are smooth.
 _FINER = 3
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Name and points of a curve: x and y (k,), all positive, and optional notes beside points."""
+    """Name and points of a curve: x and y (k,), all positive, and optional notes beside points.
+
+    dashed : draws the line in dashes, for bounds and references
+    """
 
     name: str
     x: Sequence[float]
     y: Sequence[float]
     notes: Sequence[str] = ()
+    dashed: bool = False
 
 
 def chart(
@@ -39,7 +62,8 @@ def chart(
 
     Parameters
     ----------
-    curves : one to four Curves
+    curves : one to ten Curves
+        The names of more than four stand beside the plot.
     title, x_name, y_name : str
         Heading, and names of the axes with their units.
     size : (int, int), default (560, 420)
@@ -55,7 +79,7 @@ def chart(
     MissingExtraError
         A ValueError, if the extra `snapspace[pictures]` is not installed.
     ValueError
-        For no curve or more than four, points that are not positive and finite, or different
+        For no curve or more than ten, points that are not positive and finite, or different
         numbers of x and y.
     """
     _check(curves)
@@ -64,9 +88,9 @@ def chart(
 
     paper = _Paper(size, curves)
     paper.frame(title, x_name, y_name)
-    for curve, color in zip(curves, _COLORS, strict=False):
-        paper.curve(curve, color)
-    paper.legend([curve.name for curve in curves])
+    for number, curve in enumerate(curves):
+        paper.curve(curve, number)
+    paper.legend(curves)
     return np.asarray(paper.image.resize(size, Image.Resampling.BOX))
 
 
@@ -82,7 +106,9 @@ class _Paper:
         self._text = round(0.03 * height)
         self._font = ImageFont.load_default(size=self._text)
         border = 3.2 * self._text
-        self._left, self._right = 1.9 * border, width - 0.7 * border
+        widest = max(self._font.getlength(curve.name) for curve in curves)
+        beside = widest + 3.5 * self._text if len(curves) > _INSIDE else 0.7 * border
+        self._left, self._right = 1.9 * border, width - beside
         self._top, self._bottom = border, height - 1.3 * border
         self._x = _range([value for curve in curves for value in curve.x])
         self._y = _range([value for curve in curves for value in curve.y])
@@ -103,24 +129,44 @@ class _Paper:
         self._write(((left + right) / 2, bottom + 2.1 * self._text), x_name, "ma")
         self._write((0.5 * self._text, top - 1.5 * self._text), y_name, "la")
 
-    def curve(self, curve: Curve, color: tuple[int, int, int]) -> None:
-        """A line with a dot and a note at each point."""
+    def curve(self, curve: Curve, number: int) -> None:
+        """A line with a marker and a note at each point."""
         points = [self._place(x, y) for x, y in zip(curve.x, curve.y, strict=True)]
-        if len(points) > 1:
-            self._pen.line(points, fill=color, width=2 * _FINER, joint="curve")
-        radius = 3 * _FINER
-        for x, y in points:
-            self._pen.ellipse([x - radius, y - radius, x + radius, y + radius], fill=color)
+        self._line(points, number, dashed=curve.dashed)
+        for point in points:
+            self._marker(point, number)
         for (x, y), note in zip(points, curve.notes, strict=False):
             self._write((x + 0.5 * self._text, y - 0.3 * self._text), note, "ls")
 
-    def legend(self, names: Sequence[str]) -> None:
-        """The names, each behind a line of its colour, in the lower left corner."""
-        for place, (name, color) in enumerate(_from_below(names)):
-            y = self._bottom - (1.0 + 1.5 * place) * self._text
-            x = self._left + 0.7 * self._text
-            self._pen.line([(x, y), (x + 1.5 * self._text, y)], fill=color, width=2 * _FINER)
-            self._write((x + 2.0 * self._text, y), name, "lm")
+    def legend(self, curves: Sequence[Curve]) -> None:
+        """The names, each behind a line of its colour, in the lower left corner or beside."""
+        inside = len(curves) <= _INSIDE
+        x = (self._left if inside else self._right) + 0.7 * self._text
+        for number, curve in enumerate(curves):
+            below = self._bottom - (1.0 + 1.5 * (len(curves) - 1 - number)) * self._text
+            y = below if inside else self._top + (0.7 + 1.5 * number) * self._text
+            ends = [(x, y), (x + 1.5 * self._text, y)]
+            self._line(ends, number, dashed=curve.dashed)
+            self._marker((x + 0.75 * self._text, y), number)
+            self._write((x + 2.0 * self._text, y), curve.name, "lm")
+
+    def _line(self, points: Sequence[Point], number: int, *, dashed: bool) -> None:
+        color, width = _COLORS[number], 2 * _FINER
+        if len(points) > 1 and not dashed:
+            self._pen.line(list(points), fill=color, width=width, joint="curve")
+        if dashed:
+            for start, end in pairwise(points):
+                for dash in _dashes(start, end, 0.5 * self._text):
+                    self._pen.line(dash, fill=color, width=width)
+
+    def _marker(self, place: Point, number: int) -> None:
+        corners, radius = _CORNERS[number % len(_CORNERS)], 3.5 * _FINER
+        if corners:
+            self._pen.regular_polygon((*place, 1.2 * radius), corners, fill=_COLORS[number])
+        else:
+            x, y = place
+            box = [x - radius, y - radius, x + radius, y + radius]
+            self._pen.ellipse(box, fill=_COLORS[number])
 
     def _place(self, x: float, y: float) -> tuple[float, float]:
         across = (log10(x) - self._x[0]) / (self._x[1] - self._x[0])
@@ -134,9 +180,15 @@ class _Paper:
         self._pen.text(place, text, fill=_INK, font=self._font, anchor=anchor)
 
 
-def _from_below(names: Sequence[str]) -> list[tuple[str, tuple[int, int, int]]]:
-    """Names with their colours, the last one first."""
-    return list(zip(names, _COLORS, strict=False))[::-1]
+def _dashes(start: Point, end: Point, length: float) -> list[list[Point]]:
+    """Pieces of a line, each as long as the gap after it."""
+    (x, y), (to_x, to_y) = start, end
+    count = max(round(hypot(to_x - x, to_y - y) / (2.0 * length)), 1)
+
+    def at(share: float) -> Point:
+        return x + share * (to_x - x), y + share * (to_y - y)
+
+    return [[at(k / count), at((k + 0.5) / count)] for k in range(count)]
 
 
 def _range(values: Sequence[float]) -> tuple[float, float]:

@@ -39,6 +39,25 @@ def test_the_same_curves_give_the_same_bytes() -> None:
     assert (drawn(curves[0]) != first).any()
 
 
+def test_ten_curves_have_their_names_beside_the_plot() -> None:
+    curves = [Curve(f"curve {k}", [1, 10], [1.0 + k, 2.0 + k]) for k in range(10)]
+    few, many = drawn(*curves[:4]), drawn(*curves)
+
+    def frame_ends(image: NDArray[np.uint8]) -> int:
+        dark = (image.astype(int).sum(axis=2) < 300).mean(axis=0)
+        return int(np.flatnonzero(dark > 0.5).max())
+
+    assert frame_ends(many) < frame_ends(few) - 40
+    colors = {tuple(pixel) for pixel in many.reshape(-1, 3)}
+    assert len(colors) > len({tuple(pixel) for pixel in few.reshape(-1, 3)})
+
+
+def test_dashes_leave_half_of_the_line() -> None:
+    whole = len(dots(drawn(Curve("a", [1, 100], [1.0, 0.01]))))
+    dashed = len(dots(drawn(Curve("a", [1, 100], [1.0, 0.01], dashed=True))))
+    assert 0.4 * whole < dashed < 0.8 * whole
+
+
 def test_one_point_is_drawn() -> None:
     assert len(dots(drawn(Curve("a", [7], [0.1]))))
 
@@ -47,7 +66,7 @@ def test_one_point_is_drawn() -> None:
     ("curves", "message"),
     [
         ([], "got 0 curves"),
-        ([Curve("a", [1], [1])] * 5, "got 5 curves, but it draws 1 to 4"),
+        ([Curve("a", [1], [1])] * 11, "got 11 curves, but it draws 1 to 10"),
         ([Curve("a", [1, 2], [1])], "'a' has 2 x and 1 y"),
         ([Curve("a", [], [])], "'a' has 0 x and 0 y"),
         ([Curve("a", [1, 0], [1, 1])], "'a' has a value that is not positive"),
