@@ -44,7 +44,7 @@ def test_ten_curves_have_their_names_beside_the_plot() -> None:
     few, many = drawn(*curves[:4]), drawn(*curves)
 
     def frame_ends(image: NDArray[np.uint8]) -> int:
-        dark = (image.astype(int).sum(axis=2) < 300).mean(axis=0)
+        dark = (image.astype(int).sum(axis=2) < 600).mean(axis=0)
         return int(np.flatnonzero(dark > 0.5).max())
 
     assert frame_ends(many) < frame_ends(few) - 40
