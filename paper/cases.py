@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -118,9 +119,14 @@ def _poses(shape: str, tets: str, reference: str, *names: str) -> Callable[[Path
     return read_it
 
 
+@cache
+def _creature_mesh() -> ss.TetMesh:
+    return generators.creature(5_000)
+
+
 def _creature(*names: str) -> Callable[[], Case]:
     def make() -> Case:
-        mesh = generators.creature(5_000)
+        mesh = _creature_mesh()
         parts = generators.creature_handles(mesh)
         handles = ss.Handles([parts[name] for name in names], names=list(names))
         domain = ss.HandleBox(translation=0.3, angle=np.pi / 4)
@@ -160,6 +166,8 @@ _REAL: dict[str, Callable[[Path], Case]] = {
         *(f"centaur{k}" for k in range(1, 6)),
     ),
 }
+#: Names of all cases.
+CASES = tuple(_REAL)
 _STAND_INS: dict[str, Callable[[], Case]] = {
     "dragon": _creature("feet", "head"),
     "elephant": _creature("feet", "tail"),

@@ -29,7 +29,9 @@ def times_in_order(rows: Rows) -> list[str]:
         if ours and paper:
             spent, printed = (sum(row[part] for part in PREPARATION) for row in (ours, paper))
             if printed <= spent:
-                faults.append(f"{title}: preparation takes {spent:.3g} s, {printed:.3g} s in paper")
+                faults.append(
+                    f"{title}: preparation takes {spent:.3g} s, {printed:.3g} s in the paper"
+                )
             if paper["ms a frame"] <= ours["ms a frame"]:
                 faults.append(f"{title}: a frame takes longer than in the paper")
     return faults
