@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+
 import snapspace as ss
 
 #: Frames from one random point of the domain to the next: a second of a moving hand.
@@ -14,16 +16,16 @@ LEG = 60
 
 @dataclass(frozen=True)
 class Live:
-    """Means over the frames of a drag.
+    """Frames of a drag.
 
-    iterations : iterations of the minimiser in a frame
-    milliseconds : of the solve of a frame, without its vertices
-    per_iteration : milliseconds of an iteration; not a number if no frame took one
+    iterations : of the minimiser in a frame, mean
+    per_iteration : milliseconds, median of the frames that took any; not a number if none did
+    milliseconds : of the solve of a frame, without its vertices, median
     """
 
     iterations: float
-    milliseconds: float
     per_iteration: float
+    milliseconds: float
 
 
 def drag(
@@ -45,10 +47,12 @@ def drag(
         for a, b in pairwise(corners)
         for k in range(1, LEG + 1)
     ]
-    iterations = sum(report.iterations for report in reports)
-    milliseconds = 1e3 * sum(report.seconds for report in reports)
     return Live(
-        iterations=iterations / len(reports),
-        milliseconds=milliseconds / len(reports),
-        per_iteration=milliseconds / iterations if iterations else math.nan,
+        iterations=float(np.mean([report.iterations for report in reports])),
+        per_iteration=_median([1e3 * r.seconds / r.iterations for r in reports if r.iterations]),
+        milliseconds=_median([1e3 * report.seconds for report in reports]),
     )
+
+
+def _median(values: list[float]) -> float:
+    return float(np.median(values)) if values else math.nan

@@ -105,13 +105,15 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
     few, seconds = newton_samples(
         snapshots, NEWTON_SMALL if len(mesh.tets) < SMALL_TETS else NEWTON
     )
+    is_exact = model.cubature is None  # frames of a cubature are solved by BFGS anyway
     result.add(
-        **{"shape": case.shape, "material": kind, "method": "Newton, BFGS"},
+        **{"shape": case.shape, "material": kind},
+        method="Newton, BFGS" if is_exact else "Newton",
         **size,
         **_sampling(few, seconds, count),
         d=dimension,
         **_model(None, None),
-        **_frames(drag(model, minimizer="bfgs")),
+        **_frames(drag(model, minimizer="bfgs") if is_exact else None),
     )
 
 
@@ -125,7 +127,7 @@ def _add_printed(result: Result, row: Row, case: Case) -> None:
         **{"s a sample": row.sampling / row.samples, "iterations": row.iterations},
         d=row.dimension,
         **_model(None, row.coefficients),
-        **_frames(Live(row.per_frame, row.per_frame * row.per_iteration, row.per_iteration)),
+        **_frames(Live(row.per_frame, row.per_iteration, row.per_frame * row.per_iteration)),
     )
 
 
@@ -145,11 +147,11 @@ def _model(fitting: float | None, coefficients: float | None) -> dict[str, Any]:
     return {"fits, s": fitting, "coefficients, s": coefficients}
 
 
-def _frames(live: Live) -> dict[str, Any]:
+def _frames(live: Live | None) -> dict[str, Any]:
     return {
-        "iterations a frame": live.iterations,
-        "ms an iteration": live.per_iteration,
-        "ms a frame": live.milliseconds,
+        "iterations a frame": live and live.iterations,
+        "ms an iteration": live and live.per_iteration,
+        "ms a frame": live and live.milliseconds,
     }
 
 

@@ -51,13 +51,13 @@ def test_newtons_method_needs_samples_to_start_from(snapshots: ss.Snapshots) -> 
         newton_samples(snapshots, 5)
 
 
-def test_a_frame_is_the_mean_of_a_drag(snapshots: ss.Snapshots) -> None:
+def test_a_drag_counts_the_iterations_of_its_frames(snapshots: ss.Snapshots) -> None:
     subspace = ss.snapshot_pca(snapshots, dimension=6)
     model = ss.reduce(PROBLEM, subspace, snapshots=snapshots)
     newton, bfgs = drag(model, legs=1), drag(model, minimizer="bfgs", legs=1)
     for live in (newton, bfgs):
-        assert live.milliseconds == pytest.approx(live.iterations * live.per_iteration)
         assert live.iterations * LEG == pytest.approx(round(live.iterations * LEG))
+        assert live.per_iteration > 0 and live.milliseconds > 0
     assert 0 < newton.iterations < bfgs.iterations, "BFGS builds its Hessian step by step"
 
 
