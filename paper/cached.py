@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 import snapspace as ss
 from snapspace.validation.unseen import reference_options, unseen_parameters
 
+from .timing import timed
+
 FloatArray = NDArray[np.float64]
 
 #: Where solutions are kept; `make clean` removes it.
@@ -24,16 +26,25 @@ def cached_snapshots(
     options: ss.SolverOptions | None = None,
 ) -> ss.Snapshots:
     """`solve_snapshots`, kept by problem, parameters and options; solved once for all programs."""
-    asked = options or ss.SolverOptions()
-    key = hashlib.sha256(parameters.tobytes())
-    key.update(f"{problem.fingerprint} {sorted(asdict(asked).items())} {ss.__version__}".encode())
-    path = FOLDER / f"{key.hexdigest()[:24]}.samples"
+    path = _path(problem, parameters, options)
     if path.is_file():
         return ss.load_snapshots(path, problem)
-    solved = ss.solve_snapshots(problem, parameters, options=asked)
-    FOLDER.mkdir(parents=True, exist_ok=True)
-    ss.save_snapshots(solved, path)
+    solved = ss.solve_snapshots(problem, parameters, options=options)
+    _save(solved, path)
     return solved
+
+
+def timed_training(
+    problem: ss.PosingProblem | ss.InterpolationProblem, count: int
+) -> tuple[ss.Snapshots, float]:
+    """`training`, but always solved now, and the seconds; other programs need not solve it again.
+
+    The seconds include all that is made once for a problem, for poses the mean shape as well.
+    """
+    parameters = ss.sample(problem.domain, count, method="sobol")
+    solved, seconds = timed(lambda: ss.solve_snapshots(problem, parameters))
+    _save(solved, _path(problem, parameters, None))
+    return solved, seconds
 
 
 def training(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> ss.Snapshots:
@@ -46,3 +57,19 @@ def unseen(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> s
     parameters = unseen_parameters(problem.domain, count, seed=1)
     solved = cached_snapshots(problem, parameters, reference_options(problem))
     return solved.select(solved.converged)
+
+
+def _path(
+    problem: ss.PosingProblem | ss.InterpolationProblem,
+    parameters: FloatArray,
+    options: ss.SolverOptions | None,
+) -> Path:
+    asked = sorted(asdict(options or ss.SolverOptions()).items())
+    key = hashlib.sha256(parameters.tobytes())
+    key.update(f"{problem.fingerprint} {asked} {ss.__version__}".encode())
+    return FOLDER / f"{key.hexdigest()[:24]}.samples"
+
+
+def _save(snapshots: ss.Snapshots, path: Path) -> None:
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    ss.save_snapshots(snapshots, path)

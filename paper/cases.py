@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,9 @@ import numpy as np
 import snapspace as ss
 from snapspace import generators
 from snapspace.material import material_class
+
+from .cached import FOLDER
+from .fitted import fitted_poses
 
 #: The paper's material, and the default of Snapspace.
 MATERIALS = ("stvk", "stable-neo-hookean")
@@ -24,10 +28,18 @@ class Case:
     """A problem, and the name of the shape that it is of.
 
     shape : of a real mesh, or "generated ..." for a stand-in
+    fitting : seconds in which the tets were fitted to the poses, which are given as surfaces; None
+        if they are given as tets, or there are none
     """
 
     problem: ss.PosingProblem | ss.InterpolationProblem
     shape: str
+    fitting: float | None = None
+
+    @property
+    def generated(self) -> bool:
+        """Whether this is a stand-in."""
+        return self.shape.startswith("generated")
 
 
 def meshes_folder() -> Path | None:
@@ -51,7 +63,7 @@ def read(name: str, kind: str, *, quick: bool = False) -> Case:
 def _with_material(case: Case, kind: str) -> Case:
     material, problem = material_class(kind)(), case.problem
     if isinstance(problem, ss.InterpolationProblem):
-        return Case(ss.InterpolationProblem(problem.poses, material=material), case.shape)
+        return replace(case, problem=ss.InterpolationProblem(problem.poses, material=material))
     changed = ss.PosingProblem(
         problem.mesh,
         problem.handles,
@@ -59,12 +71,13 @@ def _with_material(case: Case, kind: str) -> Case:
         material=material,
         stiffness=problem.stiffness,
     )
-    return Case(changed, case.shape)
+    return replace(case, problem=changed)
 
 
 def _posing(name: str) -> Callable[[Path], Case]:
     def read_it(folder: Path) -> Case:
-        return Case(ss.read_problem(folder / "problems" / f"{name}.json"), name)
+        shape = name.replace("_", " ")
+        return Case(ss.read_problem(folder / "problems" / f"{name}.json"), shape)
 
     return read_it
 
@@ -96,9 +109,24 @@ def _helix(folder: Path) -> Case:
     return Case(ss.InterpolationProblem(meshes), "helix")
 
 
+def _poses(shape: str, tets: str, reference: str, *names: str) -> Callable[[Path], Case]:
+    def read_it(folder: Path) -> Case:
+        found = fitted_poses(
+            folder / "tets" / tets, folder / "poses" / reference, names, folder=FOLDER
+        )
+        return Case(ss.InterpolationProblem(found.poses), shape, found.seconds)
+
+    return read_it
+
+
+@cache
+def _creature_mesh() -> ss.TetMesh:
+    return generators.creature(5_000)
+
+
 def _creature(*names: str) -> Callable[[], Case]:
     def make() -> Case:
-        mesh = generators.creature(5_000)
+        mesh = _creature_mesh()
         parts = generators.creature_handles(mesh)
         handles = ss.Handles([parts[name] for name in names], names=list(names))
         domain = ss.HandleBox(translation=0.3, angle=np.pi / 4)
@@ -113,15 +141,40 @@ def _small_helix() -> Case:
     return Case(ss.InterpolationProblem(poses), "generated helix")
 
 
+def _lizard(poses: int) -> Callable[[], Case]:
+    def make() -> Case:
+        problem = ss.InterpolationProblem(generators.lizard_poses(poses, 2_000, seed=poses))
+        return Case(problem, f"generated lizard, {poses} poses")
+
+    return make
+
+
 _REAL: dict[str, Callable[[Path], Case]] = {
     "dragon": _posing("dragon"),
     "elephant": _posing("elephant"),
     "armadillo": _armadillo,
+    "dog_head": _posing("dog_head"),
     "helix": _helix,
+    "lion": _poses(
+        "lion", "sumner_lion_Yq1.4a.mesh", "sumner_lion/lion-reference_fixed.off", "lion-06"
+    ),
+    "dog": _poses("dog", "tosca_dog_Yq2.mesh", "tosca_dog/dog0.off", "dog1", "dog2"),
+    "centaur": _poses(
+        "centaur",
+        "tosca_centaur_Yq2.mesh",
+        "tosca_centaur/centaur0_fixed.off",
+        *(f"centaur{k}" for k in range(1, 6)),
+    ),
 }
+#: Names of all cases.
+CASES = tuple(_REAL)
 _STAND_INS: dict[str, Callable[[], Case]] = {
     "dragon": _creature("feet", "head"),
     "elephant": _creature("feet", "tail"),
     "armadillo": _creature("feet", "head", "tail"),
+    "dog_head": _creature("feet", "head"),
     "helix": _small_helix,
+    "lion": _lizard(2),
+    "dog": _lizard(3),
+    "centaur": _lizard(6),
 }

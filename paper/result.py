@@ -38,7 +38,7 @@ class Result:
         table = Table(*self.rows[0], title=self.title)
         for row in self.rows:
             table.add_row(*(_text(value) for value in row.values()))
-        Console(width=150).print(table)
+        Console(width=190).print(table)
 
     def save(self, folder: Path = FOLDER) -> Path:
         """Writes NAME.json; the path."""

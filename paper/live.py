@@ -1,0 +1,58 @@
+"""drag: what a frame of a live session takes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+import snapspace as ss
+
+#: Frames from one random point of the domain to the next: a second of a moving hand.
+LEG = 60
+
+
+@dataclass(frozen=True)
+class Live:
+    """Frames of a drag.
+
+    iterations : of the minimiser in a frame, mean
+    per_iteration : milliseconds, median of the frames that took any; not a number if none did
+    milliseconds : of the solve of a frame, without its vertices, median
+    """
+
+    iterations: float
+    per_iteration: float
+    milliseconds: float
+
+
+def drag(
+    model: ss.PosingModel | ss.InterpolationModel,
+    *,
+    minimizer: str | None = None,
+    legs: int = 2,
+    seed: int = 9,
+) -> Live:
+    """Moves along straight lines between random parameters, `LEG` frames each.
+
+    The first frame, a jump from tau, does not count.
+    """
+    corners = ss.sample(model.problem.domain, legs + 1, seed=seed)
+    session = model.session(minimizer=minimizer)
+    session.set_parameters(corners[0])
+    reports = [
+        session.set_parameters(a + (b - a) * (k / LEG))
+        for a, b in pairwise(corners)
+        for k in range(1, LEG + 1)
+    ]
+    return Live(
+        iterations=float(np.mean([report.iterations for report in reports])),
+        per_iteration=_median([1e3 * r.seconds / r.iterations for r in reports if r.iterations]),
+        milliseconds=_median([1e3 * report.seconds for report in reports]),
+    )
+
+
+def _median(values: list[float]) -> float:
+    return float(np.median(values)) if values else math.nan
