@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 import snapspace as ss
+from snapspace.disk import atomic_file
 from snapspace.validation.unseen import reference_options, unseen_parameters
 
 from .timing import timed
 
 FloatArray = NDArray[np.float64]
+Problem: TypeAlias = ss.PosingProblem | ss.InterpolationProblem
 
 #: Where solutions are kept; `make clean` removes it.
 FOLDER = Path(__file__).parents[1] / "build" / "paper"
@@ -57,6 +61,24 @@ def unseen(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> s
     parameters = unseen_parameters(problem.domain, count, seed=1)
     solved = cached_snapshots(problem, parameters, reference_options(problem))
     return solved.select(solved.converged)
+
+
+def cached_subspace(
+    name: str,
+    problem: Problem,
+    dimension: int,
+    build: Callable[[Problem, int], ss.AffineSubspace],
+) -> ss.AffineSubspace:
+    """build(problem, dimension), kept by its name; `build` depends on nothing else."""
+    key = hashlib.sha256(f"{name} {dimension} {problem.fingerprint} {ss.__version__}".encode())
+    path = FOLDER / f"{key.hexdigest()[:24]}.npy"
+    if path.is_file():
+        return ss.affine_subspace(np.load(path), problem, nested=False)
+    built = build(problem, dimension)
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    with atomic_file(path) as temporary, temporary.open("wb") as file:
+        np.save(file, built.basis)
+    return built
 
 
 def _path(

@@ -12,22 +12,30 @@ from snapspace.mesh import mass_norms
 
 FloatArray = NDArray[np.float64]
 
-#: Up to this dimension a St.Venant-Kirchhoff energy is made an exact quartic: the same, and faster.
-MOST_EXACT = 60
+#: Up to this dimension, and from so many solves on, a St.Venant-Kirchhoff energy is made an exact
+#: quartic: it is the same, and its coefficients take less time than they save.
+MOST_EXACT, LEAST_SOLVES = 60, 5
 
 
 def minimisers(
-    subspace: ss.AffineSubspace, reference: ss.Snapshots, *, tolerance: float = 1e-7
+    subspace: ss.AffineSubspace,
+    reference: ss.Snapshots,
+    *,
+    tolerance: float = 1e-7,
+    model: ss.PosingModel | ss.InterpolationModel | None = None,
 ) -> Iterator[FloatArray]:
     """Shapes (3n,) that minimise the objective in a subspace, one for each full solution.
 
     As in the paper (sec. 7): Newton's method begins at the M-projection of the full solution, and
-    no evaluation is approximated, so that only subspaces are compared.
+    no evaluation is approximated, so that only subspaces are compared. A model with the exact
+    energy on the subspace, if there is one, saves making another.
     """
     problem = reference.problem
     assert isinstance(problem, ss.PosingProblem | ss.InterpolationProblem)
-    exact = problem.material.exact_degree == 4 and subspace.dimension <= MOST_EXACT
-    model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
+    pays = subspace.dimension <= MOST_EXACT and len(reference) >= LEAST_SOLVES
+    exact = problem.material.exact_degree == 4 and pays
+    if model is None or model.cubature is not None:
+        model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
     session = model.session(tolerance=tolerance, minimizer="newton")
     for parameters, shape in zip(reference.parameters, reference.shapes, strict=True):
         start = model.subspace.coordinates(shape)
@@ -43,10 +51,15 @@ def minimisers(
         yield model.subspace.shape(session.q)
 
 
-def relative_errors(subspace: ss.AffineSubspace, reference: ss.Snapshots) -> FloatArray:
+def relative_errors(
+    subspace: ss.AffineSubspace,
+    reference: ss.Snapshots,
+    *,
+    model: ss.PosingModel | ss.InterpolationModel | None = None,
+) -> FloatArray:
     """|x_red - x_full|_M over |x_full - tau|_M of all full solutions, (k,)."""
     shapes = reference.shapes
-    found = np.array(list(minimisers(subspace, reference)))
+    found = np.array(list(minimisers(subspace, reference, model=model)))
     size = mass_norms(subspace.mass, shapes - subspace.tau)
     errors: FloatArray = mass_norms(subspace.mass, found - shapes) / size
     return errors

@@ -15,7 +15,7 @@ from pathlib import Path
 import snapspace as ss
 
 from . import rivals
-from .cached import training, unseen
+from .cached import cached_subspace, training, unseen
 from .cases import MATERIALS, read
 from .minimisers import projection_errors, relative_errors
 from .orderings import Rows, errors_in_order
@@ -61,7 +61,9 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
     problem = case.problem
     reference = unseen(problem, UNSEEN)
     wanted = [("ours", ss.snapshot_pca(training(problem, row.samples), dimension=row.ours))]
-    wanted += [("VM + MD", rivals.modal_subspace(problem, d)) for d in row.rivals]
+    wanted += [
+        ("VM + MD", cached_subspace("modal", problem, d, rivals.modal_subspace)) for d in row.rivals
+    ]
     if isinstance(problem, ss.PosingProblem):  # beyond the paper: modes alone
         wanted.append(("VM", rivals.vibration_subspace(problem, row.rivals[1])))
     paper = row.paper if kind == "stvk" else ()
