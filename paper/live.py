@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -19,12 +18,12 @@ class Live:
     """Frames of a drag.
 
     iterations : of the minimiser in a frame, mean
-    per_iteration : milliseconds, median of the frames that took any; not a number if none did
+    per_iteration : milliseconds, median of the frames that took any; None if none did
     milliseconds : of the solve of a frame, without its vertices, median
     """
 
     iterations: float
-    per_iteration: float
+    per_iteration: float | None
     milliseconds: float
 
 
@@ -47,12 +46,9 @@ def drag(
         for a, b in pairwise(corners)
         for k in range(1, LEG + 1)
     ]
+    steps = [1e3 * report.seconds / report.iterations for report in reports if report.iterations]
     return Live(
         iterations=float(np.mean([report.iterations for report in reports])),
-        per_iteration=_median([1e3 * r.seconds / r.iterations for r in reports if r.iterations]),
-        milliseconds=_median([1e3 * report.seconds for report in reports]),
+        per_iteration=float(np.median(steps)) if steps else None,
+        milliseconds=float(np.median([1e3 * report.seconds for report in reports])),
     )
-
-
-def _median(values: list[float]) -> float:
-    return float(np.median(values)) if values else math.nan

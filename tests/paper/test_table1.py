@@ -57,7 +57,7 @@ def test_a_drag_counts_the_iterations_of_its_frames(snapshots: ss.Snapshots) -> 
     newton, bfgs = drag(model, legs=1), drag(model, minimizer="bfgs", legs=1)
     for live in (newton, bfgs):
         assert live.iterations * LEG == pytest.approx(round(live.iterations * LEG))
-        assert live.per_iteration > 0 and live.milliseconds > 0
+        assert live.per_iteration and live.per_iteration > 0 and live.milliseconds > 0
     assert 0 < newton.iterations < bfgs.iterations, "BFGS builds its Hessian step by step"
 
 
