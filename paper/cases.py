@@ -154,6 +154,7 @@ _REAL: dict[str, Callable[[Path], Case]] = {
     "elephant": _posing("elephant"),
     "armadillo": _armadillo,
     "dog_head": _posing("dog_head"),
+    "spot": _posing("spot"),
     "helix": _helix,
     "lion": _poses(
         "lion", "sumner_lion_Yq1.4a.mesh", "sumner_lion/lion-reference_fixed.off", "lion-06"
@@ -173,6 +174,7 @@ _STAND_INS: dict[str, Callable[[], Case]] = {
     "elephant": _creature("feet", "tail"),
     "armadillo": _creature("feet", "head", "tail"),
     "dog_head": _creature("feet", "head"),
+    "spot": _creature("feet", "head"),
     "helix": _small_helix,
     "lion": _lizard(2),
     "dog": _lizard(3),
