@@ -28,7 +28,7 @@ class Program(Protocol):
 
 
 #: Modules in the order in which they run.
-PROGRAMS = ("table2", "table3")
+PROGRAMS = ("table2", "table3", "evaluations")
 
 
 def main() -> int:
