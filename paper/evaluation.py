@@ -13,6 +13,9 @@ from numpy.typing import NDArray
 import snapspace as ss
 from snapspace import _core as core
 from snapspace.reduction import BlendedCubature
+from snapspace.sampling import Domain
+
+from .evaluators import ClusteredEnergy, local_global
 
 FloatArray = NDArray[np.float64]
 Model = ss.PosingModel | ss.InterpolationModel
@@ -20,8 +23,10 @@ Function = Callable[[FloatArray], Any]
 
 #: Seconds of one measurement, and how many are taken; the shortest counts.
 MEASURED, TAKEN = 2e-3, 12
-#: Frames on each straight line of a drag.
-LINE = 30
+#: Frames on each straight line of a drag, and the seed of its corners.
+LINE, SEED = 30, 3
+#: Square root of the default tolerance of a session, which bounds its last step (sec. 6.2).
+SESSION_STEP = 1e-7**0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +39,7 @@ class Evaluation:
     model : whose frames are solved with it
     functions : value and gradient at (d,) in one or more forms, of the same values; the fastest
     counts
+    clustered : the energy of clusters of rotations, whose own solver steps are counted
     """
 
     name: str
@@ -41,6 +47,7 @@ class Evaluation:
     multiply_adds: int
     model: Model
     functions: tuple[Function, ...]
+    clustered: ClusteredEnergy | None = None
 
 
 def value_and_gradient(model: Model, parameters: FloatArray) -> Function:
@@ -72,18 +79,37 @@ def _seconds(function: Function, q: FloatArray) -> float:
     return float(best)
 
 
-def warm_frames(model: Model, *, frames: int, seed: int = 3) -> tuple[float, float]:
-    """Median milliseconds of a drag's solves, and their mean number of evaluations.
-
-    The drag joins random parameters of the domain by straight lines.
-    """
+def warm_frames(model: Model, *, frames: int) -> tuple[float, float]:
+    """Median milliseconds of a drag's solves, and their mean number of evaluations."""
     session = model.session()
-    corners = ss.sample(model.problem.domain, frames // LINE + 2, seed=seed)
-    session.set_parameters(corners[0])
-    reports = []
-    for k in range(1, frames + 1):
-        begin, share = divmod(k, LINE)
-        a, b = corners[begin], corners[begin + 1]
-        reports.append(session.set_parameters(a + (b - a) * share / LINE))
+    first, *others = drag(model.problem.domain, frames)
+    session.set_parameters(first)
+    reports = [session.set_parameters(parameters) for parameters in others]
     median = float(np.median([1e3 * report.seconds for report in reports]))
     return median, float(np.mean([report.evaluations for report in reports]))
+
+
+def local_global_steps(model: ss.PosingModel, energy: ClusteredEnergy, *, frames: int) -> float:
+    """Mean number of local and global steps of the frames of the same drag.
+
+    They end when a step is as short as those at which a session stops with its default tolerance.
+    """
+    first, *others = (model.problem.offsets(w) for w in drag(model.problem.domain, frames))
+    q = local_global(energy, model.handles, first, np.zeros(model.dimension)).q
+    counts = []
+    for offsets in others:
+        found = local_global(energy, model.handles, offsets, q, tolerance=SESSION_STEP)
+        q = found.q
+        counts.append(found.steps)
+    return float(np.mean(counts))
+
+
+def drag(domain: Domain, frames: int) -> FloatArray:
+    """Parameters (frames + 1, p) along straight lines between random ones of the domain."""
+    corners = ss.sample(domain, frames // LINE + 2, seed=SEED)
+    places = np.arange(frames + 1) / LINE
+    begin = places.astype(int)
+    path: FloatArray = (
+        corners[begin] + (corners[begin + 1] - corners[begin]) * ((places - begin)[:, None])
+    )
+    return path

@@ -107,7 +107,7 @@ def clusters(model: ss.PosingModel, snapshots: ss.Snapshots) -> Iterator[Evaluat
         count = len(energy.clusters.weights)
         functions = (energy.clusters.value_and_gradient,)
         adds, small = BY_ROWS * count * d, clustered_model(model, energy)
-        yield Evaluation("rotation clusters", count, adds, small, functions)
+        yield Evaluation("rotation clusters", count, adds, small, functions, energy)
 
 
 def full_model(

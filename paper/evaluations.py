@@ -25,7 +25,7 @@ from snapspace.mesh import mass_norms
 from . import evaluation_methods as methods
 from .cached import training, unseen
 from .cases import MATERIALS, Case, read
-from .evaluation import Evaluation, Model, microseconds, warm_frames
+from .evaluation import Evaluation, Model, local_global_steps, microseconds, warm_frames
 from .evaluation_charts import draw
 from .evaluation_orderings import faults
 from .evaluators import CoarseMesh, coarse_meshes
@@ -118,7 +118,8 @@ def _add(
                 mean=_short(errors.mean()),
                 median=_short(np.median(errors)),
                 **{"us": _short(microseconds(one, wanted[0]))},
-                **{"frame ms": _short(milliseconds), "frame evaluations": _short(evaluations)},
+                **{"frame ms": _short(milliseconds), "evaluations": _short(evaluations)},
+                **{"local/global steps": _steps(one, whole, frames)},
             )
 
 
@@ -143,6 +144,14 @@ def _evaluations(
         yield from methods.clusters(whole, snapshots)
     assert near is not None
     yield methods.all_tets(whole, near, parameters)
+
+
+def _steps(one: Evaluation, whole: Model, frames: int) -> float | None:
+    """Those of a frame with clusters."""
+    if one.clustered is None:
+        return None
+    assert isinstance(whole, ss.PosingModel)
+    return _short(local_global_steps(whole, one.clustered, frames=frames))
 
 
 def _minimisers(model: Model, reference: ss.Snapshots) -> FloatArray:

@@ -17,10 +17,10 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LocalGlobal:
-    """Where the iteration ended: coordinates (d,), and how many iterations it took."""
+    """Where the iteration ended: coordinates (d,), and how many steps it took."""
 
     q: FloatArray
-    iterations: int
+    steps: int
 
 
 def local_global(
@@ -45,16 +45,14 @@ def local_global(
     matrix = energy.spread + rows.T @ (weights[:, None] * rows) + handles.K
     pull = np.einsum("hik,hk->i", handles.L, offsets.reshape(len(offsets), 12))
     factor = cho_factor(matrix)
-    q = start
-    for iteration in range(1, most + 1):
+    q, taken, step = start, 0, np.inf
+    while taken < most and step > tolerance * float(np.linalg.norm(q)):
         rotations = nearest_rotations(np.eye(3) + (rows @ q).reshape(-1, 3, 3))
         wanted = (rotations - np.eye(3)).ravel()
         after: FloatArray = cho_solve(factor, rows.T @ (weights * wanted) + pull)
         step = float(np.linalg.norm(after - q))
-        q = after
-        if step <= tolerance * float(np.linalg.norm(q)):
-            break
-    return LocalGlobal(q, iteration)
+        q, taken = after, taken + 1
+    return LocalGlobal(q, taken)
 
 
 def nearest_rotations(matrices: FloatArray) -> FloatArray:

@@ -9,9 +9,17 @@ import numpy as np
 import pytest
 
 import snapspace as ss
-from paper.evaluation import Evaluation, microseconds, value_and_gradient, warm_frames
+from paper.evaluation import (
+    Evaluation,
+    drag,
+    local_global_steps,
+    microseconds,
+    value_and_gradient,
+    warm_frames,
+)
 from paper.evaluation_charts import draw
 from paper.evaluation_orderings import faults
+from paper.evaluators import clustered_energy
 from paper.rivals import skinning_subspace
 
 from ..shapes import bar_problem, interpolation_problem
@@ -99,3 +107,22 @@ def test_each_shape_has_a_picture(tmp_path: Path) -> None:
     draw(rows(), tmp_path)
     picture = tmp_path / "evaluations_bar_bent.png"
     assert 1_000 < picture.stat().st_size < 150_000
+
+
+def test_a_drag_joins_parameters_by_straight_lines() -> None:
+    path = drag(bar_problem().domain, 45)
+    assert path.shape == (46, 12)
+    assert np.allclose(np.diff(path[:31], axis=0), path[1] - path[0])
+    assert not np.allclose(path[31] - path[30], path[1] - path[0]), "a corner"
+
+
+def test_slow_drags_need_few_local_and_global_steps() -> None:
+    plain = bar_problem()
+    problem = ss.PosingProblem(
+        plain.mesh, plain.handles, domain=plain.domain, material=ss.ARAP(), stiffness=100.0
+    )
+    subspace = skinning_subspace(problem, 12)
+    model = ss.reduce(problem, subspace, energy="full")
+    labels = np.arange(len(problem.mesh.tets)) % 5
+    energy = clustered_energy(problem, subspace, labels)
+    assert 1 <= local_global_steps(model, energy, frames=3) < 50

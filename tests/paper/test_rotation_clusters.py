@@ -129,12 +129,12 @@ def test_the_core_minimises_the_clustered_energy() -> None:
 def test_clusters_hold_tets_that_move_alike() -> None:
     """The spread within clusters falls with their number, and all tets are in one."""
     spreads = []
-    for count in (1, 6, 24):
+    for count in (1, 12):
         labels = rotation_clusters(PROBLEM, SUBSPACE, STATES, count)
         assert labels.shape == EACH.shape and set(labels) == set(range(labels.max() + 1))
         energy = clustered_energy(PROBLEM, SUBSPACE, labels)
         spreads.append(np.einsum("ki,ij,kj->", STATES, energy.spread, STATES))
-    assert spreads[0] > 1.2 * spreads[1] > 1.2 * spreads[2] > 0
+    assert spreads[0] > 2.0 * spreads[1] > 0
     every = rotation_clusters(PROBLEM, SUBSPACE, STATES, len(EACH))
     assert np.array_equal(every, EACH)
 
