@@ -36,7 +36,21 @@ def minimisers(
     exact = problem.material.exact_degree == 4 and pays
     if model is None or model.cubature is not None:
         model = ss.reduce(problem, subspace, energy="exact" if exact else "full")
-    session = model.session(tolerance=tolerance, minimizer="newton")
+    for q in coordinates_of_minimisers(model, reference, tolerance=tolerance):
+        yield model.subspace.shape(q)
+
+
+def coordinates_of_minimisers(
+    model: ss.PosingModel | ss.InterpolationModel,
+    reference: ss.Snapshots,
+    *,
+    tolerance: float = 1e-7,
+) -> Iterator[FloatArray]:
+    """Coordinates (d,) where Newton's method on a model ends, from the same starts."""
+    problem = model.problem
+    session = model.session(
+        tolerance=tolerance, minimizer="newton", max_iterations=3000, max_evaluations=5000
+    )
     for parameters, shape in zip(reference.parameters, reference.shapes, strict=True):
         start = model.subspace.coordinates(shape)
         if isinstance(session, ss.BlendingSession):
@@ -48,7 +62,7 @@ def minimisers(
         report = session.solve()
         if report.status not in ("converged", "line_search_failed"):
             raise ValueError(f"minimisers: a reduced solve ended as {report.status}")
-        yield model.subspace.shape(session.q)
+        yield session.q
 
 
 def relative_errors(
