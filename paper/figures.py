@@ -22,6 +22,7 @@ from snapspace.validation.unseen import reference_options
 from . import rivals
 from .cached import cached_snapshots, cached_subspace, training
 from .cases import MATERIALS, Case, read
+from .cut import cut
 from .figures_orderings import figures_in_order
 from .minimisers import minimisers
 from .orderings import Rows
@@ -64,8 +65,6 @@ QUICK = (
     Figure(4, "helix", 30, 12, (12, 40), ((0.3, 0.7),), {"azimuth": -60.0}),
     Figure(6, "dragon", 60, 20, (20, 40), (TURNED,), {"azimuth": -42.0}),
 )
-#: How far a drawn shape may leave the box of the full solution, as a share of its diagonal.
-OUTSIDE = 0.12
 #: Pictures wait here between `run` and `draw`, by their file names.
 _drawn: dict[str, NDArray[np.uint8]] = {}
 
@@ -146,7 +145,7 @@ def _picture(
     reference = columns["full", None]
     for row in range(len(figure.shares)):
         for (name, d), column in columns.items():
-            shapes.append(_cut(column[row].reshape(-1, 3), reference[row].reshape(-1, 3)))
+            shapes.append(cut(column[row].reshape(-1, 3), reference[row].reshape(-1, 3)))
             title = name if d is None else f"{name}, d = {d}"
             labels.append(title if name == "full" else f"{title}: {_percent(errors[name, d][row])}")
     colors = None
@@ -169,10 +168,3 @@ def _picture(
 def _percent(share: float) -> str:
     percent = 100.0 * share
     return f"{percent:.0f} %" if percent >= 10.0 else f"{percent:.2g} %"
-
-
-def _cut(shape: FloatArray, reference: FloatArray) -> FloatArray:
-    """The shape, pressed to a box around the reference: some rivals are many times as large."""
-    low, high = reference.min(axis=0), reference.max(axis=0)
-    margin = OUTSIDE * float(np.linalg.norm(high - low))
-    return np.clip(shape, low - margin, high + margin)

@@ -55,3 +55,8 @@ def _text(value: Any) -> str:
     if value is None:
         return ""
     return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def slug(name: str) -> str:
+    """A name as part of a file name."""
+    return name.replace(",", "").replace(" ", "_")

@@ -13,13 +13,14 @@ from itertools import zip_longest
 from pathlib import Path
 
 import snapspace as ss
+from snapspace.pictures import Curve, chart, save_png
 
 from . import rivals
 from .cached import cached_subspace, training, unseen
 from .cases import MATERIALS, read
 from .minimisers import projection_errors, relative_errors
-from .orderings import Rows, errors_in_order
-from .result import Result
+from .orderings import Rows, by_case, errors_in_order, named
+from .result import Result, slug
 
 UNSEEN = 10
 
@@ -86,4 +87,15 @@ faults = errors_in_order
 
 
 def draw(rows: Rows, folder: Path) -> None:
-    """Draws nothing: a table needs no picture."""
+    """Writes table2_SHAPE_MATERIAL.png: errors and projections against the dimension."""
+    for title, group in by_case(rows):
+        curves = []
+        for name in ("ours", "VM + MD"):
+            points = named(group, name)
+            dimensions = [row["d"] for row in points]
+            curves.append(Curve(name, dimensions, [row["mean"] for row in points]))
+            known = [row["projection"] for row in points]
+            curves.append(Curve(f"{name}, projections", dimensions, known, dashed=True))
+        picture = chart(curves, title=title, x_name="d", y_name="relative error", size=(560, 380))
+        shape, material = group[0]["shape"], group[0]["material"]
+        save_png(folder / f"table2_{slug(shape)}_{material}.png", picture)

@@ -11,15 +11,20 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 import snapspace as ss
+from snapspace.pictures import Curve, chart, render_row, save_png, tint
 
 from . import rivals
 from .cached import training, unseen
 from .cases import MATERIALS, read
+from .cut import cut
 from .minimisers import minimisers
-from .orderings import Rows, objectives_in_order
-from .result import Result
+from .orderings import Rows, by_case, named, objectives_in_order
+from .result import Result, slug
+
+FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,7 @@ class Column:
     our_paper: tuple[float, float]
     biharmonic: tuple[tuple[float, float], ...]
     radial: tuple[tuple[float, float], ...]
+    up: str = "z"
 
 
 DRAGON = Column(
@@ -55,13 +61,17 @@ ARMADILLO = Column(
     (9.12e3, 9.03e3),
     ((2.33e6, 5.02e5), (4.44e4, 8.24e4), (1.09e4, 3.27e3), (8.54e3, 7.59e2)),
     ((1.29e6, 9.42e5), (3.75e5, 1.58e5), (5.11e4, 4.40e4), (9.89e3, 8.00e3)),
+    up="y",
 )
+#: Pictures wait here between `run` and `draw`, by their file names.
+_drawn: dict[str, NDArray[np.uint8]] = {}
 #: How many of the dimensions the generated shapes take.
 QUICK = 2
 
 
 def run(*, quick: bool = False) -> Result:
     """Both columns, for the paper's material and for stable neo-Hookean."""
+    _drawn.clear()
     result = Result("table3", "Table 3: objective and gradient norm in the unreduced space")
     for kind in MATERIALS:
         for column in (DRAGON,) if quick else (DRAGON, ARMADILLO):
@@ -98,12 +108,53 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
         wanted.append(("biharmonic", rivals.biharmonic_subspace(problem, d), paper))
     for d, paper in zip(dimensions, column.radial, strict=False):
         wanted.append(("radial basis", rivals.radial_basis_subspace(problem, d), paper))
+    shapes = {"full": full}
+    shown = {"ours": (ours,), "biharmonic": dimensions[:: len(dimensions) - 1]}
+    shown["radial basis"] = shown["biharmonic"]
     for name, subspace, paper in wanted:
-        add(name, subspace.dimension, next(minimisers(subspace, reference)), paper)
+        shape = next(minimisers(subspace, reference))
+        add(name, subspace.dimension, shape, paper)
+        if subspace.dimension in shown[name]:
+            shapes[f"{name}, {subspace.dimension}"] = shape
+    number = 7 if column is DRAGON else 8
+    _drawn[f"figure{number}_{kind}"] = _picture(problem, shapes, column.up)
 
 
 faults = objectives_in_order
 
 
 def draw(rows: Rows, folder: Path) -> None:
-    """Draws nothing: a table needs no picture."""
+    """Writes table3_SHAPE_MATERIAL.png, the objective against d, and the shapes of Fig. 7 and 8."""
+    for title, group in by_case(rows):
+        (full,) = named(group, "full")
+        curves = []
+        for name in ("ours", "biharmonic", "radial basis"):
+            points = named(group, name)
+            values = [row["F"] for row in points]
+            curves.append(Curve(name, [row["d"] for row in points], values))
+        ends = [min(row["d"] for row in group if row["d"]), max(row["d"] or 0 for row in group)]
+        curves.append(Curve("full solution", ends, [full["F"]] * 2, dashed=True))
+        picture = chart(curves, title=title, x_name="d", y_name="objective F", size=(560, 380))
+        shape, material = full["shape"], full["material"]
+        save_png(folder / f"table3_{slug(shape)}_{material}.png", picture)
+    for name, picture in _drawn.items():
+        save_png(folder / f"{name}.png", picture)
+
+
+def _picture(
+    problem: ss.PosingProblem, shapes: dict[str, FloatArray], up: str
+) -> NDArray[np.uint8]:
+    """The full solution, ours, and the rivals of the least and the greatest dimension."""
+    reference = shapes["full"].reshape(-1, 3)
+    return render_row(
+        [cut(shape.reshape(-1, 3), reference) for shape in shapes.values()],
+        problem.mesh.surface,
+        labels=list(shapes),
+        columns=len(shapes),
+        colors=tint(len(reference), [handle.vertices for handle in problem.handles]),
+        size=(260, 260),
+        font_size=14,
+        margin=0.04,
+        azimuth=-60.0 if up == "z" else 30.0,
+        up=up,
+    )

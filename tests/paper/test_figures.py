@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from paper.figures import OUTSIDE, _cut
+from paper.cut import OUTSIDE, cut
 from paper.figures_orderings import figures_in_order
 
 
@@ -32,7 +32,7 @@ def test_a_rival_of_the_same_dimension_may_not() -> None:
 def test_shapes_are_cut_at_a_box_around_the_reference() -> None:
     reference = np.array([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]])
     inside = reference + 0.1
-    np.testing.assert_array_equal(_cut(inside, reference), inside)
+    np.testing.assert_array_equal(cut(inside, reference), inside)
     far = np.array([[-10.0, 1.0, 0.0], [1.0, 90.0, 0.0]])
     margin = 5.0 * OUTSIDE
-    np.testing.assert_allclose(_cut(far, reference), [[-margin, 1, 0], [1, 4 + margin, 0]])
+    np.testing.assert_allclose(cut(far, reference), [[-margin, 1, 0], [1, 4 + margin, 0]])
