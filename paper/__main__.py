@@ -28,7 +28,17 @@ class Program(Protocol):
 
 
 #: Modules in the order in which they run.
-PROGRAMS = ("table1", "table2", "table3", "evaluations", "figure9", "figures", "curves", "limits")
+PROGRAMS = (
+    "table1",
+    "table2",
+    "table3",
+    "elephant",
+    "evaluations",
+    "figure9",
+    "figures",
+    "curves",
+    "limits",
+)
 
 
 def main() -> int:
