@@ -6,18 +6,18 @@ from itertools import groupby
 
 from .orderings import Rows
 
-#: Mirror images may be a little worse than the samples they stand for.
-SLACK = 1.02
+#: Mirror images may be a little worse than nothing: they draw modes to motions that are not asked for.
+SLACK = 1.05
 
 
 def limits_in_order(rows: Rows) -> list[str]:
-    """Faults: mirror images or responses that do not help, or new samples that are not best."""
+    """Faults: mirror images that hurt, responses that do not help, or new samples that are not best."""
     faults = []
     for (limit, shape), group in groupby(rows, lambda row: (row["limit"], row["shape"])):
         errors = {row["variant"]: row["error"] for row in group}
         if limit == "symmetry":
             if errors["samples and mirror images"] >= SLACK * errors["samples"]:
-                faults.append(f"symmetry, {shape}: mirror images do not help")
+                faults.append(f"symmetry, {shape}: mirror images hurt")
         elif limit == "other handles":
             if errors["old handles and linear responses"] >= errors["old handles"]:
                 faults.append(f"other handles, {shape}: responses do not help")

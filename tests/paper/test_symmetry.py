@@ -63,7 +63,7 @@ def test_a_body_without_symmetry_is_not_symmetric() -> None:
         (
             "symmetry",
             {"samples": 0.1, "samples and mirror images": 0.11, "twice the samples": 0.05},
-            "symmetry, bar: mirror images do not help",
+            "symmetry, bar: mirror images hurt",
         ),
         (
             "other handles",
