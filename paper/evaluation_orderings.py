@@ -16,7 +16,9 @@ def faults(rows: Rows) -> list[str]:
     """Faults of the table: errors fall with the size of each evaluation, and cubatures are best.
 
     The exact quartic adds no error, and a cubature adds less than each coarse mesh that does as
-    much arithmetic or more. Medians are compared: single solutions may be in another minimum.
+    much arithmetic or more. Few clusters of rotations may beat few tets; as many as have the cost
+    of the largest cubature may not. Medians are compared: single solutions may be in another
+    minimum.
     """
     found = []
     for title, group in _groups(rows):
@@ -27,6 +29,13 @@ def faults(rows: Rows) -> list[str]:
             sized = sorted(_named(group, name), key=lambda row: int(row["elements"]))
             if sized and sized[-1]["median"] >= sized[0]["median"]:
                 found.append(f"{title}: {name} does not gain from {sized[-1]['elements']} elements")
+        largest = max(_named(group, "cubature"), key=lambda row: int(row["elements"]))
+        found += [
+            f"{title}: {row['elements']} clusters are better than cubatures"
+            for row in _named(group, "rotation clusters")
+            if row["multiply-adds"] >= largest["multiply-adds"]
+            and row["median"] <= largest["median"]
+        ]
         for row in _named(group, "coarse mesh"):
             cheaper = [
                 other["median"]

@@ -11,11 +11,14 @@ from numpy.typing import NDArray
 import snapspace as ss
 
 from .collapse_tests import common_neighbours, fits
+from .surface_quadrics import squared_distances, surface_quadrics
 from .tet_edges import TetEdges, adjacency, tets_of_vertices
 
 FloatArray = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+#: Squared distances from the surface count this many times as much as squared lengths.
+SURFACE = 10.0
 #: Collapses that are tested together, as a share of all vertices; at least the second number.
 TRIED, LEAST_TRIED = 0.5, 2000
 #: An interior collapse removes about so many tets.
@@ -41,8 +44,8 @@ def coarse_meshes(
 
     A collapse removes a vertex and pulls its tets to a neighbour. It is done where no tet inverts
     or becomes a sliver, where the topology stays, and on the surface only along it. Short edges
-    come first; those of a round do not touch each other. On the Dragon a preference for edges that
-    keep the shape of the surface (Garland & Heckbert 1997) left the same errors.
+    whose end is near the planes of the surface around the removed vertex come first. Collapses of
+    a round do not touch each other.
 
     poses : (p, n, 3), further shapes in which no tet may invert
 
@@ -52,11 +55,12 @@ def coarse_meshes(
         If no further edge can be collapsed.
     """
     tets: Integers = mesh.tets.astype(np.int64)
+    quadrics = surface_quadrics(mesh)
     rest = mesh.vertices[None]
     shapes = rest if poses is None else np.concatenate([rest, poses])
     for size in sizes:
         while len(tets) > size:
-            smaller = _round(shapes, tets, size)
+            smaller = _round(shapes, tets, quadrics, size)
             if len(smaller) == len(tets):
                 raise ValueError(f"coarse_meshes: no edge of {len(tets)} tets can be collapsed")
             tets = smaller
@@ -65,7 +69,7 @@ def coarse_meshes(
         yield CoarseMesh(kept, ss.TetMesh(mesh.vertices[kept], small))
 
 
-def _round(shapes: FloatArray, tets: Integers, size: int) -> Integers:
+def _round(shapes: FloatArray, tets: Integers, quadrics: FloatArray, size: int) -> Integers:
     """The tets after independent collapses, until there are about so many."""
     count = shapes.shape[1]
     edges = TetEdges.of_mesh(tets, count)
@@ -73,8 +77,10 @@ def _round(shapes: FloatArray, tets: Integers, size: int) -> Integers:
     along = np.tile(edges.on_surface, 2)
     links = np.tile(edges.link_sizes(), 2)
     may = np.flatnonzero(along | ~edges.surface_vertices[ends[:, 0]])
-    lengths = np.linalg.norm(shapes[0][ends[may, 0]] - shapes[0][ends[may, 1]], axis=1)
-    order = may[np.argsort(lengths, kind="stable")]
+    removed, kept = shapes[0][ends[may].T]
+    away = squared_distances(quadrics[ends[may, 0]], kept)
+    costs = ((removed - kept) ** 2).sum(axis=1) + SURFACE * away
+    order = may[np.argsort(costs, kind="stable")]
     tried = max(int(TRIED * len(np.unique(tets))), LEAST_TRIED)
     rims = edges.ends[edges.on_surface]
     incident = tets_of_vertices(tets, count)
@@ -87,11 +93,14 @@ def _round(shapes: FloatArray, tets: Integers, size: int) -> Integers:
         for shape in shapes:
             pairs = pairs[fits(shape, tets, incident, pairs)]
         if len(pairs):
-            return _collapsed(tets, edges, pairs, most=1 + (len(tets) - size) // REMOVED)
+            most = 1 + (len(tets) - size) // REMOVED
+            return _collapsed(tets, edges, quadrics, pairs, most=most)
     return tets
 
 
-def _collapsed(tets: Integers, edges: TetEdges, pairs: Integers, *, most: int) -> Integers:
+def _collapsed(
+    tets: Integers, edges: TetEdges, quadrics: FloatArray, pairs: Integers, *, most: int
+) -> Integers:
     """The tets after the first `most` collapses of the list that do not touch each other."""
     count = len(edges.surface_vertices)
     neighbours = adjacency(edges.ends, count)
@@ -103,6 +112,7 @@ def _collapsed(tets: Integers, edges: TetEdges, pairs: Integers, *, most: int) -
         locked[neighbours.indices[near]] = True
         locked[removed] = True
         target[removed] = kept
+        quadrics[kept] += quadrics[removed]
         most -= 1
         if not most:
             break

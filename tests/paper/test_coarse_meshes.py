@@ -7,6 +7,7 @@ import pytest
 
 import snapspace as ss
 from paper.evaluators import CoarseMesh, coarse_full_energy, coarse_meshes, coarse_model
+from paper.evaluators.surface_quadrics import squared_distances, surface_quadrics
 from paper.rivals import skinning_subspace
 from snapspace.generators import bar
 from snapspace.mesh import tet_volumes
@@ -132,3 +133,20 @@ def test_a_material_that_differs_from_tet_to_tet_is_refused(coarse: CoarseMesh) 
     model = ss.reduce(problem, SUBSPACE, energy="full")
     with pytest.raises(ValueError, match="coarse_model: the material differs from tet to tet"):
         coarse_model(model, coarse)
+
+
+def test_distances_from_the_surface_around_a_vertex() -> None:
+    """In a flat face they are those from its plane; at an edge the two faces' are averaged."""
+    mesh = bar(4, 2, 2, length=4.0, width=2.0, height=2.0)
+    quadrics = surface_quadrics(mesh)
+    middle, edge = (
+        int(np.linalg.norm(mesh.vertices - (mesh.vertices.min(axis=0) + at), axis=1).argmin())
+        for at in ((2.0, 1.0, 2.0), (2.0, 2.0, 2.0))
+    )
+    forms, shift = quadrics[[middle, middle, edge]], np.diag([5.0, 7.0, 0.3])
+    found = squared_distances(forms[:2], mesh.vertices[middle] + shift[1:])
+    assert found == pytest.approx([0.0, 0.09], abs=1e-12), "along the face, and across"
+    along = squared_distances(forms[2:], mesh.vertices[edge] + shift[:1])
+    assert along == pytest.approx([0.0], abs=1e-12), "along the edge"
+    across = squared_distances(forms[2:], mesh.vertices[edge] - shift[2:])
+    assert 0.0 < across[0] < 0.09, "in the plane of one face only"

@@ -34,7 +34,7 @@ def rows(**changed: float) -> list[dict[str, Any]]:
         ("small", "coarse mesh", 250, 7500, 0.2),
         ("large", "coarse mesh", 4000, 120000, 0.02),
         ("some", "rotation clusters", 10, 3600, 0.06),
-        ("more", "rotation clusters", 100, 36000, 0.01),
+        ("more", "rotation clusters", 300, 108000, 0.01),
     ]
     return [
         {
@@ -60,7 +60,8 @@ def test_evaluations_in_order_pass() -> None:
     [
         ({"exact": 0.01}, "the exact quartic adds an error of 0.01"),
         ({"few": 0.0005}, "cubature does not gain from 160 elements"),
-        ({"some": 0.005}, "rotation clusters does not gain from 100 elements"),
+        ({"some": 0.005}, "rotation clusters does not gain from 300 elements"),
+        ({"more": 0.0005}, "300 clusters are better than cubatures"),
         ({"small": 0.04}, "a coarse mesh of 250 tets is better than cubatures"),
         ({"large": 0.0005}, "a coarse mesh of 4000 tets is better than cubatures"),
     ],
