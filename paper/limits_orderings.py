@@ -6,12 +6,12 @@ from itertools import groupby
 
 from .orderings import Rows
 
-#: Mirror images may be a little worse than nothing: they draw modes to motions that are not asked for.
+#: Mirror images may be a little worse than nothing: modes also serve motions that nobody asks for.
 SLACK = 1.05
 
 
 def limits_in_order(rows: Rows) -> list[str]:
-    """Faults: mirror images that hurt, responses that do not help, or new samples that are not best."""
+    """Faults: mirror images that hurt, responses that do not help, new samples that are worse."""
     faults = []
     for (limit, shape), group in groupby(rows, lambda row: (row["limit"], row["shape"])):
         errors = {row["variant"]: row["error"] for row in group}
