@@ -6,7 +6,7 @@ import hashlib
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from snapspace.validation.unseen import reference_options, unseen_parameters
 from .timing import timed
 
 FloatArray = NDArray[np.float64]
-Problem: TypeAlias = ss.PosingProblem | ss.InterpolationProblem
+Given = TypeVar("Given", bound=ss.PosingProblem | ss.InterpolationProblem)
 
 #: Where solutions are kept; `make clean` removes it.
 FOLDER = Path(__file__).parents[1] / "build" / "paper"
@@ -65,9 +65,9 @@ def unseen(problem: ss.PosingProblem | ss.InterpolationProblem, count: int) -> s
 
 def cached_subspace(
     name: str,
-    problem: Problem,
+    problem: Given,
     dimension: int,
-    build: Callable[[Problem, int], ss.AffineSubspace],
+    build: Callable[[Given, int], ss.AffineSubspace],
 ) -> ss.AffineSubspace:
     """build(problem, dimension), kept by its name; `build` depends on nothing else."""
     key = hashlib.sha256(f"{name} {dimension} {problem.fingerprint} {ss.__version__}".encode())
