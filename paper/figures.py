@@ -54,11 +54,9 @@ class Figure:
 TURNED = (0.6, -0.5, 0.3, 0.5, -0.6, 0.9)
 FIGURES = (
     Figure(2, "lion", 12, 6, (6, 24), ((0.3, 0.7),), {"up": "y", "azimuth": 65.0}),
-    Figure(3, "dog_head", 100, 20, (20, 60), (TURNED,), {"up": "y", "azimuth": 40.0}),
+    Figure(3, "dog_head", 100, 20, (20, 60), (TURNED,), {"azimuth": -60.0}),
     Figure(4, "helix", 30, 20, (20, 100), ((0.8, 0.2), (0.6, 0.4), (0.3, 0.7)), {"azimuth": -60.0}),
-    Figure(
-        5, "dog", 20, 10, (10, 40), ((0.6, 0.2, 0.2), (0.0, 0.5, 0.5)), {"up": "y", "azimuth": 40.0}
-    ),
+    Figure(5, "dog", 20, 10, (10, 40), ((0.6, 0.2, 0.2), (0.0, 0.5, 0.5)), {"azimuth": -60.0}),
     Figure(6, "dragon", 300, 40, (40, 130), (TURNED,), {"azimuth": -60.0}),
 )
 QUICK = (
