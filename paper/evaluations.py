@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,26 +101,32 @@ def _add(
         polynomial = None if quartic is None else quartic.leading(d)
         found = list(_evaluations(whole, polynomial, snapshots, reference, meshes))
         wanted = _minimisers(found[-1].model, reference)
-        for one in found:
-            errors = np.zeros(len(wanted))
-            if one is not found[-1]:
-                errors = _distances(one.model, reference, wanted) / displacements
-            milliseconds, evaluations = warm_frames(
-                one.model, frames=frames if one is not found[-1] else frames // 10
-            )
-            result.add(
-                shape=case.shape,
-                material=problem.material.kind,
-                d=d,
-                evaluation=one.name,
-                elements=one.elements,
-                **{"multiply-adds": one.multiply_adds},
-                mean=_short(errors.mean()),
-                median=_short(np.median(errors)),
-                **{"us": _short(microseconds(one, wanted[0]))},
-                **{"frame ms": _short(milliseconds), "evaluations": _short(evaluations)},
-                **{"local/global steps": _steps(one, whole, frames)},
-            )
+        for one in found[:-1]:
+            errors = _distances(one.model, reference, wanted) / displacements
+            steps = _steps(one, whole, frames)
+            result.add(shape=case.shape, **_row(one, errors, wanted[0], steps, frames=frames))
+        none = np.zeros(len(wanted))
+        result.add(shape=case.shape, **_row(found[-1], none, wanted[0], None, frames=frames // 10))
+
+
+def _row(
+    one: Evaluation, errors: FloatArray, q: FloatArray, steps: float | None, *, frames: int
+) -> dict[str, Any]:
+    """Error and cost of an evaluation; it is timed at q."""
+    milliseconds, evaluations = warm_frames(one.model, frames=frames)
+    return {
+        "material": one.model.problem.material.kind,
+        "d": one.model.dimension,
+        "evaluation": one.name,
+        "elements": one.elements,
+        "multiply-adds": one.multiply_adds,
+        "mean": _short(errors.mean()),
+        "median": _short(np.median(errors)),
+        "us": _short(microseconds(one, q)),
+        "frame ms": _short(milliseconds),
+        "evaluations": _short(evaluations),
+        "local/global steps": steps,
+    }
 
 
 def _evaluations(
