@@ -27,8 +27,9 @@ from .result import Result
 DIMENSIONS = (6, 12, 18, 24)
 #: The dimension that the paper finds sufficient, at which methods are compared.
 SUFFICIENT = 18
-#: Numbers of samples, also one more than each dimension: then the others just span it.
-COUNTS = (7, 10, 13, 16, 19, 25, 30, 40, 50, 60)
+#: Numbers of samples, also one more than each dimension, so that the others just span it, and twice
+#: each dimension.
+COUNTS = (7, 9, 12, 13, 16, 19, 24, 25, 30, 36, 40, 48, 60)
 #: The most samples of each material: those of St.Venant-Kirchhoff take long.
 MOST = {"stvk": 40, "stable-neo-hookean": 60}
 MOST_QUICK = 40
