@@ -32,10 +32,12 @@ EXPORTS = {
     "mesh": (
         "EmbeddedSurface",
         "MeshNotice",
+        "SurfaceFile",
         "TetMesh",
         "boundary_surface",
         "embed_surface",
         "mass_matrix",
+        "open_surface",
         "read_surface",
         "read_tets",
         "repair_tets",

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .gltf import fitted_targets, write_glb
-from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
+from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, write_surface, write_tets
 from .reduction import ReducedModel
 
 
@@ -20,7 +20,7 @@ def write_animation(
     model: ReducedModel,
     shapes: Iterable[ArrayLike],
     *,
-    kind: str = "obj",
+    kind: str | None = None,
     frames_per_second: float = 30.0,
     **picture: Any,
 ) -> list[Path]:
@@ -35,9 +35,10 @@ def write_animation(
         The model that the shapes belong to.
     shapes : iterable of (n, 3)
         Vertices of the tets.
-    kind : str, default "obj"
+    kind : str, default that of the user's surface, or obj
         Format of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu,
-        vtk or mesh.
+        vtk or mesh. In the format of the file that the surface came from (also glb and gltf) it is
+        that file with other positions, see `SurfaceFile`; in others it has triangles only.
     frames_per_second : float, default 30
         The frame rate of a film or a .glb.
     **picture
@@ -81,22 +82,42 @@ def write_animation(
             f"write_animation: {', '.join(picture)} applies to films only, but {target} is a "
             "folder; give a name that ends in .gif, .mp4 or .glb"
         )
-    return _written(target, model, shapes, f".{kind}")
+    suffix = f".{kind}" if kind else usual_suffix(model.surface)
+    return _written(target, model, shapes, suffix)
 
 
 def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
-    """Writes a shape (n, 3) of a model: its surface or its tets, depending on the extension."""
-    if path.suffix.lower() in SURFACE_OUTPUTS:
-        write_surface(path, model.surface.vertices(vertices), model.surface.faces)
+    """Writes a shape (n, 3) of a model: its surface or its tets, depending on the extension.
+
+    In the format of the file that the surface came from, it is that file with other positions.
+    """
+    suffix, surface = path.suffix.lower(), model.surface
+    source = surface.source
+    if source is not None and suffix == source.suffix:
+        source.write(path, surface.vertices(vertices))
+    elif suffix in SURFACE_OUTPUTS:
+        write_surface(path, surface.vertices(vertices), surface.faces)
     else:
         write_tets(path, model.problem.mesh, vertices=vertices)
+
+
+def shape_suffixes(surface: EmbeddedSurface) -> tuple[str, ...]:
+    """Extensions that `write_shape` takes for a model with this surface."""
+    own = () if surface.source is None else (surface.source.suffix,)
+    return tuple(dict.fromkeys((*SURFACE_OUTPUTS, *own, *TET_OUTPUTS)))
+
+
+def usual_suffix(surface: EmbeddedSurface) -> str:
+    """The extension of the user's own surface, or .obj."""
+    return ".obj" if surface.source is None else surface.source.suffix
 
 
 def _written(
     folder: Path, model: ReducedModel, shapes: Iterable[ArrayLike], suffix: str
 ) -> list[Path]:
-    if suffix not in SURFACE_OUTPUTS + TET_OUTPUTS:
-        known = ", ".join(known.removeprefix(".") for known in SURFACE_OUTPUTS + TET_OUTPUTS)
+    allowed = shape_suffixes(model.surface)
+    if suffix not in allowed:
+        known = ", ".join(known.removeprefix(".") for known in allowed)
         raise ValueError(f"write_animation: unknown kind '{suffix[1:]}'; known are {known}")
     if folder.suffix and not folder.is_dir():
         raise ValueError(

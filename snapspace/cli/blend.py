@@ -10,7 +10,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-from ..animation import write_animation
+from ..animation import usual_suffix, write_animation
 from ..extras import need_extra
 from ..mesh.input_path import writable_path
 from ..pictures import save_png
@@ -23,7 +23,6 @@ from .blend_picture import blend_picture
 from .blend_shape import BlendedShape, shape_at, write_blended
 from .console import notice, print_facts, print_json
 from .even_path import PathJump, even_path
-from .files import SURFACE_OUTPUTS, TET_OUTPUTS
 from .frames import (
     check_frames_output,
     format_option,
@@ -34,6 +33,7 @@ from .frames import (
 from .glb import write_path
 from .loading import load_interpolation
 from .options import FILE, json_option, leading_option, parse_numbers, up_option
+from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
 from .progress import spinner
 
 EVEN = ("shape", "weights")
@@ -60,14 +60,16 @@ EVEN = ("shape", "weights")
     "--output",
     type=FILE,
     metavar="FILE|DIR",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path "
-    "a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
+    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. In the format "
+    "of the first pose's surface (also .glb, .gltf), it is that file with other positions. With "
+    "--path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @format_option
 @rate_option
 @click.option(
     "--linear", is_flag=True, help="Also write the linear blend, as NAME-linear, for comparison."
 )
+@surface_option
 @click.option("--extrapolate", is_flag=True, help="Accept weights outside the sampled simplex.")
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture of the shapes.")
 @up_option
@@ -82,6 +84,7 @@ def blend(
     kind: str | None,
     frames_per_second: float | None,
     linear: bool,
+    surface_file: Path | None,
     extrapolate: bool,
     png: Path | None,
     up: str | None,
@@ -112,11 +115,12 @@ def blend(
         raise ValueError("--linear writes further files; give a folder in place of a film")
     if even is not None and frames is None:
         raise ValueError("--even is for --path; --weights has one shape")
-    model = load_interpolation(model_file, dimension)
+    model = with_surface(load_interpolation(model_file, dimension), surface_file)
     single = None if weights is None else _weights(model, weights, extrapolate=extrapolate)
     _check_outputs(output, png, path=frames is not None)
     if frames is not None:
         check_frames_output(output, kind=kind, frames_per_second=frames_per_second)
+    check_own_output(model, output, kind, path=frames is not None)
     session = model.session()
     jumps: list[PathJump] = []
     if single is not None:
@@ -133,7 +137,7 @@ def blend(
         with spinner("writing the frames"):
             written = write(output, model, film, frames_per_second=rate, up=up or model.up)
     else:
-        written = _write(model, shapes, output, kind=kind or "obj", folder=frames is not None)
+        written = _write(model, shapes, output, kind=kind, folder=frames is not None)
     if png is not None:
         save_png(png, blend_picture(model, shapes, up=up or model.up))
         written.append(png)
@@ -177,7 +181,7 @@ def _check_outputs(output: Path | None, png: Path | None, *, path: bool) -> None
     if png is not None:
         writable_path(png, known=(".png",))
     if output is not None and not path:
-        writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
+        writable_path(output, known=SHAPE_OUTPUTS)
 
 
 def _write(
@@ -185,16 +189,17 @@ def _write(
     shapes: list[BlendedShape],
     output: Path | None,
     *,
-    kind: str,
+    kind: str | None,
     folder: bool,
 ) -> list[Path]:
     if output is None:
         return []
+    suffix = f".{kind}" if kind else usual_suffix(model.surface)
     if folder:
         notice_old_frames(output, len(shapes))
     written = []
     for number, shape in enumerate(shapes):
-        path = output / f"frame-{number:04d}.{kind}" if folder else output
+        path = output / f"frame-{number:04d}{suffix}" if folder else output
         written += write_blended(model, shape, path)
     return written
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 TET_INPUTS = (".mesh", ".meshb", ".msh", ".vtk", ".vtu", ".node", ".ele", ".veg")
-SURFACE_INPUTS = (".obj", ".off", ".ply", ".stl")
+SURFACE_INPUTS = (".obj", ".off", ".ply", ".stl", ".glb", ".gltf")
 TET_OUTPUTS = (".msh", ".vtu", ".vtk", ".mesh")
 SURFACE_OUTPUTS = (".obj", ".ply", ".off", ".stl")
 FILMS = (".gif", ".mp4")

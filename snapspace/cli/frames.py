@@ -11,13 +11,16 @@ from ..mesh.input_path import writable_path
 from .console import notice
 from .files import ANIMATIONS, FILMS, SURFACE_OUTPUTS, TET_OUTPUTS, make_folder
 
-FORMATS = tuple(suffix.removeprefix(".") for suffix in SURFACE_OUTPUTS + TET_OUTPUTS)
+FORMATS = tuple(
+    suffix.removeprefix(".") for suffix in (*SURFACE_OUTPUTS, ".glb", ".gltf", *TET_OUTPUTS)
+)
 
 format_option = click.option(
     "--format",
     "kind",
     type=click.Choice(FORMATS),
-    help="Format of the files in the folder of --path [default: obj].",
+    help="Format of the files in the folder of --path [default: that of the surface that the "
+    "model was made from, or obj].",
 )
 rate_option = click.option(
     "--fps",

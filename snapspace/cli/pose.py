@@ -16,11 +16,11 @@ from ..mesh.input_path import writable_path
 from ..pictures import render, save_png
 from ..reduction import PosingModel
 from .console import notice, print_facts, print_json
-from .files import SURFACE_OUTPUTS, TET_OUTPUTS
 from .frames import check_frames_output, format_option, rate_option
 from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
+from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
 from .pose_path import handle_colors, posed_path
 from .progress import spinner
 
@@ -38,8 +38,9 @@ from .progress import spinner
     "--output",
     type=FILE,
     metavar="FILE",
-    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. With --path a "
-    "folder, a film as .gif or .mp4, or an animated mesh as .glb.",
+    help="Surface as .obj, .ply, .off, .stl, or all tets as .msh, .vtu, .vtk, .mesh. In the format "
+    "of the surface that the model was made from (also .glb, .gltf), it is that file with other "
+    "positions. With --path a folder, a film as .gif or .mp4, or an animated mesh as .glb.",
 )
 @click.option(
     "--path",
@@ -50,6 +51,7 @@ from .progress import spinner
 )
 @format_option
 @rate_option
+@surface_option
 @click.option("--png", type=FILE, metavar="FILE", help="Also a picture, with the handles tinted.")
 @up_option
 @leading_option
@@ -63,6 +65,7 @@ def pose(
     frames: int | None,
     kind: str | None,
     frames_per_second: float | None,
+    surface_file: Path | None,
     png: Path | None,
     up: str | None,
     dimension: int | None,
@@ -93,7 +96,8 @@ def pose(
         check_frames_output(output, kind=kind, frames_per_second=frames_per_second)
         if png is not None:
             raise ValueError("--png is a picture of one shape; with --path give -o FILE.gif")
-    model = load_posing(model_file, dimension)
+    model = with_surface(load_posing(model_file, dimension), surface_file)
+    check_own_output(model, output, kind, path=frames is not None)
     problem = model.problem
     parameters, carrier = as_parameters(problem, motions)
     for name in beyond_domain(problem, parameters):
@@ -104,7 +108,7 @@ def pose(
         rate = frames_per_second or 30.0
         shown_up = up or model.up
         with spinner("writing the frames"):
-            files = path.write(output, kind=kind or "obj", frames_per_second=rate, up=shown_up)
+            files = path.write(output, kind=kind, frames_per_second=rate, up=shown_up)
         path.print_report(files)
         if as_json:
             print_json({"dimension": model.dimension, **path.as_json(files)})
@@ -141,7 +145,7 @@ def pose(
 def _check_outputs(output: Path | None, png: Path | None) -> None:
     """Raises ValueError unless the files can be written, before any work is done."""
     if output is not None:
-        writable_path(output, known=SURFACE_OUTPUTS + TET_OUTPUTS)
+        writable_path(output, known=SHAPE_OUTPUTS)
     if png is not None:
         writable_path(png, known=(".png",))
         need_extra("pictures", who="--png")

@@ -17,6 +17,7 @@ from ..mesh import (
     TetMesh,
     boundary_surface,
     embed_surface,
+    open_surface,
     read_surface,
     read_tet_arrays,
     read_tets,
@@ -137,7 +138,7 @@ def _from_surfaces(
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     mesh = _tets_of(targets[0], faces, options, cache)
-    surface = embed_surface(targets[0], faces, mesh)
+    surface = replace(embed_surface(targets[0], faces, mesh), source=open_surface(files[0]))
     seconds["tets"] = time.perf_counter() - begin
 
     begin = time.perf_counter()

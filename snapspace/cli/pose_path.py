@@ -31,7 +31,7 @@ class PosedPath:
     reports: list[FrameReport]
 
     def write(
-        self, output: Path | None, *, kind: str, frames_per_second: float, up: str
+        self, output: Path | None, *, kind: str | None, frames_per_second: float, up: str
     ) -> list[Path]:
         """Writes the shapes to a folder, or to a film with tinted handles; returns the files."""
         if output is None:

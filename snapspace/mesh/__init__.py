@@ -1,6 +1,6 @@
 """Tetrahedral meshes: the mesh itself, its mass, repair, reading and writing."""
 
-from .embed_surface import embed_surface
+from .embed_surface import embed_file, embed_surface
 from .embedded_surface import EmbeddedSurface, boundary_surface
 from .mass import (
     apply_mass,
@@ -17,6 +17,7 @@ from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
 from .shape_rows import shape_or_rows, shape_rows
 from .surface import boundary_faces, compact_surface, vertex_normals
+from .surface_file import SurfaceFile, open_surface
 from .tet_mesh import TetMesh
 from .write import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
 
@@ -27,12 +28,14 @@ __all__ = [
     "TET_SUFFIXES",
     "EmbeddedSurface",
     "MeshNotice",
+    "SurfaceFile",
     "TetMesh",
     "apply_mass",
     "boundary_faces",
     "boundary_surface",
     "compact_surface",
     "dihedral_angles",
+    "embed_file",
     "embed_surface",
     "mass_gram",
     "mass_inner",
@@ -40,6 +43,7 @@ __all__ = [
     "mass_norm",
     "mass_norms",
     "mass_of_tets",
+    "open_surface",
     "read_surface",
     "read_tet_arrays",
     "read_tets",

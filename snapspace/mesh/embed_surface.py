@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from .arrays import FloatArray, as_indices, as_points
 from .embedded_surface import EmbeddedSurface, single_vertices
+from .surface_file import SurfaceFile
 from .tet_mesh import TetMesh
 from .tet_search import closest_boundary_faces, containing_tets, least_extrapolated
 from .validation import check_indices, check_points
@@ -16,6 +19,12 @@ from .validation import check_indices, check_points
 #: that filling lost. A surface in another unit is still refused.
 WHOLE_DIAGONAL = 1.0
 _SAME = 1e-9  # points closer than this share of the diagonal coincide
+
+
+def embed_file(file: SurfaceFile, mesh: TetMesh, *, farthest: float = 0.02) -> EmbeddedSurface:
+    """`embed_surface` for a surface file, which becomes the `source` of the embedding."""
+    surface = embed_surface(file.vertices, file.faces, mesh, farthest=farthest)
+    return replace(surface, source=file)
 
 
 def embed_surface(

@@ -11,6 +11,7 @@ from scipy.sparse import coo_array, csr_array
 
 from .arrays import FloatArray, IndexArray, as_indices
 from .surface import compact_surface
+from .surface_file import SurfaceFile
 from .tet_mesh import TetMesh
 from .validation import check_indices
 
@@ -30,6 +31,8 @@ class EmbeddedSurface:
         Tet vertices that each surface vertex follows.
     weights : array_like, (s, 4)
         Their weights. Rows sum to one; a vertex outside its tet has negative weights.
+    source : SurfaceFile, optional
+        The user's file with these s vertices. Models keep it, and shapes are written into it.
 
     Raises
     ------
@@ -46,6 +49,7 @@ class EmbeddedSurface:
     faces: IndexArray
     corners: IndexArray
     weights: FloatArray
+    source: SurfaceFile | None = None
 
     def __repr__(self) -> str:
         return f"EmbeddedSurface({len(self.corners)} vertices, {len(self.faces)} faces)"

@@ -25,7 +25,6 @@ _READERS: dict[str, Callable[[str], Any]] = {
     "Gmsh": meshio.gmsh.read,
     "VTK": meshio.vtk.read,
     "VTU": meshio.vtu.read,
-    "STL": meshio.stl.read,
 }
 
 

@@ -8,18 +8,20 @@ import numpy as np
 
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
-from .polygons import corner_array, fan_triangles
+from .polygons import corner_array, surface_content
 
 
-def read_obj(path: Path) -> FileContent:
+def read_obj(data: bytes) -> FileContent:
     """Read vertices and faces. Polygons become fans, and the order of the vertices is kept.
 
     Faces may have the forms `i`, `i/t`, `i/t/n`, `i//n`, with negative (relative) indices.
     """
     coordinates: list[list[str]] = []
     corners: list[int] = []
+    normals: list[int] = []
+    normals_so_far = 0
     sizes: list[int] = []
-    text = path.read_text(encoding="utf-8", errors="replace").replace("\\\n", " ")
+    text = data.decode("utf-8", errors="replace").replace("\\\n", " ")
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.partition("#")[0].split()
         if not words:
@@ -31,12 +33,18 @@ def read_obj(path: Path) -> FileContent:
         elif words[0] == "f":
             polygon = [_corner(word, len(coordinates), number) for word in words[1:]]
             corners += polygon
+            normals += [_normal(word, normals_so_far) for word in words[1:]]
             sizes.append(len(polygon))
+        elif words[0] == "vn":
+            normals_so_far += 1
     try:
         vertices = np.array(coordinates, dtype=np.float64).reshape(-1, 3)
     except ValueError:
         raise ValueError("a vertex has a coordinate that is not a number") from None
-    return FileContent(vertices, {"triangle": fan_triangles(corner_array(corners), sizes)})
+    # a normal that does not exist is none
+    used = np.array(normals, dtype=np.int64)
+    used[(used < 0) | (used >= normals_so_far)] = -1
+    return surface_content(vertices, corner_array(corners), sizes, used)
 
 
 def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
@@ -55,3 +63,12 @@ def _corner(word: str, vertices_so_far: int, line: int) -> int:
         raise ValueError(f"line {line}: a face has vertex index 0, but OBJ counts from 1")
     # a relative index that reaches before the first vertex stays negative and is refused later
     return index - 1 if index > 0 else vertices_so_far + index
+
+
+def _normal(word: str, normals_so_far: int) -> int:
+    """The normal of a corner `i/t/n` or `i//n`, -1 for none or one that is no number."""
+    parts = word.split("/", 2)
+    if len(parts) < 3 or not parts[2].lstrip("-").isdecimal() or len(parts[2]) > 18:
+        return -1
+    index = int(parts[2])
+    return index - 1 if index > 0 else normals_so_far + index

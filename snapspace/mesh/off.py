@@ -9,14 +9,14 @@ import numpy as np
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
 from .number_text import as_integers, parse_numbers, take_table
-from .polygons import corner_array, fan_triangles
+from .polygons import corner_array, surface_content
 
 _HEADERS = ("OFF", "COFF", "NOFF", "CNOFF", "STOFF")
 
 
-def read_off(path: Path) -> FileContent:
+def read_off(data: bytes) -> FileContent:
     """Read vertices and faces. Polygons become fans; colours and normals are skipped."""
-    text = path.read_text(encoding="utf-8", errors="replace")
+    text = data.decode("utf-8", errors="replace")
     lines = [line for raw in text.splitlines() if (line := raw.partition("#")[0].strip())]
     header = lines[0].split() if lines else []
     if not header or header[0] not in _HEADERS:
@@ -34,9 +34,7 @@ def read_off(path: Path) -> FileContent:
             f"{len(lines) - 1} lines: it is incomplete"
         )
     corners, sizes = _polygons(lines[1 + vertex_count : 1 + vertex_count + face_count])
-    return FileContent(
-        _vertices(lines[1 : 1 + vertex_count]), {"triangle": fan_triangles(corners, sizes)}
-    )
+    return surface_content(_vertices(lines[1 : 1 + vertex_count]), corners, sizes)
 
 
 def write_off(path: Path, vertices: FloatArray, faces: IndexArray) -> None:

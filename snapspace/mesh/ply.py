@@ -16,7 +16,7 @@ from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
 from .number_text import as_integers
 from .ply_body import ENCODINGS, PlyBody, PlyElement, PlyProperty
-from .polygons import fan_triangles
+from .polygons import surface_content
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -26,13 +26,12 @@ _TYPES = {
 }  # fmt: skip
 
 
-def read_ply(path: Path) -> FileContent:
+def read_ply(data: bytes) -> FileContent:
     """Read vertices and faces. Polygons become fans, and the order of the vertices is kept."""
-    data = path.read_bytes()
-    encoding, elements, start = _header(data)
+    encoding, elements, start = ply_header(data)
     body = PlyBody(data[start:], encoding)
     vertices: NDArray[np.float64] | None = None
-    triangles = np.empty((0, 3), dtype=np.int64)
+    indices, sizes = np.empty(0, dtype=np.int64), np.empty(0, dtype=np.int64)
     for element in elements:
         columns = body.read(element)
         if element.name == "vertex":
@@ -43,10 +42,10 @@ def read_ply(path: Path) -> FileContent:
             corners = columns.get("vertex_indices", columns.get("vertex_index"))
             if corners is None:
                 raise ValueError("its faces have no vertex_indices")
-            triangles = fan_triangles(_indices(corners.values), corners.sizes)
+            indices, sizes = _indices(corners.values), corners.sizes
     if vertices is None:
         raise ValueError("it has no vertices")
-    return FileContent(vertices.astype(np.float64), {"triangle": triangles})
+    return surface_content(vertices.astype(np.float64), indices, sizes)
 
 
 def write_ply(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
@@ -61,8 +60,8 @@ def write_ply(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
     path.write_bytes(header.encode() + vertices.astype("<f8").tobytes() + rows.tobytes())
 
 
-def _header(data: bytes) -> tuple[str, list[PlyElement], int]:
-    """Encoding, elements, and where the rows start."""
+def ply_header(data: bytes) -> tuple[str, list[PlyElement], int]:
+    """Encoding, elements, and where the rows start; ValueError if it is not a header."""
     marker = data.find(b"\nend_header")
     start = data.find(b"\n", marker + 1) + 1
     if data[:3] != b"ply" or marker < 0 or start == 0:

@@ -51,6 +51,11 @@ class PlyBody:
         )
         self._position = 0
 
+    @property
+    def position(self) -> int:
+        """Where the next row starts: a byte, or the number of a word in a text."""
+        return self._position // 8 if self._text else self._position
+
     def read(self, element: PlyElement) -> dict[str, PlyColumn]:
         """Read all rows of the next element; ValueError if they are not all there."""
         if not element.count or not element.properties:  # rows without bytes, however many
@@ -61,6 +66,10 @@ class PlyBody:
         self._position = start
         columns = self._read_equal_rows(element, sizes)
         return self._read_row_by_row(element) if columns is None else columns
+
+    def type_of(self, item: PlyProperty) -> np.dtype[Any]:
+        """The type of a property's values in the file; in a text, double."""
+        return self._dtype(item.value_type)
 
     def _dtype(self, kind: str) -> np.dtype[Any]:
         return np.dtype("f8") if self._text else np.dtype(self._order + kind)

@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .file_content import FileContent, Polygons
+
 
 def corner_array(corners: list[int]) -> NDArray[np.int64]:
     """Vertex indices as an array, (k,); ValueError if one does not fit in 64 bits."""
@@ -35,6 +37,11 @@ def fan_triangles(corners: NDArray[np.int64], sizes: ArrayLike) -> NDArray[np.in
     ValueError
         If a polygon has fewer than three corners.
     """
+    return np.asarray(corners[fan_corners(sizes)], dtype=np.int64)
+
+
+def fan_corners(sizes: ArrayLike) -> NDArray[np.int64]:
+    """The same fans as places in the list of corners, (t, 3); ValueError as for them."""
     size = np.asarray(sizes, dtype=np.int64)
     if size.size and size.min() < 3:
         bad = int(np.argmax(size < 3))
@@ -43,4 +50,15 @@ def fan_triangles(corners: NDArray[np.int64], sizes: ArrayLike) -> NDArray[np.in
     first = np.repeat(np.cumsum(size) - size, triangles)
     within = np.arange(triangles.sum()) - np.repeat(np.cumsum(triangles) - triangles, triangles)
     fans = np.stack([first, first + within + 1, first + within + 2], axis=1)
-    return np.asarray(corners[fans], dtype=np.int64)
+    return np.asarray(fans, dtype=np.int64)
+
+
+def surface_content(
+    vertices: NDArray[np.float64],
+    corners: NDArray[np.int64],
+    sizes: ArrayLike,
+    normals: NDArray[np.int64] | None = None,
+) -> FileContent:
+    """The content of a surface file, with polygons and their triangles."""
+    polygons = Polygons(corners, np.asarray(sizes, dtype=np.int64), normals)
+    return FileContent(vertices, {"triangle": fan_triangles(corners, sizes)}, polygons)

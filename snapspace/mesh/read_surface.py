@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from functools import partial
-from pathlib import Path
+
+import numpy as np
 
 from ..input_error import located
-from .arrays import FloatArray, IndexArray, as_indices, as_points
-from .file_content import FileContent
+from .arrays import FloatArray, IndexArray
 from .input_path import existing_file
-from .meshio_reader import read_with_meshio
-from .obj import read_obj
-from .off import read_off
-from .ply import read_ply
-from .validation import check_indices, check_points
+from .surface_file.content import READERS
+from .surface_file.gltf_file import self_contained
+from .surface_file.surface_file import checked_surface
 
 
 def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
@@ -24,14 +20,15 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
     Parameters
     ----------
     path : path
-        Wavefront .obj, .off, .ply (ASCII or binary) or .stl.
+        Wavefront .obj, .off, .ply (ASCII or binary), .stl (ASCII or binary), .glb or .gltf.
 
     Returns
     -------
     vertices : ndarray, (n, 3) float64
         In the order of the file, including vertices without faces, so that vertex i corresponds
-        between poses. (An .stl file has no shared vertices: equal points are merged, in the order
-        in which they first occur.)
+        between poses. (An .stl file has no shared vertices, and a glTF file several at seams:
+        equal points are merged, in the order in which they first occur.) Meshes of a glTF file
+        are in the frame of its scene.
     faces : ndarray of int32, (f, 3)
         Polygons are triangulated as fans; order and orientation as in the file.
 
@@ -41,26 +38,21 @@ def read_surface(path: str | os.PathLike[str]) -> tuple[FloatArray, IndexArray]:
         If the file is missing, has an unknown extension, cannot be read, has no faces, coordinates
         that are not finite, or an index out of range. The message is one line that begins with
         the path.
+
+    See Also
+    --------
+    open_surface : keeps all that the file holds besides positions, to write it again.
     """
-    file = existing_file(path, known=_READERS)
+    file = existing_file(path, known=READERS)
+    suffix = file.suffix.lower()
     with located(file):
-        content = _READERS[file.suffix.lower()](file)
-        triangles = content.cells.get("triangle")
-        if triangles is None or not len(triangles):
-            raise ValueError(f"it has no faces ({len(content.vertices)} vertices)")
-        vertices = as_points(content.vertices, who="read_surface")
-        faces = as_indices(triangles, corners=3, who="read_surface", what="faces")
-        check_points(vertices, who="read_surface")
-        check_indices(faces, len(vertices), who="read_surface", what="face")
-    return vertices, faces
+        data = file.read_bytes()
+        if suffix == ".gltf":
+            data = self_contained(data, file.parent)
+        content = READERS[suffix](data)
+        triangles = content.cells.get("triangle", np.empty((0, 3), np.int64))
+        return checked_surface(content.vertices, triangles)
 
-
-_READERS: dict[str, Callable[[Path], FileContent]] = {
-    ".obj": read_obj,
-    ".off": read_off,
-    ".ply": read_ply,
-    ".stl": partial(read_with_meshio, file_format="STL"),
-}
 
 #: Extensions that `read_surface` knows.
-SURFACE_SUFFIXES = tuple(_READERS)
+SURFACE_SUFFIXES = tuple(READERS)

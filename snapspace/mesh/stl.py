@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from .arrays import FloatArray, IndexArray
-
-_TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
+from .stl_rows import TRIANGLE
 
 
 def write_stl(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
@@ -20,7 +19,7 @@ def write_stl(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
     corners = vertices[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    rows = np.zeros(len(faces), _TRIANGLE)
+    rows = np.zeros(len(faces), TRIANGLE)
     rows["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
     rows["corners"] = corners
     header = b"binary STL of snapspace".ljust(80) + len(faces).to_bytes(4, "little")

@@ -60,6 +60,7 @@ def interpolation_content(model: InterpolationModel) -> dict[str, Any]:
         "poses": list(problem.poses.names),
         "accept_inverted": bool(problem.poses.inverted_tets.any()),
         "lumped_mass": model.subspace.lumped,
+        **shown_surface.surface_content(model.surface),
     }
 
 
@@ -97,7 +98,7 @@ def interpolation_model(
         problem=problem,
         subspace=subspace,
         blends=_blends(arrays, problem, subspace),
-        surface=shown_surface.surface(arrays, problem.mesh),
+        surface=shown_surface.surface(arrays, content, problem.mesh),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,

@@ -45,7 +45,6 @@ def posing_arrays(model: PosingModel) -> Arrays:
     The arrays of a surface are left out if it is the boundary of the tets.
     """
     problem = model.problem
-    is_own = not model.surface.is_boundary(problem.mesh)
     sizes = [len(handle.vertices) for handle in problem.handles]
     return {
         "vertices": problem.mesh.vertices,
@@ -61,7 +60,7 @@ def posing_arrays(model: PosingModel) -> Arrays:
         "handle_S": model.handles.S,
         "training_parameters": model.training_parameters,
         "training_coordinates": model.training_coordinates,
-        **(shown_surface.surface_arrays(model.surface) if is_own else {}),
+        **shown_surface.own_arrays(model.surface, problem.mesh),
     }
 
 
@@ -80,6 +79,7 @@ def posing_content(model: PosingModel) -> dict[str, Any]:
         },
         "handles": list(problem.handles.names),
         "lumped_mass": model.subspace.lumped,
+        **shown_surface.surface_content(model.surface),
     }
 
 
@@ -109,7 +109,7 @@ def posing_model(
         subspace=subspace,
         elastic=_elastic(arrays, problem, subspace),
         handles=HandleQuadric(arrays["handle_K"], arrays["handle_L"], arrays["handle_S"]),
-        surface=shown_surface.surface(arrays, problem.mesh),
+        surface=shown_surface.surface(arrays, content, problem.mesh),
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,

@@ -1,10 +1,13 @@
-"""The surface of a model as arrays: its faces, and the tet vertices that its vertices follow."""
+"""The surface of a model as arrays: faces, the tet vertices that vertices follow, and its file."""
 
 from __future__ import annotations
 
+import zlib
+from typing import Any
+
 import numpy as np
 
-from ..mesh import EmbeddedSurface, TetMesh, boundary_surface
+from ..mesh import EmbeddedSurface, SurfaceFile, TetMesh, boundary_surface
 from .container import Arrays, check_shapes
 
 DTYPES: dict[str, type] = {
@@ -12,23 +15,47 @@ DTYPES: dict[str, type] = {
     "surface_corners": np.int32,
     "surface_weights": np.float64,
 }
+#: The user's file, compressed, and its entry in the header.
+SOURCE = "surface_source"
+SOURCE_DTYPES: dict[str, type] = {SOURCE: np.uint8}
+#: Files of more bytes are not kept; `snapspace pose --surface` takes them when it writes.
+LARGEST_SOURCE = 1 << 26
 
 
 def surface_arrays(surface: EmbeddedSurface) -> Arrays:
-    """The arrays of a surface; the names are those of DTYPES."""
-    return {
+    """The arrays of a surface; the names are those of DTYPES and SOURCE_DTYPES."""
+    arrays: Arrays = {
         "surface_faces": surface.faces,
         "surface_corners": surface.corners,
         "surface_weights": surface.weights,
     }
+    source = _kept(surface)
+    if source is not None:
+        arrays[SOURCE] = np.frombuffer(zlib.compress(source.data, 6), np.uint8)
+    return arrays
+
+
+def own_arrays(surface: EmbeddedSurface, mesh: TetMesh) -> Arrays:
+    """The arrays of a surface; none for the boundary of the tets, if it is from no file."""
+    own = surface.source is not None or not surface.is_boundary(mesh)
+    return surface_arrays(surface) if own else {}
+
+
+def surface_content(surface: EmbeddedSurface) -> dict[str, Any]:
+    """The entries of a surface that are not arrays, as JSON."""
+    source = _kept(surface)
+    if source is None:
+        return {}
+    return {SOURCE: {"name": source.name, "used_only": source.used_only}}
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
     """Types of the arrays that a file must have: all of a surface's if it has any of them."""
-    return DTYPES if any(name in arrays for name in DTYPES) else {}
+    needed = DTYPES if any(name in arrays for name in (*DTYPES, SOURCE)) else {}
+    return needed | (SOURCE_DTYPES if SOURCE in arrays else {})
 
 
-def surface(arrays: Arrays, mesh: TetMesh) -> EmbeddedSurface:
+def surface(arrays: Arrays, content: dict[str, Any], mesh: TetMesh) -> EmbeddedSurface:
     """The surface in a file's arrays, or the boundary of its tets; ValueError for bad arrays."""
     if not dtypes(arrays):
         return boundary_surface(mesh)
@@ -39,5 +66,28 @@ def surface(arrays: Arrays, mesh: TetMesh) -> EmbeddedSurface:
         if indices.size and (indices.min() < 0 or indices.max() >= count):
             raise ValueError(f"'{name}' has an index that is not between 0 and {count - 1}")
     return EmbeddedSurface(
-        arrays["surface_faces"], arrays["surface_corners"], arrays["surface_weights"]
+        arrays["surface_faces"],
+        arrays["surface_corners"],
+        arrays["surface_weights"],
+        source=_source(arrays, content),
     )
+
+
+def _kept(surface: EmbeddedSurface) -> SurfaceFile | None:
+    source = surface.source
+    return source if source is not None and len(source.data) <= LARGEST_SOURCE else None
+
+
+def _source(arrays: Arrays, content: dict[str, Any]) -> SurfaceFile | None:
+    """The user's file; ValueError if it cannot be unpacked or is larger than any that is kept."""
+    if SOURCE not in arrays:
+        return None
+    about = content[SOURCE]
+    unpacking = zlib.decompressobj()
+    try:
+        data = unpacking.decompress(arrays[SOURCE].tobytes(), LARGEST_SOURCE)
+    except zlib.error as error:
+        raise ValueError(f"'{SOURCE}' cannot be unpacked ({error})") from None
+    if not unpacking.eof:
+        raise ValueError(f"'{SOURCE}' is incomplete, or larger than {LARGEST_SOURCE} bytes")
+    return SurfaceFile(str(about["name"]), data, used_only=bool(about["used_only"]))

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ..mesh import EmbeddedSurface, TetMesh, compact_surface, embed_surface, read_surface, read_tets
+from ..mesh import EmbeddedSurface, TetMesh, embed_file, open_surface, read_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
@@ -74,7 +74,8 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
     Returns
     -------
     EmbeddedSurface or None
-        For `reduce`; vertices without faces are left out. None if the file names no surface.
+        For `reduce`, with the file as its source; vertices without faces are left out. None if the
+        problem file names no surface.
 
     Raises
     ------
@@ -88,8 +89,7 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
         return None
     with within(path):
         file = path.parent / as_text(content["surface"], "surface")
-        vertices, faces = compact_surface(*read_surface(file))
-        return embed_surface(vertices, faces, mesh, farthest=WHOLE_DIAGONAL)
+        return embed_file(open_surface(file).compact(), mesh, farthest=WHOLE_DIAGONAL)
 
 
 def problem_content(

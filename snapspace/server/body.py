@@ -12,9 +12,8 @@ from ..mesh import (
     TET_SUFFIXES,
     EmbeddedSurface,
     TetMesh,
-    compact_surface,
-    embed_surface,
-    read_surface,
+    embed_file,
+    open_surface,
     read_tets,
 )
 from ..mesh.embed_surface import WHOLE_DIAGONAL
@@ -101,11 +100,11 @@ def mesh_body(
     stage("reading")
     if path.suffix.lower() in TET_SUFFIXES:
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
-    vertices, faces = compact_surface(*read_surface(path))
+    source = open_surface(path).compact()
     check_stop()
     try:
-        mesh = (filling or SurfaceFilling()).fill(vertices, faces, stage=stage)
-        surface = embed_surface(vertices, faces, mesh, farthest=WHOLE_DIAGONAL)
+        mesh = (filling or SurfaceFilling()).fill(source.vertices, source.faces, stage=stage)
+        surface = embed_file(source, mesh, farthest=WHOLE_DIAGONAL)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
     return Body(

@@ -19,8 +19,8 @@ from .files import bar_mesh, write_problem, write_raw
 
 def test_the_lists_of_extensions_are_those_of_the_mesh_package() -> None:
     assert list(TET_INPUTS) == list(read._READERS)
-    surfaces = importlib.import_module("snapspace.mesh.read_surface")
-    assert sorted(SURFACE_INPUTS) == sorted(surfaces._READERS)
+    surfaces = importlib.import_module("snapspace.mesh.surface_file.content")
+    assert sorted(SURFACE_INPUTS) == sorted(surfaces.READERS)
     assert list(TET_OUTPUTS) == list(write._TET_FORMATS)
     assert list(SURFACE_OUTPUTS) == list(write._SURFACE_WRITERS)
     assert not set(TET_OUTPUTS) & set(SURFACE_OUTPUTS)

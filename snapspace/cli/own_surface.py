@@ -1,0 +1,92 @@
+"""Writing shapes into the user's own surface file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from ..animation import shape_suffixes
+from ..mesh import embed_file, open_surface
+from ..reduction import InterpolationModel, PosingModel
+from .console import notice
+from .files import FILMS, SURFACE_INPUTS, TET_OUTPUTS
+from .options import FILE
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+Model = TypeVar("Model", PosingModel, InterpolationModel)
+
+
+def surface_option(command: Command) -> Command:
+    """Adds --surface, None for the surface in the model."""
+    return click.option(
+        "--surface",
+        "surface_file",
+        type=FILE,
+        metavar="FILE",
+        help="Move this surface instead of the model's own; it is in the unit and frame of the "
+        "mesh at rest. In its own format it keeps UVs, polygons, materials and colours.",
+    )(command)
+
+
+def with_surface(model: Model, file: Path | None) -> Model:
+    """The model with the surface of --surface, or as it is.
+
+    ValueError if the file cannot be read, or lies too far from the tets.
+    """
+    if file is None:
+        return model
+    source = open_surface(file).compact()
+    try:
+        # the tets carry along what lies near them, such as clothes
+        return replace(model, surface=embed_file(source, model.problem.mesh, farthest=0.1))
+    except ValueError as error:
+        raise ValueError(f"{file}: {error}") from None
+
+
+def check_own_output(model: Model, output: Path | None, kind: str | None, *, path: bool) -> None:
+    """Says what a format keeps of the user's surface; ValueError for one that only a source has.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    output : Path or None
+        A file or, with `path`, a folder or a film.
+    kind : str or None
+        The format of --format.
+    path : bool
+        Whether frames of a path are written.
+    """
+    if output is None or (path and output.suffix.lower() in FILMS):
+        return
+    source = model.surface.source
+    usual = source.suffix if source is not None else ".obj"
+    suffix = (f".{kind}" if kind else usual) if path else output.suffix.lower()
+    if suffix not in shape_suffixes(model.surface):
+        came = "has no surface file" if source is None else f"has {source.name}"
+        raise ValueError(
+            f"{output}: a {suffix} file is written only in place of the surface that the model "
+            f"was made from, but this one {came}; give --surface FILE{suffix}, or write "
+            f"{usual}"
+        )
+    if source is None or suffix in TET_OUTPUTS:
+        return
+    if suffix != source.suffix:
+        notice(
+            f"notice: a {suffix} file has triangles and positions only; write {source.suffix} to "
+            f"keep all that {source.name} has"
+        )
+        return
+    folder = output if path else output.parent
+    missing = [name for name in source.refers_to if not (folder / name).exists()]
+    if missing:
+        notice(
+            f"notice: {source.name} refers to {', '.join(missing)}; copy the file to {folder} too"
+        )
+
+
+#: Extensions that a shape may be written to; some of them only for some models.
+SHAPE_OUTPUTS = tuple(dict.fromkeys((*SURFACE_INPUTS, *TET_OUTPUTS)))

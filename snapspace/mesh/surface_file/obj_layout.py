@@ -1,0 +1,44 @@
+"""Where the positions and normals of a Wavefront OBJ file are."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..file_content import FileContent
+from .layout import Directions, Layout
+from .slots import TextSlots
+
+# Spaces may include a line that goes on below.
+_GAP = rb"(?:[ \t\f\v]|\\\r?\n)+"
+_LINE = rb"(?:(?<=[\r\n])|\A)(?:[ \t\f\v]|\\\r?\n)*"
+_LIBRARY = re.compile(_LINE + rb"mtllib" + _GAP + rb"([^\r\n#]+)")
+
+
+def obj_layout(data: bytes, content: FileContent) -> Layout:
+    """The layout of an OBJ file that was read as `content`."""
+    assert content.polygons is not None
+    polygons = content.polygons
+    directions: tuple[Directions, ...] = ()
+    if polygons.normals is not None and (polygons.normals >= 0).any():
+        directions = (Directions(_vectors(data, b"vn"), polygons.normals),)
+    libraries = [match[1].decode("utf-8", "replace").strip() for match in _LIBRARY.finditer(data)]
+    return Layout(
+        data=data,
+        points=_vectors(data, b"v"),
+        corners=polygons.corners,
+        sizes=polygons.sizes,
+        directions=directions,
+        refers_to=tuple(dict.fromkeys(libraries)),
+    )
+
+
+def _vectors(data: bytes, keyword: bytes) -> TextSlots:
+    """The first three words after a keyword at the start of a line."""
+    word = rb"([^\s\\#]+)"
+    pattern = re.compile(_LINE + keyword + _GAP + word + _GAP + word + _GAP + word)
+    spans = [match.regs[1:] for match in pattern.finditer(data)]
+    places: NDArray[np.int64] = np.array(spans, np.int64).reshape(-1, 3, 2)
+    return TextSlots(data, places[:, :, 0], places[:, :, 1])

@@ -1,0 +1,227 @@
+"""SurfaceFile: a surface file that can be written again with other positions."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...disk.atomic_file import atomic_file
+from ...input_error import located
+from ..arrays import FloatArray, IndexArray, as_indices, as_points
+from ..input_path import existing_file, writable_path
+from ..polygons import fan_corners
+from ..validation import check_indices, check_points
+from .carried import carried
+from .content import READERS, layout_of, vertices_of
+from .gltf_file import self_contained
+from .layout import Layout
+from .slots import Patch, patched
+
+# Vertices that move by less than this share of the largest coordinate stay as they are.
+_STILL = 1e-12
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfaceFile:
+    """The bytes of a surface file, and where its positions are in them.
+
+    Parameters
+    ----------
+    name : str
+        The file's name; its extension decides the format.
+    data : bytes
+        The whole file.
+    used_only : bool, default False
+        Whether vertices without faces are left out of `vertices` (they stay in the file).
+
+    Raises
+    ------
+    ValueError
+        For an unknown extension. Faults in the content are found on first use.
+
+    Notes
+    -----
+    `with_vertices` puts new positions in the places of the old ones. Normals and tangents in the
+    file are carried along by the deformation of their faces. Everything else stays byte by byte:
+    faces, quads and polygons, their order, texture coordinates, groups, materials, colours, names.
+    In .stl and glTF files each corner has its own point: equal ones are one vertex here, in the
+    order in which they first occur, and are all moved. A .gltf is one file afterwards, with its
+    buffers and images inside.
+    """
+
+    name: str
+    data: bytes
+    used_only: bool = False
+
+    def __repr__(self) -> str:
+        return f"SurfaceFile({self.name}, {len(self.data)} bytes)"
+
+    def __post_init__(self) -> None:
+        if self.suffix not in READERS:
+            raise ValueError(
+                f"SurfaceFile: unknown extension {self.suffix!r}; known are {', '.join(READERS)}"
+            )
+
+    @property
+    def suffix(self) -> str:
+        """The extension, such as .obj."""
+        return Path(self.name).suffix.lower()
+
+    @property
+    def vertices(self) -> FloatArray:
+        """The vertices at rest, (n, 3); the same as those of `read_surface`."""
+        return self._vertices[0]
+
+    @property
+    def corners(self) -> IndexArray:
+        """Vertex of each corner of each polygon, (c,), polygon by polygon."""
+        vertex = self._vertices[1]
+        return np.asarray(vertex[self._layout.corners], np.int32)
+
+    @property
+    def starts(self) -> IndexArray:
+        """Where each polygon starts in `corners`, and where the last one ends, (p + 1,)."""
+        return np.concatenate([[0], np.cumsum(self._layout.sizes)]).astype(np.int32)
+
+    @property
+    def faces(self) -> IndexArray:
+        """Triangles, (f, 3): each polygon as a fan around its first corner."""
+        return np.asarray(self.corners[fan_corners(self._layout.sizes)], np.int32)
+
+    @property
+    def refers_to(self) -> tuple[str, ...]:
+        """Names of other files that this one refers to, such as materials, relative to it."""
+        return self._layout.refers_to
+
+    def compact(self) -> SurfaceFile:
+        """The same file without its vertices that no face uses."""
+        return replace(self, used_only=True)
+
+    def with_vertices(self, vertices: ArrayLike) -> bytes:
+        """The file with other positions.
+
+        Parameters
+        ----------
+        vertices : array_like, (n, 3)
+            In the order of `self.vertices`.
+
+        Returns
+        -------
+        bytes
+            Vertices that do not move keep their bytes; with none moved it is the same file.
+
+        Raises
+        ------
+        ValueError
+            For another shape, coordinates that are not finite or too large for the file's type, or
+            a file with whole numbers as coordinates.
+        """
+        layout, (rest, vertex) = self._layout, self._vertices
+        new = as_points(vertices, who="SurfaceFile")
+        if new.shape != rest.shape:
+            raise ValueError(
+                f"SurfaceFile: {self.name} has {len(rest)} vertices, but {len(new)} are given"
+            )
+        check_points(new, who="SurfaceFile")
+        scale = float(np.abs(rest).max(initial=0.0))
+        moved: NDArray[np.bool_] = np.any(np.abs(new - rest) > _STILL * scale, axis=1)
+        rows = np.flatnonzero((vertex >= 0) & moved[vertex])
+        if not rows.size:
+            return self.data
+        old = layout.points.values
+        world = layout.world_points()
+        world[rows] = new[vertex[rows]]
+        points = old.copy()
+        points[rows] = layout.local_points(world)[rows]
+        patches = layout.points.patches(rows, points[rows])
+        patches += self._carried(old, points)
+        return layout.finish(patched(layout.data, patches), points)
+
+    def write(self, path: str | os.PathLike[str], vertices: ArrayLike) -> None:
+        """Writes the file with other positions, see `with_vertices`.
+
+        ValueError also for a path with another extension, or one that cannot be written; an
+        existing file then stays as it was.
+        """
+        file = writable_path(path, known=(self.suffix,))
+        with located(file):
+            content = self.with_vertices(vertices)
+        with atomic_file(file) as temporary:
+            temporary.write_bytes(content)
+
+    def _carried(self, old: FloatArray, new: FloatArray) -> list[Patch]:
+        """Patches of normals and tangents."""
+        patches: list[Patch] = []
+        corners = fan_corners(self._layout.sizes)
+        triangles = self._layout.corners[corners]
+        for directions in self._layout.directions:
+            values = directions.slots.values
+            rows, turned = carried(directions, values, old, new, triangles, corners)
+            patches += directions.slots.patches(rows, turned)
+        return patches
+
+    @cached_property
+    def _layout(self) -> Layout:
+        return layout_of(self.suffix, self.data)
+
+    @cached_property
+    def _vertices(self) -> tuple[FloatArray, NDArray[np.intp]]:
+        vertices, vertex = vertices_of(self._layout)
+        if self.used_only:
+            used = np.zeros(len(vertices), np.bool_)
+            used[vertex[self._layout.corners]] = True
+            new = np.where(used, np.cumsum(used) - 1, -1)
+            vertices, vertex = vertices[used], new[vertex]
+        vertices.setflags(write=False)
+        return vertices, vertex
+
+
+def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
+    """Opens a surface file, so that it can be written again with other positions.
+
+    Parameters
+    ----------
+    path : path
+        .obj, .off, .ply, .stl, .glb or .gltf, the formats of `read_surface`.
+
+    Returns
+    -------
+    SurfaceFile
+        With the file's bytes in memory.
+
+    Raises
+    ------
+    ValueError
+        As for `read_surface`, and if its positions cannot be located.
+
+    Examples
+    --------
+    >>> spot = open_surface("spot.obj")
+    >>> spot.write("twice.obj", 2.0 * spot.vertices)
+    """
+    file = existing_file(path, known=READERS)
+    with located(file):
+        data = file.read_bytes()
+        if file.suffix.lower() == ".gltf":
+            data = self_contained(data, file.parent)
+        surface = SurfaceFile(file.name, data)
+        checked_surface(surface.vertices, surface.faces)
+    return surface
+
+
+def checked_surface(
+    vertices: ArrayLike, triangles: ArrayLike, *, who: str = "read_surface"
+) -> tuple[FloatArray, IndexArray]:
+    """Vertices (n, 3) and faces (f, 3) of a file; ValueError if they are no surface."""
+    points = as_points(vertices, who=who)
+    if not len(np.asarray(triangles)):
+        raise ValueError(f"it has no faces ({len(points)} vertices)")
+    faces = as_indices(triangles, corners=3, who=who, what="faces")
+    check_points(points, who=who)
+    check_indices(faces, len(points), who=who, what="face")
+    return points, faces
