@@ -13,7 +13,7 @@ from ..animation import shape_suffixes
 from ..mesh import embed_file, open_surface
 from ..reduction import InterpolationModel, PosingModel
 from .console import notice
-from .files import FILMS, SURFACE_INPUTS, TET_OUTPUTS
+from .files import ANIMATIONS, SURFACE_INPUTS, TET_OUTPUTS
 from .options import FILE
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -60,7 +60,7 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
     path : bool
         Whether frames of a path are written.
     """
-    if output is None or (path and output.suffix.lower() in FILMS):
+    if output is None or (path and output.suffix.lower() in ANIMATIONS):
         return
     source = model.surface.source
     usual = source.suffix if source is not None else ".obj"
