@@ -2,7 +2,8 @@
 
 The paper shows pictures only, without the parameters of its shapes: here blends are at the weights
 that are printed, and motions of handles are strong ones inside the sampled box. Errors are those of
-table 2, relative to the displacement from tau. The straight blend moves vertices on lines.
+table 2, relative to the displacement from tau; blends are moved rigidly to where the full solution
+is. The straight blend moves vertices on lines.
 """
 
 from __future__ import annotations
@@ -129,7 +130,16 @@ def _columns(
     if isinstance(problem, ss.InterpolationProblem):
         blends = [problem.linear_blend(w).reshape(-1) for w in reference.parameters]
         found["straight", None] = np.array(blends)
+        for key, shapes in found.items():  # a blend has no place of its own
+            pairs = zip(shapes, reference.shapes, strict=True)
+            found[key] = np.array([_placed(shape, full, problem) for shape, full in pairs])
     return found
+
+
+def _placed(shape: FloatArray, full: FloatArray, problem: ss.InterpolationProblem) -> FloatArray:
+    """A shape (3n,) moved rigidly to where the full solution is."""
+    motion = ss.rigid_registration(shape, full, problem.mass())
+    return np.asarray(motion.apply(shape.reshape(-1, 3)).reshape(-1))
 
 
 def _picture(
