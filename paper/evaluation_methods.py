@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 #: Tets of cubatures, for each dimension; the product's default is 8 for posing, 15 for blends.
 CUBATURE_TETS = (1, 2, 4, 8, 16)
 #: Tets of coarse meshes, and numbers of clusters.
-COARSE_TETS = (16_000, 4_000, 1_000, 250)
+COARSE_TETS = (16_000, 4_000, 2_000, 1_000, 250)
 CLUSTERS = (10, 30, 100, 300)
 #: Multiply-adds of a tet and mode by rows, and of a vertex and mode there and back.
 BY_ROWS, BY_VERTICES = 18, 6
