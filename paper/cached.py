@@ -41,9 +41,9 @@ def cached_snapshots(
 def timed_training(
     problem: ss.PosingProblem | ss.InterpolationProblem, count: int
 ) -> tuple[ss.Snapshots, float]:
-    """`training`, but always solved now, and the seconds; other programs need not solve it again.
+    """`training` solved anew, and the seconds it took; the samples are kept for other programs.
 
-    The seconds include all that is made once for a problem, for poses the mean shape as well.
+    The seconds include what is made once for a problem, such as the mean shape of poses.
     """
     parameters = ss.sample(problem.domain, count, method="sobol")
     solved, seconds = timed(lambda: ss.solve_snapshots(problem, parameters))
@@ -69,7 +69,7 @@ def cached_subspace(
     dimension: int,
     build: Callable[[Given, int], ss.AffineSubspace],
 ) -> ss.AffineSubspace:
-    """build(problem, dimension), kept by its name; `build` depends on nothing else."""
+    """build(problem, dimension), kept by name, problem and dimension, which must determine it."""
     key = hashlib.sha256(f"{name} {dimension} {problem.fingerprint} {ss.__version__}".encode())
     path = FOLDER / f"{key.hexdigest()[:24]}.npy"
     if path.is_file():

@@ -25,11 +25,11 @@ ARMADILLO_VOLUME = 234741.0
 
 @dataclass(frozen=True)
 class Case:
-    """A problem, and the name of the shape that it is of.
+    """A problem, and the name of its shape.
 
-    shape : of a real mesh, or "generated ..." for a stand-in
-    fitting : seconds in which the tets were fitted to the poses, which are given as surfaces; None
-        if they are given as tets, or there are none
+    shape : name of a real mesh, or "generated ..." for a stand-in
+    fitting : seconds that fitting the tets to the poses' surfaces took; None if the poses are tets,
+        or there are none
     """
 
     problem: ss.PosingProblem | ss.InterpolationProblem
@@ -52,7 +52,7 @@ def meshes_folder() -> Path | None:
 def read(name: str, kind: str, *, quick: bool = False) -> Case:
     """A case by name, with a material by its kind, all moduli 1.
 
-    quick : takes the generated stand-in, which is small, also where there are real meshes
+    quick : take the small generated stand-in even if there are real meshes
     """
     folder = None if quick else meshes_folder()
     if folder is None:

@@ -2,8 +2,9 @@
 
 All subspaces of one problem, in both materials, on unseen motions. "full" sums over all tets, so
 that the subspaces alone are compared; frames of a live session take the exact quartic of St.Venant-
-Kirchhoff, or a cubature trained on the same snapshots. Seconds of preparation are those of the
-subspace, with the solved snapshots where it needs them, and of the reduced energy.
+Kirchhoff, or a cubature trained on our snapshots. Seconds of preparation are those of the subspace
+and of the reduced energy. The snapshots' seconds count for our subspaces only, though rivals'
+cubatures use the snapshots too.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ Build = Callable[[ss.PosingProblem, int], ss.AffineSubspace]
 
 @dataclass(frozen=True)
 class Setting:
-    """samples : of our subspaces; dimensions : of all; unseen : motions that are judged."""
+    """samples : for our subspaces; dimensions : of all; unseen : number of test motions."""
 
     samples: int
     dimensions: tuple[int, ...]

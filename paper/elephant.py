@@ -1,7 +1,7 @@
 """The Elephant's error: which motions and which clamp give the paper's 0.009 at d = 45.
 
 The paper gives neither the range of the trunk's motions nor the clamped region. Here the box of
-motions is scaled, and the clamp is that of the problem or its half that is farthest from the
+motions is scaled, and the clamp is the problem's or the half of it that is farthest from the
 moving handles. "error" is that of the reduced solve, "projection" the least that the subspace
 allows.
 """
@@ -25,7 +25,7 @@ from .result import Result
 PAPER = 0.009
 SAMPLES, DIMENSION, UNSEEN = 200, 45, 6
 QUICK_SAMPLES, QUICK_DIMENSION = 40, 16
-#: Shares of the box's half widths, by the clamp.
+#: Shares of the box's half widths, for each clamp.
 BOXES = {"whole": (0.25, 0.5, 0.75, 1.0), "half": (0.5, 1.0)}
 QUICK_BOXES = {"whole": (0.5, 1.0), "half": (1.0,)}
 
@@ -58,7 +58,7 @@ def run(*, quick: bool = False) -> Result:
 
 
 def variant(problem: ss.PosingProblem, *, clamp: str, share: float) -> ss.PosingProblem:
-    """The problem with a share of its box, and its clamp or half of that."""
+    """The problem with a share of its box, and the whole clamp or half of it."""
     handles = problem.handles
     first = handles.names[0]
     if clamp == "half":

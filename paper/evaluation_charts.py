@@ -10,6 +10,7 @@ import numpy as np
 from snapspace.pictures import Curve, chart, save_png
 
 from .orderings import Rows
+from .result import slug
 
 EXACT = "exact quartic"
 NAMES = ("cubature", "coarse mesh", "rotation clusters", EXACT)
@@ -27,8 +28,7 @@ def draw(rows: Rows, folder: Path) -> None:
             _chart(f"{shape}, {material}, d = {largest}", list(part))
             for material, part in groupby(kept, lambda row: row["material"])
         ]
-        name = "_".join(shape.replace(",", "").split())
-        save_png(folder / f"evaluations_{name}.png", np.hstack(charts))
+        save_png(folder / f"evaluations_{slug(shape)}.png", np.hstack(charts))
 
 
 def _chart(title: str, rows: Rows) -> np.ndarray:

@@ -1,9 +1,9 @@
 """Figures 2 to 6: shapes in our subspace beside the full solution and the rivals.
 
-The paper shows pictures only, without the parameters of its shapes: here blends are at the weights
-that are printed, and motions of handles are strong ones inside the sampled box. Errors are those of
-table 2, relative to the displacement from tau; blends are moved rigidly to where the full solution
-is. The straight blend moves vertices on lines.
+The paper shows pictures only, without the parameters of its shapes. Here they are printed: weights
+of blends, or strong motions inside the sampled box. Errors are defined as in Table 2, relative to
+the displacement from tau; blends are moved rigidly to where the full solution is. The straight
+blend moves vertices along lines.
 """
 
 from __future__ import annotations
@@ -37,9 +37,10 @@ class Figure:
     """A figure of the paper.
 
     number : of the figure; case : name of its problem
-    samples, ours : of our subspace; modal : dimensions of vibration modes and modal derivatives
-    shares : of each shape, the weights of the poses, or the shares of the box's half widths
-    view : options of the pictures
+    samples, ours : samples and dimension of our subspace
+    modal : dimensions of vibration modes with modal derivatives
+    shares : for each shape, the weights of the poses or the shares of the box's half widths
+    view : options for `render_row`
     """
 
     number: int

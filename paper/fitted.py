@@ -29,15 +29,15 @@ def fitted_poses(
 
     Parameters
     ----------
-    tets : of the mesh in the pose of the reference surface
-    reference : of the surface
-    names : of the other surfaces, which are beside the reference with the same suffix
-    folder : where fits are kept
+    tets : file of the tet mesh, in the pose of the reference surface
+    reference : file of the reference surface
+    names : the other surfaces' files without suffix, beside the reference and with its suffix
+    folder : folder where fits are kept
 
     Returns
     -------
     FittedPoses
-        If the fits were kept, with the seconds that they took then.
+        Fits that were kept have the seconds that they took when they were made.
     """
     mesh = ss.read_tets(tets)
     surface = ss.embed_surface(*ss.read_surface(reference), mesh)

@@ -95,7 +95,7 @@ def _symmetry(case: Case, count: int, dimension: int) -> Iterator[dict[str, Any]
 
 
 def _other_handles(case: Case, count: int, dimension: int) -> Iterator[dict[str, Any]]:
-    """The last handle is new."""
+    """Subspaces for a body whose last handle is new."""
     problem = case.problem
     assert isinstance(problem, ss.PosingProblem)
     before = problem.with_handles(problem.handles.without(problem.handles.names[-1]))

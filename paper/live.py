@@ -19,7 +19,7 @@ class Live:
 
     iterations : of the minimiser in a frame, mean
     per_iteration : milliseconds, median of the frames that took any; None if none did
-    milliseconds : of the solve of a frame, without its vertices, median
+    milliseconds : of a frame's solve, without computing the vertices, median
     """
 
     iterations: float

@@ -10,10 +10,10 @@ Rows = Sequence[dict[str, Any]]
 
 
 def errors_in_order(rows: Rows) -> list[str]:
-    """Faults of table 2: ours is the best of every dimension, and VM + MD holds more than VM.
+    """Faults of table 2: ours is best up to its dimension, and VM + MD projects better than VM.
 
-    Modes and modal derivatives are compared by projections: what they make of stiff handles is
-    as far from the truth as the rest shape.
+    Modes and modal derivatives are compared by projections: with stiff handles, their reduced
+    solutions may be as far from the full ones as the rest shape is.
     """
     faults = []
     for title, group in by_case(rows):
@@ -32,7 +32,11 @@ def errors_in_order(rows: Rows) -> list[str]:
 
 
 def objectives_in_order(rows: Rows) -> list[str]:
-    """Faults of table 3: no subspace is below the full solution, and objectives fall with d."""
+    """Faults of table 3.
+
+    No subspace is below the full solution, ours is below the smallest of each rival, and rivals'
+    objectives fall with d.
+    """
     faults = []
     for title, group in by_case(rows):
         full, ours = named(group, "full")[0], named(group, "ours")[0]

@@ -20,7 +20,7 @@ class Result:
     """Rows of figures under one title.
 
     name : of the file
-    title : for people
+    title : printed above the table
     rows : mappings with the same keys
     """
 

@@ -18,9 +18,9 @@ from snapspace.gltf.vertex_normals import vertex_normals
 
 FloatArray = NDArray[np.float64]
 
-#: A body is symmetric if its mirror image is this near, as a share of the diagonal.
+#: A body is symmetric if its asymmetry, a share of the diagonal, is at most this.
 SYMMETRIC = 0.01
-#: How far the middle of a handle's mirror image may be from that of its partner, as such a share.
+#: Largest distance of a handle's mirrored centre from its partner's centre, as such a share.
 PARTNERS = 0.02
 _ROUNDS = 30
 
@@ -48,7 +48,7 @@ class Mirror:
 
 
 def mirror_of(mesh: ss.TetMesh) -> Mirror:
-    """The plane that a body is nearest to being symmetric about.
+    """The plane about which a body is most nearly symmetric.
 
     Starts from the three principal planes of the surface; each is moved to the plane between its
     vertices and the ones nearest to their mirror images, again and again.
@@ -73,7 +73,7 @@ def mirror_of(mesh: ss.TetMesh) -> Mirror:
 
 
 def partners(problem: ss.PosingProblem, mirror: Mirror) -> list[int] | None:
-    """For each handle, the one that its mirror image is; None if there is none."""
+    """The index of each handle's mirror image among the handles; None if one has none."""
     vertices = problem.mesh.vertices
     centers = np.array([vertices[handle.vertices].mean(axis=0) for handle in problem.handles])
     images = mirror.points(centers)

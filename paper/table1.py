@@ -29,12 +29,13 @@ class Row:
     """A row of the paper's table.
 
     name : of our case
-    shape : in the paper, where it is another
+    shape : the paper's shape, if it is another
     vertices, tets : in thousands
+    samples, dimension : numbers of samples and modes
     sampling, coefficients : seconds
-    iterations : of Newton's method for a sample
-    per_iteration : milliseconds of an iteration of BFGS
-    per_frame : iterations of BFGS in a frame
+    iterations : Newton iterations for a sample
+    per_iteration : milliseconds of a BFGS iteration
+    per_frame : BFGS iterations in a frame
     """
 
     name: str
@@ -63,7 +64,7 @@ ROWS = (
 #: The rows, samples and dimensions of generated shapes.
 QUICK = ("centaur", "armadillo", "dragon")
 QUICK_SAMPLES, QUICK_DIMENSION = 30, 20
-#: Samples that Newton's method solves, and how many of small meshes.
+#: Samples that Newton's method solves, on meshes of usual size and on small ones.
 NEWTON, NEWTON_SMALL = 2, 8
 SMALL_TETS = 10_000
 

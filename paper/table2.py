@@ -1,9 +1,9 @@
 """Table 2: relative L2 errors of our subspaces, and of vibration modes and modal derivatives.
 
 The paper does not define its error or its motions. Here errors are those of unseen parameters,
-uniform in the domain, relative to the displacement from tau; all subspaces are evaluated exactly,
-and Newton's method begins at the projection of the full solution. Errors of the projections, which
-no reduced solution is below, are beside them.
+uniform in the domain, relative to the displacement from tau. All subspaces are evaluated exactly,
+and Newton's method begins at the projection of the full solution. The errors of the projections,
+lower bounds for all reduced solutions, are beside them.
 """
 
 from __future__ import annotations

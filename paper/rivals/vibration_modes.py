@@ -28,13 +28,13 @@ class Vibrations:
 
     K modes_i = eigenvalues_i M modes_i, and modes^T M modes = I.
 
-    energy : the elastic energy, of displacements from rest
+    energy : elastic energy of displacements from rest
+    stiffness : (3n, 3n) its Hessian K at rest
     mass : (3n, 3n) mass matrix M of x, y, z
     rigid : (3n, 6) M-orthonormal infinitesimal rigid motions
     modes : (3n, m), softest first
     eigenvalues : (m,), ascending
-    solver : of K + shift M
-    shift : float
+    solver : of K + s M with a small shift s, by which K becomes definite
     """
 
     energy: core.ElasticEnergy
@@ -44,7 +44,6 @@ class Vibrations:
     modes: FloatArray
     eigenvalues: FloatArray
     solver: SparseSolver
-    shift: float
 
 
 def vibrations(
@@ -80,9 +79,7 @@ def vibrations(
         stiffness, count, mass3, sigma=-shift, OPinv=inverse, v0=start, which="LM"
     )
     order = np.argsort(values)
-    return Vibrations(
-        energy, stiffness, mass3, rigid, modes[:, order], values[order], solver, shift
-    )
+    return Vibrations(energy, stiffness, mass3, rigid, modes[:, order], values[order], solver)
 
 
 def vibration_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSubspace:
