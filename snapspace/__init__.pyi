@@ -11,6 +11,7 @@ from .calibration import calibrate
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
 from .displacements import DisplacementRows, SnapshotGram
+from .doctor import Finding, MendedSurface, SurfaceReport, check_surface, mend_surface
 from .energy import ElasticEnergy
 from .filling import fill_surface, stuff_surface
 from .fitting import (
@@ -135,6 +136,7 @@ __all__ = [
     "ErrorCurve",
     "ErrorEstimator",
     "ErrorSplit",
+    "Finding",
     "FrameReport",
     "Growth",
     "Handle",
@@ -145,6 +147,7 @@ __all__ = [
     "InterpolationProblem",
     "Interrupted",
     "Material",
+    "MendedSurface",
     "MeshNotice",
     "MooneyRivlin",
     "NextOption",
@@ -168,6 +171,7 @@ __all__ = [
     "StVK",
     "StableNeoHookean",
     "SurfaceFile",
+    "SurfaceReport",
     "SymmetricDirichlet",
     "TetMesh",
     "UnsavedSamplesError",
@@ -177,6 +181,7 @@ __all__ = [
     "boundary_surface",
     "calibrate",
     "carry_over",
+    "check_surface",
     "embed_surface",
     "error_curve",
     "export_html",
@@ -192,6 +197,7 @@ __all__ = [
     "load_snapshots",
     "mass_matrix",
     "matched_scales",
+    "mend_surface",
     "next_option",
     "open_surface",
     "pca",
