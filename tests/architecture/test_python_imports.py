@@ -27,7 +27,7 @@ ALLOWED: dict[str, set[str]] = {
     "pictures": {"disk", "extras"},
     "stuffing": {"mesh"},
     "doctor": {"mesh", "stopping"},
-    "filling": {"doctor", "extras", "interruptible", "mesh", "stopping", "stuffing"},
+    "filling": {"doctor", "extras", "input_error", "interruptible", "mesh", "stopping", "stuffing"},
     "fitting": {"_core", "blas", "interruptible", "material", "mesh", "registration"},
     "generators": {"mesh", "stuffing"},
     "material": {"_core"},
