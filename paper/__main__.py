@@ -9,6 +9,8 @@ import time
 from pathlib import Path
 from typing import Protocol, cast
 
+from snapspace.pictures import save_png
+
 from .cases import meshes_folder
 from .orderings import Rows
 from .result import FOLDER, PICTURES, Result
@@ -24,7 +26,7 @@ class Program(Protocol):
         """Orderings that the rows break, in lines; digits are not judged."""
 
     def draw(self, rows: Rows, folder: Path) -> None:
-        """Writes the pictures NAME.png or NAME_*.png."""
+        """Writes the charts of the rows, NAME.png or NAME_*.png."""
 
 
 #: Modules in the order in which they run.
@@ -67,6 +69,8 @@ def main() -> int:
         faults += program.faults(result.rows)
         options.pictures.mkdir(parents=True, exist_ok=True)
         program.draw(result.rows, options.pictures)
+        for picture, pixels in result.pictures.items():
+            save_png(options.pictures / f"{picture}.png", pixels)
     for fault in faults:
         print(f"paper: {fault}", file=sys.stderr)
     return 1 if faults and options.check else 0

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 import snapspace as ss
 from snapspace.mesh import mass_norms
-from snapspace.pictures import render_row, save_png, tint
+from snapspace.pictures import render_row, tint
 from snapspace.validation.unseen import reference_options
 
 from . import rivals
@@ -65,14 +65,11 @@ QUICK = (
     Figure(4, "helix", 30, 12, (12, 40), ((0.3, 0.7),), {"azimuth": -60.0}),
     Figure(6, "dragon", 60, 20, (20, 40), (TURNED,), {"azimuth": -42.0}),
 )
-#: Pictures wait here between `run` and `draw`, by their file names.
-_drawn: dict[str, NDArray[np.uint8]] = {}
 
 
 def run(*, quick: bool = False) -> Result:
     """All figures in the paper's material and in stable neo-Hookean."""
     result = Result("figures", "Figures 2 to 6: relative L2 error of the drawn shapes")
-    _drawn.clear()
     for kind in MATERIALS:
         for figure in QUICK if quick else FIGURES:
             _add(result, figure, kind, quick=quick)
@@ -83,10 +80,7 @@ faults = figures_in_order
 
 
 def draw(rows: Rows, folder: Path) -> None:
-    """Writes figure2_stvk.png and so on: a row of shapes for each parameter."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, picture in _drawn.items():
-        save_png(folder / f"{name}.png", picture)
+    """Draws nothing: the result has pictures of the shapes."""
 
 
 def _add(result: Result, figure: Figure, kind: str, *, quick: bool) -> None:
@@ -114,7 +108,7 @@ def _add(result: Result, figure: Figure, kind: str, *, quick: bool) -> None:
                 d=d,
                 error=float(error),
             )
-    _drawn[f"figure{figure.number}_{kind}"] = _picture(figure, problem, columns, errors)
+    result.pictures[f"figure{figure.number}_{kind}"] = _picture(figure, problem, columns, errors)
 
 
 def _columns(

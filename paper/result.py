@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
@@ -22,11 +24,13 @@ class Result:
     name : of the file
     title : printed above the table
     rows : mappings with the same keys
+    pictures : (height, width, 3) of shapes, by the names of their files
     """
 
     name: str
     title: str
     rows: list[dict[str, Any]] = field(default_factory=list)
+    pictures: dict[str, NDArray[np.uint8]] = field(default_factory=dict)
 
     def add(self, **row: Any) -> None:
         """Adds a row, and says so on standard error."""

@@ -63,15 +63,12 @@ ARMADILLO = Column(
     ((1.29e6, 9.42e5), (3.75e5, 1.58e5), (5.11e4, 4.40e4), (9.89e3, 8.00e3)),
     up="y",
 )
-#: Pictures wait here between `run` and `draw`, by their file names.
-_drawn: dict[str, NDArray[np.uint8]] = {}
 #: How many of the dimensions the generated shapes take.
 QUICK = 2
 
 
 def run(*, quick: bool = False) -> Result:
     """Both columns, for the paper's material and for stable neo-Hookean."""
-    _drawn.clear()
     result = Result("table3", "Table 3: objective and gradient norm in the unreduced space")
     for kind in MATERIALS:
         for column in (DRAGON,) if quick else (DRAGON, ARMADILLO):
@@ -117,7 +114,7 @@ def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
         if subspace.dimension in shown[name]:
             shapes[f"{name}, {subspace.dimension}"] = shape
     number = 7 if column is DRAGON else 8
-    _drawn[f"figure{number}_{kind}"] = _picture(problem, shapes, column.up)
+    result.pictures[f"figure{number}_{kind}"] = _picture(problem, shapes, column.up)
 
 
 faults = objectives_in_order
@@ -137,8 +134,6 @@ def draw(rows: Rows, folder: Path) -> None:
         picture = chart(curves, title=title, x_name="d", y_name="objective F", size=(560, 380))
         shape, material = full["shape"], full["material"]
         save_png(folder / f"table3_{slug(shape)}_{material}.png", picture)
-    for name, picture in _drawn.items():
-        save_png(folder / f"{name}.png", picture)
 
 
 def _picture(

@@ -15,6 +15,7 @@ EXPORTS = {
     "certificate": ("Certificate", "ErrorEstimator"),
     "cubature": ("Cubature", "CubatureErrors"),
     "displacements": ("DisplacementRows", "SnapshotGram"),
+    "doctor": ("Finding", "MendedSurface", "SurfaceReport", "check_surface", "mend_surface"),
     "energy": ("ElasticEnergy",),
     "filling": ("fill_surface", "stuff_surface"),
     "fitting": ("PoseFit", "PoseFits", "fit_poses"),

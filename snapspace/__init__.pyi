@@ -11,6 +11,7 @@ from .calibration import calibrate
 from .certificate import Certificate, ErrorEstimator
 from .cubature import Cubature, CubatureErrors
 from .displacements import DisplacementRows, SnapshotGram
+from .doctor import Finding, MendedSurface, SurfaceReport, check_surface, mend_surface
 from .energy import ElasticEnergy
 from .filling import fill_surface, stuff_surface
 from .fitting import (
@@ -138,6 +139,7 @@ __all__ = [
     "ErrorCurve",
     "ErrorEstimator",
     "ErrorSplit",
+    "Finding",
     "FrameReport",
     "Growth",
     "Handle",
@@ -148,6 +150,7 @@ __all__ = [
     "InterpolationProblem",
     "Interrupted",
     "Material",
+    "MendedSurface",
     "MeshNotice",
     "MooneyRivlin",
     "MorphTargets",
@@ -172,6 +175,7 @@ __all__ = [
     "StVK",
     "StableNeoHookean",
     "SurfaceFile",
+    "SurfaceReport",
     "SymmetricDirichlet",
     "TetMesh",
     "UnsavedSamplesError",
@@ -181,6 +185,7 @@ __all__ = [
     "boundary_surface",
     "calibrate",
     "carry_over",
+    "check_surface",
     "embed_surface",
     "error_curve",
     "export_html",
@@ -197,6 +202,7 @@ __all__ = [
     "load_snapshots",
     "mass_matrix",
     "matched_scales",
+    "mend_surface",
     "mode_targets",
     "next_option",
     "open_surface",

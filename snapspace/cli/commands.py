@@ -10,6 +10,7 @@ import click
 COMMANDS = {
     "blend": "Blend poses and write the shapes.",
     "build": "Make a model from a problem.",
+    "check": "Say what is wrong with a surface or mesh, and mend it.",
     "demo": "Build and paint a model of a generated creature.",
     "export": "Write a model as one HTML page, or as glTF.",
     "info": "Show what a file contains.",

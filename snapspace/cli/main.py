@@ -42,13 +42,15 @@ def snapspace(ctx: click.Context) -> None:
       snapspace pose dragon.snapspace --handle head --euler 0,0,30 -o posed.obj
       snapspace view dragon.snapspace                  # in the browser
       snapspace export dragon.snapspace --html dragon.html
+      snapspace check dragon.obj                       # is it ready to be filled?
     With poses of your own:
       snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
       snapspace blend cat.snapspace --path 60 -o frames
 
     With --json a command prints one JSON object on standard output; everything else goes to
-    standard error. Exit codes: 0 done, 1 a fault of snapspace, 2 a mistake in the input, 130
-    interrupted (Ctrl-C), 143 terminated (SIGTERM). Both keep what is finished.
+    standard error. Exit codes: 0 done, 1 a fault of snapspace, or one that `check` found, 2 a
+    mistake in the input, 130 interrupted (Ctrl-C), 143 terminated (SIGTERM). Both keep what is
+    finished.
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -196,7 +196,7 @@ def _tets_of(
         notice("resuming: the first pose was filled before")
         return known
     with spinner("filling the first pose with tets"):
-        mesh = fill_surface(vertices, faces, **size)
+        mesh = fill_surface(vertices, faces, mend=True, **size)
     cache.save_tets(vertices, faces, size, mesh)
     return mesh
 

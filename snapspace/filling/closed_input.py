@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..mesh import compact_surface
-from ..mesh.arrays import as_indices, as_points
+from ..doctor import mend_surface
+from ..input_error import InputError
+from ..mesh import MeshNotice, compact_surface
+from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
 from ..mesh.closed_surface import check_closed, enclosed_volume
 from ..mesh.validation import check_indices, check_points
 
@@ -31,26 +34,56 @@ class ClosedInput:
     diagonal: float
 
 
-def closed_input(vertices: ArrayLike, faces: ArrayLike, *, who: str) -> ClosedInput:
-    """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid."""
+def closed_input(
+    vertices: ArrayLike, faces: ArrayLike, *, who: str, mend: bool = False, leave_open: bool = False
+) -> ClosedInput:
+    """Checks and scales a surface to diagonal one; ValueError unless it encloses a solid.
+
+    With `mend` a surface that is not closed or not oriented alike is mended, see `mend_surface`,
+    with a `MeshNotice` that says what was done. With `leave_open` too, it may still be open then.
+    """
     points = as_points(vertices, who=who)
     triangles = as_indices(faces, corners=3, who=who, what="faces")
     check_points(points, who=who)
     check_indices(triangles, len(points), who=who, what="face")
-    check_closed(triangles, who=who)
+    closed = True
+    try:
+        check_closed(triangles, who=who)
+    except InputError as error:
+        if not mend or not len(triangles):
+            raise
+        points, triangles, closed = _mended(points, triangles, error, leave_open=leave_open)
     points, triangles = compact_surface(points, triangles)
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
     # fillers have absolute thresholds, so all surfaces are scaled to the same size
     scaled = (points - center) / (diagonal or 1.0)
     volume = enclosed_volume(scaled, triangles)
-    if abs(volume) < np.finfo(np.float64).eps:
+    if closed and abs(volume) < np.finfo(np.float64).eps:
         raise ValueError(
             f"{who}: the surface encloses no volume ({len(triangles)} faces), but a solid "
             "is needed; check that the surface is neither flat nor doubly covered"
         )
     outward = triangles if volume > 0 else np.ascontiguousarray(triangles[:, ::-1])
     return ClosedInput(vertices=scaled, faces=outward, center=center, diagonal=diagonal)
+
+
+def _mended(
+    points: FloatArray, triangles: IndexArray, error: InputError, *, leave_open: bool
+) -> tuple[FloatArray, IndexArray, bool]:
+    """Vertices and faces, and whether they are closed now; the error if they must be."""
+    mended = mend_surface(points, triangles)
+    done = f"the surface was mended for filling: {'; '.join(mended.notes) or 'nothing helped'}"
+    try:
+        check_closed(mended.faces, who=error.place)
+        closed = True
+    except InputError as left:
+        if not leave_open:
+            raise
+        closed = False
+        done += f"; {left.fault.partition(':')[0]}, so inside is where the winding number says"
+    warnings.warn(f"{done}; `snapspace check` says more", MeshNotice, stacklevel=4)
+    return mended.vertices, mended.faces, closed
 
 
 def check_share(value: float, name: str, *, largest: float, who: str) -> None:

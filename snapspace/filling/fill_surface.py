@@ -20,6 +20,7 @@ def fill_surface(
     *,
     edge_length: float = 0.02,
     tolerance: float = 5e-4,
+    mend: bool = False,
 ) -> TetMesh:
     """Fills a closed triangle surface with tets.
 
@@ -37,6 +38,10 @@ def fill_surface(
         How far the boundary of the tets may be from the surface, as a share of the diagonal.
         Thinner parts may be lost, and narrower gaps may be closed. Smaller values need more tets
         and time.
+    mend : bool, default False
+        Accept any triangles, such as scans with holes and triangle soup. Points are merged, faces
+        turned and flat or small holes closed, see `mend_surface`; where it stays open, inside is
+        where the generalised winding number is above one half. A `MeshNotice` says what was done.
 
     Returns
     -------
@@ -50,8 +55,8 @@ def fill_surface(
         If the extra `snapspace[fill]`, which has fTetWild, is not installed; a ValueError.
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
-        a surface that is not closed, not oriented alike or encloses no volume, options out of
-        range, if the tets form several separate solids, or if fTetWild fails.
+        a surface that is not closed or not oriented alike (without `mend`), or encloses no volume,
+        options out of range, if the tets form several separate solids, or if fTetWild fails.
 
     Notes
     -----
@@ -64,7 +69,7 @@ def fill_surface(
     --------
     stuff_surface : takes seconds instead of minutes, for surfaces without very thin parts.
     """
-    surface = closed_input(vertices, faces, who="fill_surface")
+    surface = closed_input(vertices, faces, who="fill_surface", mend=mend, leave_open=True)
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")
     check_share(tolerance, "tolerance", largest=0.1, who="fill_surface")
     tet_vertices, tets = ftetwild(

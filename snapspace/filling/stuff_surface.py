@@ -19,7 +19,9 @@ _LOST = 1.0
 _SCALES = (1.0, 0.8, 0.6)
 
 
-def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float = 0.025) -> TetMesh:
+def stuff_surface(
+    vertices: ArrayLike, faces: ArrayLike, *, edge_length: float = 0.025, mend: bool = False
+) -> TetMesh:
     """Fills a closed triangle surface with well-shaped tets of one size.
 
     Parameters
@@ -31,6 +33,9 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
     edge_length : float, default 0.025
         Length of the longest edges inside, as a share of the diagonal of the surface's bounding
         box. If parts are too thin for that, 0.8 and 0.6 of it are tried.
+    mend : bool, default False
+        Mend a surface that is not closed or not oriented alike, see `mend_surface`, with a
+        `MeshNotice` that says what was done. A surface that stays open is refused.
 
     Returns
     -------
@@ -51,7 +56,7 @@ def stuff_surface(vertices: ArrayLike, faces: ArrayLike, *, edge_length: float =
     Isosurface stuffing (Labelle and Shewchuk 2007, see `stuffing.stuff`) of the signed distance. It
     takes seconds where `fill_surface`, which follows the surface within a tolerance, takes minutes.
     """
-    surface = closed_input(vertices, faces, who="stuff_surface")
+    surface = closed_input(vertices, faces, who="stuff_surface", mend=mend)
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")
     distance = SignedDistance(surface.vertices, surface.faces)
 

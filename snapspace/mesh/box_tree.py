@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
 from .arrays import FloatArray
 from .morton_code import morton_codes
+
+_MOST = 1 << 18  # pairs of nodes at a time
 
 Pairs = tuple[NDArray[np.intp], NDArray[np.intp]]
 
@@ -65,3 +69,33 @@ class BoxTree:
             near = np.einsum("ij,ij->i", gap, gap) <= squared[point]
             point, node = point[near], node[near]
         return point, self._order[node]
+
+    def overlapping(self) -> Iterator[Pairs]:
+        """All pairs of different boxes that overlap, touching included, each once, in blocks."""
+        root = np.zeros(1, np.intp)
+        stack = [(0, root, root)]
+        while stack:
+            level, left, right = stack.pop()
+            if level == len(self._levels) - 1:
+                different = left != right
+                if different.any():
+                    yield self._order[left[different]], self._order[right[different]]
+                continue
+            left, right = _children(left, right)
+            low, high = self._levels[level + 1]
+            for axis in range(3):  # one axis at a time is twice as fast as all three at once
+                lows, highs = low[:, axis], high[:, axis]
+                near = (lows[left] <= highs[right]) & (lows[right] <= highs[left])
+                left, right = left[near], right[near]
+            stack += [
+                (level + 1, left[start : start + _MOST], right[start : start + _MOST])
+                for start in range(0, len(left), _MOST)
+            ]
+
+
+def _children(left: NDArray[np.intp], right: NDArray[np.intp]) -> Pairs:
+    """Pairs of the children of pairs of nodes; for a node with itself, each pair once."""
+    first = (2 * left[:, None] + np.array([0, 0, 1, 1])).ravel()
+    second = (2 * right[:, None] + np.array([0, 1, 0, 1])).ravel()
+    once = first <= second
+    return first[once], second[once]

@@ -26,7 +26,7 @@ class SurfaceFilling:
     def fill(
         self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[[str], None]
     ) -> TetMesh:
-        """Tets inside a closed surface.
+        """Tets inside a surface, which is mended if it is not closed.
 
         `stage` is called with "filling", and with "filling exactly" before fTetWild, which takes
         minutes. ValueError as for `fill_surface`.
@@ -35,8 +35,8 @@ class SurfaceFilling:
         if not self.exact:
             stage("filling")
             try:
-                return stuff_surface(vertices, faces, **sized)
+                return stuff_surface(vertices, faces, mend=True, **sized)
             except ValueError:  # the next stage shows on the page that the method has changed
                 pass
         stage("filling exactly")
-        return fill_surface(vertices, faces, **sized)
+        return fill_surface(vertices, faces, mend=True, **sized)

@@ -12,7 +12,6 @@ from snapspace import write_surface, write_tets
 
 from .conftest import Run, no_such_option
 from .files import (
-    POSES,
     FloatArray,
     bar_mesh,
     bar_shapes,
@@ -120,14 +119,6 @@ def mixture(folder: Path) -> list[object]:
     return [*tets(folder), *write_surface_poses(folder)[:1]]
 
 
-def open_surface(folder: Path) -> list[object]:
-    """An open surface without --tets, so that it would have to be filled."""
-    vertices, faces = bar_surfaces()["rest"]
-    for name in POSES[:2]:
-        write_surface(folder / f"{name}.ply", vertices, faces[1:])
-    return [folder / "rest.ply", folder / "bent.ply", *SMALL]
-
-
 def folder_as_pose(folder: Path) -> list[object]:
     (folder / "folder.mesh").mkdir()
     return tets(folder, folder / "folder.mesh")
@@ -145,7 +136,7 @@ CASES: dict[str, tuple[Case, str]] = {
     "missing surface": (lambda f: surfaces(f, f / "none.obj"), "none.obj: there is no such file"),
     "unknown extension": (
         lambda f: tets(f, f / "a.xyz"),
-        "a.xyz: unknown extension '.xyz'; known are .obj, .off, .ply, .stl, .mesh, ",
+        "a.xyz: unknown extension '.xyz'; known are .obj, .off, .ply, .stl, .glb, .gltf, .mesh, ",
     ),
     "no extension": (lambda f: surfaces(f, f / "a"), "a: no extension; known are .obj"),
     "folder": (folder_as_pose, "folder.mesh: this is a folder; a file is needed"),
@@ -171,7 +162,6 @@ CASES: dict[str, tuple[Case, str]] = {
     "flat": (flat, "bent: 192 of 192 tets have no volume, the first is tet 0"),
     "nan": (nan, "bent.off: vertex 3 is not finite"),
     "no extent": (without_extent, "half of the edges of pose 1 have length zero"),
-    "open surface": (open_surface, "the surface is not closed, it has 3 boundary edges"),
     "edge length": (
         lambda f: [*write_surface_poses(f), *SMALL, "--edge-length", 7],
         "edge_length is 7.0, but must be positive and at most 1",

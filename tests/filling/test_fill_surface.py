@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from snapspace.filling import fill_surface, ftetwild
 from snapspace.generators import bar, cylinder
-from snapspace.mesh import TetMesh, embed_surface
+from snapspace.mesh import MeshNotice, TetMesh, embed_surface
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
 from snapspace.mesh.tet_search import closest_boundary_faces
 
@@ -80,6 +80,27 @@ def test_separate_parts_are_refused_and_nothing_is_left_behind(
         fill_surface(*both, **COARSE)
     assert capfd.readouterr() == ("", "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_scan_with_a_bent_hole_is_filled_by_the_winding_number(barrel: Surface) -> None:
+    """A third of the mantle is gone, too large and bent for a guess, and faces are flipped."""
+    vertices, faces = barrel
+    centers = vertices[faces].mean(axis=1)
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    x, _, z = ((centers - low) / (high - low)).T
+    kept = faces[~((x > 0.7) & (z > 0.2) & (z < 0.8))]
+    kept[::9] = kept[::9, ::-1]
+    with pytest.warns(MeshNotice, match=r"turned \d+ faces round.*where the winding number says"):
+        mesh = fill_surface(vertices, kept, mend=True, **COARSE)
+    assert mesh.volume == pytest.approx(enclosed_volume(*barrel), rel=0.15)
+
+
+def test_triangles_without_common_vertices_are_filled(barrel: Surface) -> None:
+    vertices, faces = barrel
+    soup = vertices[faces].reshape(-1, 3)
+    with pytest.warns(MeshNotice, match=r"mended for filling: merged \d+ vertices"):
+        mesh = fill_surface(soup, np.arange(len(soup)).reshape(-1, 3), mend=True, **COARSE)
+    assert mesh.volume == pytest.approx(enclosed_volume(*barrel), rel=0.02)
 
 
 TET = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from snapspace.generators import bar
-from snapspace.mesh import TetMesh, compact_surface
+from snapspace.mesh import MeshNotice, TetMesh, compact_surface
 from snapspace.server import SurfaceFilling
 
 
@@ -38,8 +38,11 @@ def test_a_surface_is_filled_exactly_on_request() -> None:
     assert np.allclose(np.ptp(mesh.vertices, axis=0), 1.0, atol=0.01)
 
 
-def test_an_open_surface_is_refused() -> None:
-    block = bar(1, 1, 1)
+def test_an_open_surface_is_mended_with_a_notice() -> None:
+    block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
     vertices, faces = compact_surface(block.vertices, block.surface)
-    with pytest.raises(ValueError, match="closed"):
-        SurfaceFilling().fill(vertices, faces[1:], stage=lambda _: None)
+    stages: list[str] = []
+    with pytest.warns(MeshNotice, match="closed 1 holes with 1 faces"):
+        mesh = SurfaceFilling(edge_length=0.1).fill(vertices, faces[1:], stage=stages.append)
+    assert stages == ["filling"]
+    assert mesh.volume == pytest.approx(block.volume, rel=0.05)

@@ -6,7 +6,7 @@ import type { Server } from "./server.ts";
 import { sendFile } from "./upload.ts";
 
 const MEGABYTE = 2 ** 20;
-const SURFACES = [".obj", ".off", ".ply", ".stl"];
+const SURFACES = [".obj", ".off", ".ply", ".stl", ".glb", ".gltf"];
 const TETS = [".mesh", ".msh", ".vtk", ".vtu", ".veg"];
 
 /** The box above everything: asks for a mesh, sends it, and waits until the server has read and filled it. */

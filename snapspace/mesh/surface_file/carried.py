@@ -10,6 +10,8 @@ from .layout import Directions
 
 # Directions that turn by less than this stay as they are in the file.
 _STILL = 1e-9
+# Area over the square of the longest of two sides, below which a triangle is a line.
+_LINE = 1e-9
 
 
 def carried(
@@ -48,7 +50,8 @@ def carried(
     used = directions.of_corner[triangle_corners]  # (t, 3)
     frame, area = _frames(old, triangles)
     moved, moved_area = _frames(new, triangles)
-    fine = (area > 0) & (moved_area > 0)
+    # a frame of a triangle that is almost a line has no inverse
+    fine = (area > _LINE * _longest(frame)) & (moved_area > _LINE * _longest(moved))
     sums = np.zeros_like(values)
     for corner in range(3):
         chosen = np.flatnonzero(fine & (used[:, corner] >= 0))
@@ -70,6 +73,11 @@ def carried(
     turned = np.linalg.norm(result - values, axis=1) > _STILL * target
     rows = np.flatnonzero(turned)
     return rows, result[rows]
+
+
+def _longest(frames: FloatArray) -> FloatArray:
+    """Squares of the longer of the two edges of frames, (t,)."""
+    return np.asarray((frames[:, :2] ** 2).sum(axis=2).max(axis=1))
 
 
 def _frames(points: FloatArray, triangles: NDArray[np.int64]) -> tuple[FloatArray, FloatArray]:

@@ -7,12 +7,13 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import FloatArray
+from ..arrays import FloatArray, as_indices
 from ..file_content import FileContent
 from ..obj import read_obj
 from ..off import read_off
 from ..ply import read_ply
 from ..polygons import surface_content
+from ..validation import check_indices
 from .gltf_layout import gltf_layout
 from .layout import Layout
 from .obj_layout import obj_layout
@@ -40,10 +41,15 @@ _LAYOUTS: dict[str, Callable[[bytes, FileContent], Layout]] = {
 
 
 def layout_of(suffix: str, data: bytes) -> Layout:
-    """Where the numbers of a file are; ValueError if they are not where the reader found them."""
+    """Where the numbers of a file are.
+
+    ValueError if they are not where the reader found them, or an index is out of range.
+    """
     if suffix in _REPEATING:
         return _REPEATING[suffix](data)
     content = READERS[suffix](data)
+    triangles = as_indices(content.cells["triangle"], corners=3, who="open_surface", what="faces")
+    check_indices(triangles, len(content.vertices), who="open_surface", what="face")
     layout = _LAYOUTS[suffix](data, content)
     found = layout.points.values
     if not np.array_equal(found, content.vertices, equal_nan=True):

@@ -44,6 +44,8 @@ def accessor(file: GltfFile, number: int) -> Accessor:
         stride = view.get("byteStride", kind.itemsize * width)
         end = start + stride * (count - 1) + kind.itemsize * width
         buffer = view["buffer"]
+        if not all(isinstance(value, int) for value in (count, start, stride, buffer)):
+            raise TypeError
         within = 0 <= start and stride > 0 and (not count or end <= _length(file, buffer))
     except (LookupError, TypeError):
         raise ValueError(f"accessor {number} is incomplete, or not of a known type") from None

@@ -81,10 +81,13 @@ def self_contained(data: bytes, folder: Path) -> bytes:
     if data[:4] == _MAGIC:
         return data
     content = _parsed(data)
+    items = [*_list(content, "buffers"), *_list(content, "images")]
     outside = [
         item
-        for item in [*content.get("buffers", []), *content.get("images", [])]
-        if isinstance(item.get("uri"), str) and not item["uri"].startswith(_DATA)
+        for item in items
+        if isinstance(item, dict)
+        and isinstance(item.get("uri"), str)
+        and not item["uri"].startswith(_DATA)
     ]
     for item in outside:
         name = unquote(item["uri"])
@@ -95,6 +98,11 @@ def self_contained(data: bytes, folder: Path) -> bytes:
         kind = _TYPES.get(Path(name).suffix.lower(), "application/octet-stream")
         item["uri"] = f"{_DATA}{kind};base64,{base64.b64encode(inside).decode('ascii')}"
     return _text(content) if outside else data
+
+
+def _list(content: dict[str, Any], key: str) -> list[Any]:
+    found = content.get(key, [])
+    return found if isinstance(found, list) else []
 
 
 def _parsed(text: bytes) -> dict[str, Any]:

@@ -22,6 +22,14 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 
 def gltf_layout(data: bytes) -> Layout:
     """The layout of a .glb or a .gltf without other files; ValueError if it is neither."""
+    try:
+        return _layout(data)
+    except (LookupError, TypeError, AttributeError, OverflowError) as error:
+        # JSON of other types than the format has
+        raise ValueError(f"it is not a glTF file, or it is incomplete ({error!s:.80})") from None
+
+
+def _layout(data: bytes) -> Layout:
     file = gltf_file(data)
     points = _Block()
     directions = {"NORMAL": _Block(), "TANGENT": _Block()}
@@ -146,9 +154,14 @@ def _finished(file: GltfFile, points: _Block, data: bytes, new: FloatArray) -> b
         rows = single[begin : begin + len(found.offsets)]
         about = content["accessors"][number]
         bounds = {"min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()}
-        if any(
-            not np.array_equal(np.float32(about.get(key, [])), np.float32(value))
-            for key, value in bounds.items()
-        ):
+        if not all(_same_bound(about.get(key), value) for key, value in bounds.items()):
             about |= bounds
     return file.with_data(data, None if content == file.json else content)
+
+
+def _same_bound(stated: Any, value: list[float]) -> bool:
+    """Whether a bound in the JSON is the same in single precision."""
+    try:
+        return np.array_equal(np.array(stated, np.float32), np.array(value, np.float32))
+    except (TypeError, ValueError, OverflowError):
+        return False

@@ -1,0 +1,7 @@
+"""The doctor: what is wrong with a surface, and mending it."""
+
+from .check_surface import SurfaceReport, check_surface
+from .finding import Finding
+from .mend_surface import MendedSurface, mend_surface
+
+__all__ = ["Finding", "MendedSurface", "SurfaceReport", "check_surface", "mend_surface"]

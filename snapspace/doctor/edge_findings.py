@@ -1,0 +1,160 @@
+"""Findings about how faces meet: holes, orientation, edges of three faces, parts, copies."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .cleaned import Cleaned
+from .components import face_components, orientation
+from .edges import edges_of
+from .fill_holes import fillable
+from .finding import Finding
+from .holes import Hole, holes_of
+
+FloatArray = NDArray[np.float64]
+
+
+def edge_findings(vertices: FloatArray, clean: Cleaned, diagonal: float) -> list[Finding]:
+    """All findings about edges; none for a closed surface in one part, oriented alike."""
+    edges = edges_of(clean.faces)
+    holes = holes_of(vertices, edges)
+    turn, _, twisted = orientation(edges)
+    fans = int((edges.uses > 2).sum())
+    parts = int(face_components(clean.faces, len(vertices)).max()) + 1
+    found: list[Finding] = []
+    if holes:
+        found.append(_holes(holes, diagonal))
+    if turn.any() or twisted.any():
+        found.append(_orientation(turn, twisted))
+    if fans:
+        first = edges.ends[np.flatnonzero(edges.uses > 2)[0]].tolist()
+        found.append(
+            Finding(
+                name="non-manifold edges",
+                fault=bool((edges.balance[edges.uses > 2] != 0).any()),
+                count=fans,
+                text=f"{fans} edges have more than two faces (the first between vertices "
+                f"{first[0]} and {first[1]})",
+                meaning="inside and outside are clear only where as many faces run one way as the "
+                "other",
+                cure="delete the inner faces in a mesh editor, or fill it with fTetWild",
+            )
+        )
+    if parts > 1:
+        found.append(
+            Finding(
+                name="components",
+                fault=False,
+                count=parts,
+                text=f"it has {parts} parts without a common vertex",
+                meaning="overlapping parts become one solid with fTetWild; parts apart from the "
+                "body are refused by filling, because one solid is needed",
+                cure="join them, or remove those that are apart; eyes and clothes can follow the "
+                "body with `snapspace pose --surface FILE`",
+            )
+        )
+    return found
+
+
+def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
+    """Points and faces that say nothing new."""
+    found: list[Finding] = []
+    if clean.merged:
+        found.append(
+            Finding(
+                name="seams",
+                fault=False,
+                count=clean.merged,
+                text=f"{clean.merged} vertices repeat the position of another one",
+                meaning="usual at seams of texture coordinates; they count as one here and move "
+                "together",
+                cure="nothing",
+                mended=True,
+            )
+        )
+    for name, count, what in (
+        ("degenerate faces", clean.degenerate, "name a vertex twice"),
+        ("duplicate faces", clean.duplicate, "have the same vertices as an earlier face"),
+    ):
+        if count:
+            found.append(
+                Finding(
+                    name=name,
+                    fault=True,
+                    count=count,
+                    text=f"{count} faces {what}",
+                    meaning="they enclose nothing, and confuse what is inside",
+                    cure="drop them: --fix",
+                    mended=True,
+                )
+            )
+    if unused:
+        found.append(
+            Finding(
+                name="unused vertices",
+                fault=False,
+                count=unused,
+                text=f"{unused} vertices belong to no face",
+                meaning="they are kept in the file, but do not move",
+                cure="nothing; --fix drops them",
+                mended=True,
+            )
+        )
+    return found
+
+
+def _holes(holes: list[Hole], diagonal: float) -> Finding:
+    some = [
+        f"{hole.edges} edges, length {hole.length:.4g}, around "
+        f"({', '.join(f'{x:.4g}' for x in hole.center)})"
+        for hole in holes[:3]
+    ]
+    more = f"; and {len(holes) - 3} more" if len(holes) > 3 else ""
+    can = sum(fillable(hole, diagonal) for hole in holes)
+    return Finding(
+        name="holes",
+        fault=True,
+        count=len(holes),
+        text=f"it is not closed: {len(holes)} holes ({'; '.join(some)}{more})",
+        meaning=f"tets need an inside; {can} of {len(holes)} are closed when it is filled, the "
+        "others by the winding number (fTetWild)",
+        cure="--fix closes flat and small holes; or close them in a mesh editor",
+        mended=can > 0,
+        details={
+            "holes": [
+                {
+                    "edges": hole.edges,
+                    "length": hole.length,
+                    "diameter": hole.diameter,
+                    "center": hole.center.tolist(),
+                    "closed_by_fix": fillable(hole, diagonal),
+                }
+                for hole in holes
+            ]
+        },
+    )
+
+
+def _orientation(turn: NDArray[np.bool_], twisted: NDArray[np.bool_]) -> Finding:
+    if twisted.any():
+        count = int(twisted.sum())
+        return Finding(
+            name="flipped faces",
+            fault=True,
+            count=count,
+            text=f"{count} faces form a band that cannot be oriented, like a Moebius strip",
+            meaning="it has no inside",
+            cure="cut it in a mesh editor",
+        )
+    count = int(turn.sum())
+    return Finding(
+        name="flipped faces",
+        fault=True,
+        count=count,
+        text=f"{count} faces are oriented against their neighbours (the first: face "
+        f"{int(np.flatnonzero(turn)[0])})",
+        meaning="orientation says what is inside",
+        cure="turn them round: --fix",
+        mended=True,
+    )

@@ -1,0 +1,34 @@
+"""Finding: something about a surface that its user should know."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+
+@dataclass(frozen=True, kw_only=True)
+class Finding:
+    """One kind of fault or peculiarity.
+
+    name : its name, such as "holes"
+    fault : whether it needs mending; otherwise it is only good to know
+    count : how many there are
+    text : what was found
+    meaning : what it means for filling, posing and writing
+    cure : what to do
+    mended : whether `mend_surface` mends all or some of it
+    details : numbers, as JSON
+    """
+
+    name: str
+    fault: bool
+    count: int
+    text: str
+    meaning: str
+    cure: str
+    mended: bool = False
+    details: dict[str, Any] = field(default_factory=dict)
+
+    def as_json(self) -> dict[str, Any]:
+        """All fields."""
+        return asdict(self)

@@ -1,0 +1,85 @@
+"""Holes of a surface: connected boundary edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from .edges import Edges
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Hole:
+    """Boundary edges that hang together.
+
+    edges : number of edges
+    length : their length
+    diameter : largest distance along an axis of its bounding box
+    flatness : largest distance from the best plane, as a share of the diameter
+    center : (3,), mean of the vertices
+    loop : vertices in the order in which faces run along the edges; None if they are no simple loop
+    """
+
+    edges: int
+    length: float
+    diameter: float
+    flatness: float
+    center: FloatArray
+    loop: NDArray[np.intp] | None
+
+
+def holes_of(vertices: FloatArray, edges: Edges) -> list[Hole]:
+    """The holes, longest first: edges with one face, connected by their vertices."""
+    boundary = edges.uses == 1
+    if not boundary.any():
+        return []
+    face_slot = np.flatnonzero(boundary[edges.of_face.ravel()])
+    edge, along = edges.of_face.ravel()[face_slot], edges.along.ravel()[face_slot]
+    ends = edges.ends[edge].astype(np.intp)
+    directed = np.where(along[:, None], ends, ends[:, ::-1])
+    names, local = np.unique(directed, return_inverse=True)
+    local = local.reshape(-1, 2)
+    graph = coo_array((np.ones(len(local)), (local[:, 0], local[:, 1])), shape=(len(names),) * 2)
+    _, label = connected_components(graph, directed=False)
+    of_edge = label[local[:, 0]]
+    order = np.argsort(of_edge, kind="stable")
+    parts = np.split(order, np.flatnonzero(np.diff(of_edge[order])) + 1)
+    holes = [_hole(vertices, directed[part]) for part in parts]
+    return sorted(holes, key=lambda hole: -hole.length)
+
+
+def _hole(vertices: FloatArray, directed: NDArray[np.intp]) -> Hole:
+    used = np.unique(directed)
+    points = vertices[used]
+    center = points.mean(axis=0)
+    diameter = float(np.ptp(points, axis=0).max())
+    steps = vertices[directed[:, 1]] - vertices[directed[:, 0]]
+    normal = np.linalg.svd(points - center, full_matrices=False)[2][-1]
+    height = float(np.abs((points - center) @ normal).max())
+    return Hole(
+        edges=len(directed),
+        length=float(np.linalg.norm(steps, axis=1).sum()),
+        diameter=diameter,
+        flatness=height / diameter if diameter > 0 else 0.0,
+        center=center,
+        loop=_loop(directed, used),
+    )
+
+
+def _loop(directed: NDArray[np.intp], used: NDArray[np.intp]) -> NDArray[np.intp] | None:
+    follower = dict(directed.tolist())
+    if len(follower) != len(directed) or len(used) != len(directed):
+        return None
+    loop = [int(directed[0, 0])]
+    while len(loop) < len(directed):
+        after = follower.get(loop[-1])
+        if after is None or after == loop[0]:
+            return None
+        loop.append(after)
+    return np.array(loop, np.intp) if follower.get(loop[-1]) == loop[0] else None

@@ -1,0 +1,115 @@
+"""mend_surface: mends what can be mended without a guess about the shape, and closes holes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh.closed_surface import enclosed_volume
+from ..mesh.surface import compact_surface
+from ..mesh.surface_file.surface_file import checked_surface
+from .cleaned import cleaned, repeated_faces
+from .components import orientation
+from .edges import IndexArray, edges_of
+from .fill_holes import fillable, hole_triangles
+from .holes import holes_of
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MendedSurface:
+    """A surface after `mend_surface`.
+
+    vertices : (n, 3), those of the input that faces use, in their order
+    faces : (f, 3)
+    invented : number of faces that close holes; the last ones
+    invented_area : their area
+    notes : what was done, one sentence per kind of fault; empty if nothing was
+    """
+
+    vertices: FloatArray
+    faces: IndexArray
+    invented: int
+    invented_area: float
+    notes: tuple[str, ...]
+
+
+def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
+    """Makes a surface closed and oriented, as far as that is safe.
+
+    In this order, it merges vertices with equal positions if the surface is not closed without
+    that; drops faces that name a vertex twice or repeat another face; drops vertices without
+    faces; turns faces round until neighbours agree; closes holes that are simple loops and flat
+    (within 15 % of their diameter) or small (5 % of the diagonal), with the triangles of least
+    area between their vertices; and turns all faces outward.
+
+    Parameters
+    ----------
+    vertices : array_like, (n, 3)
+    faces : array_like of int, (f, 3)
+
+    Returns
+    -------
+    MendedSurface
+        Not always closed: `check_surface` says what is left.
+
+    Raises
+    ------
+    ValueError
+        For wrong shapes or types, no faces, coordinates that are not finite, an index out of
+        range, or if no face would be left.
+    """
+    points, triangles = checked_surface(vertices, faces, who="mend_surface")
+    clean = cleaned(points, triangles)
+    if not len(clean.faces):
+        raise ValueError(
+            f"mend_surface: no face would be left: all {len(triangles)} name a vertex twice"
+        )
+    notes = []
+    if clean.merged:
+        notes.append(f"merged {clean.merged} vertices with others at the same position")
+    if clean.degenerate:
+        notes.append(f"dropped {clean.degenerate} faces with a repeated vertex")
+    if clean.duplicate:
+        notes.append(f"dropped {clean.duplicate} faces with the vertices of an earlier one")
+    used, mended = compact_surface(points, clean.faces)
+    unused = len(points) - len(used) - clean.merged
+    if unused > 0:
+        notes.append(f"dropped {unused} vertices without faces")
+    turn, _, _ = orientation(edges_of(mended))
+    if turn.any():
+        mended[turn] = mended[turn][:, ::-1]
+        notes.append(f"turned {int(turn.sum())} faces round to agree with their neighbours")
+    fills = _fills(used, mended)
+    if fills:
+        mended = np.concatenate([mended, *fills])
+    invented = sum(map(len, fills))
+    area = _area(used, mended[len(mended) - invented :])
+    if fills:
+        notes.append(f"closed {len(fills)} holes with {invented} faces, area {area:.4g}")
+    center = (used.min(axis=0) + used.max(axis=0)) / 2.0
+    if not edges_of(mended).balance.any() and enclosed_volume(used - center, mended) < 0:
+        mended = np.ascontiguousarray(mended[:, ::-1])
+        notes.append("turned all faces outward")
+    return MendedSurface(
+        vertices=used, faces=mended, invented=invented, invented_area=area, notes=tuple(notes)
+    )
+
+
+def _fills(vertices: FloatArray, faces: IndexArray) -> list[IndexArray]:
+    diagonal = float(np.linalg.norm(np.ptp(vertices, axis=0)))
+    fills = [
+        hole_triangles(vertices, hole.loop)
+        for hole in holes_of(vertices, edges_of(faces))
+        if hole.loop is not None and fillable(hole, diagonal)
+    ]
+    # the "hole" around a single triangle is that triangle
+    return [fill for fill in fills if not repeated_faces(np.concatenate([faces, fill])).any()]
+
+
+def _area(vertices: FloatArray, faces: IndexArray) -> float:
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2.0)

@@ -1,0 +1,113 @@
+"""Findings about the shape of a surface: slivers, thinness, place, size, crossings."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .finding import Finding
+from .intersections import crossing_faces
+
+FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int32]
+
+# Height over longest side below which a face is a sliver.
+_SLIVER = 0.01
+# Mean thickness below this share of the diagonal is thin: the default tets are as long.
+_THIN = 0.02
+# Diagonals from the origin above which single precision loses a thousandth of a percent.
+_FAR = 100.0
+
+
+def face_areas(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, FloatArray]:
+    """Areas of faces, and their heights over the longest side as shares of that, (f,) each."""
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+    longest = np.maximum.reduce([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))])
+    shape = np.divide(2.0 * area, longest, out=np.zeros_like(area), where=longest > 0)
+    return area, shape
+
+
+def sliver_finding(shape: FloatArray) -> list[Finding]:
+    """Faces that are almost lines; harmless for filling."""
+    count = int((shape < _SLIVER).sum())
+    if not count:
+        return []
+    return [
+        Finding(
+            name="slivers",
+            fault=False,
+            count=count,
+            text=f"{count} faces are less than 1 % as high as long",
+            meaning="harmless: tets are made anew inside the surface, and normals are weighted "
+            "by area",
+            cure="nothing",
+        )
+    ]
+
+
+def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
+    """A closed surface whose inside is thin, or without any."""
+    thickness = 2.0 * abs(volume) / (area * diagonal) if area > 0 else 0.0
+    if thickness >= _THIN:
+        return []
+    if thickness < 1e-9:
+        return [
+            Finding(
+                name="flat",
+                fault=True,
+                count=1,
+                text="the surface encloses no volume",
+                meaning="tets fill solids; a sheet has no inside",
+                cure="give it a thickness (Blender: the modifier Solidify)",
+            )
+        ]
+    return [
+        Finding(
+            name="thin",
+            fault=False,
+            count=1,
+            text=f"its parts are {100 * thickness:.2g} % of the diagonal thick on average",
+            meaning="tets are about as long as a part is thick, so many are needed",
+            cure="fill it with fTetWild (pip install 'snapspace[fill]'), or thicken it",
+            details={"thickness": thickness},
+        )
+    ]
+
+
+def place_finding(center: FloatArray, diagonal: float) -> list[Finding]:
+    """A surface far from the origin for its size."""
+    distance = float(np.abs(center).max())
+    if distance <= _FAR * diagonal:
+        return []
+    return [
+        Finding(
+            name="place",
+            fault=False,
+            count=1,
+            text=f"it is {distance / diagonal:.3g} of its diagonals away from the origin",
+            meaning="Snapspace computes in double precision, but .stl, .glb and graphics "
+            "processors lose digits",
+            cure="move it to the origin",
+        )
+    ]
+
+
+def crossing_finding(vertices: FloatArray, faces: IndexArray) -> list[Finding]:
+    """Faces that cross."""
+    pairs = crossing_faces(vertices, faces)
+    if not len(pairs):
+        return []
+    first, second = pairs[0].tolist()
+    return [
+        Finding(
+            name="self-intersections",
+            fault=True,
+            count=len(pairs),
+            text=f"{len(pairs)} pairs of faces cross (the first: {first} and {second})",
+            meaning="quick tets may be wrong there; fTetWild makes one solid of overlapping parts",
+            cure="fill it with fTetWild (pip install 'snapspace[fill]'; view --exact), or correct "
+            "it in a mesh editor",
+            details={"pairs": pairs[:100].tolist()},
+        )
+    ]
