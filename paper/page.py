@@ -1,6 +1,7 @@
 """Writes the tables of docs/comparison.md from paper/results/*.json: `python -m paper.page`.
 
-A table stands between `<!-- NAME -->` and `<!-- end of NAME -->`; NAME.json has its rows. With
+A table stands between `<!-- NAME -->` and `<!-- end of NAME -->`; NAME.json has its rows. The first
+marker may choose rows, as `<!-- NAME shape=dragon d=40 -->`; then these columns are left out. With
 `--check`, nothing is written, and the exit code is 1 if the page has other figures.
 """
 
@@ -26,9 +27,19 @@ def with_tables(text: str, folder: Path) -> str:
         if not path.is_file():
             raise ValueError(f"page: {path} is missing; run `python -m paper {match[1]}`")
         rows = json.loads(path.read_text("utf-8"))["rows"]
-        return f"<!-- {match[1]} -->\n\n{markdown(rows)}\n\n<!-- end of {match[1]} -->"
+        wanted = dict(pair.split("=", 1) for pair in match[2].split())
+        chosen = [
+            {name: value for name, value in row.items() if name not in wanted}
+            for row in rows
+            if all(str(row[name]) == value for name, value in wanted.items())
+        ]
+        if not chosen:
+            raise ValueError(f"page: {path} has no rows with {match[2].strip()}")
+        marker = f"<!-- {match[1]}{match[2]} -->"
+        return f"{marker}\n\n{markdown(chosen)}\n\n<!-- end of {match[1]} -->"
 
-    return re.sub(r"<!-- (\w+) -->\n.*?<!-- end of \1 -->", filled, text, flags=re.DOTALL)
+    pattern = r"<!-- (\w+)((?: [\w-]+=[\w-]+)*) -->\n.*?<!-- end of \1 -->"
+    return re.sub(pattern, filled, text, flags=re.DOTALL)
 
 
 def markdown(rows: list[dict[str, Any]]) -> str:

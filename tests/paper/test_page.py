@@ -27,6 +27,16 @@ def test_a_table_has_the_rows(tmp_path: Path) -> None:
     assert with_tables(page, tmp_path) == page
 
 
+def test_a_marker_may_choose_rows(tmp_path: Path) -> None:
+    rows = [{"shape": shape, "d": d, "error": 0.5} for shape in ("a", "b") for d in (3, 4)]
+    (tmp_path / "one.json").write_text(json.dumps({"title": "One", "rows": rows}))
+    text = TEXT.replace("<!-- one -->", "<!-- one shape=b d=4 -->")
+    page = with_tables(text, tmp_path)
+    assert "<!-- one shape=b d=4 -->\n\n| error |\n| --- |\n| 0.5 |\n\n<!-- end" in page
+    with pytest.raises(ValueError, match="has no rows with shape=c"):
+        with_tables(TEXT.replace("<!-- one -->", "<!-- one shape=c -->"), tmp_path)
+
+
 def test_a_missing_result_is_named(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match=r"one\.json is missing; run `python -m paper one`"):
         with_tables(TEXT, tmp_path)
