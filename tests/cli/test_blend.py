@@ -203,7 +203,7 @@ REFUSED: dict[str, tuple[list[str], str]] = {
     "format": (["--path", "3", "--format", "jpg"], "'--format': 'jpg' is not one of"),
     "extension": (["--weights", TEXT, "-o", "out.xyz"], "unknown extension '.xyz'; known are .obj"),
     "folder": (["--weights", TEXT, "-o", "none/out.obj"], "there is no folder none; create it"),
-    "file as folder": (["--path", "3", "-o", "good.obj"], "good.obj: frames go to a film (.gif or"),
+    "file as folder": (["--path", "3", "-o", "good.obj"], "good.obj: frames go to a film (.gif,"),
     "picture": (["--weights", TEXT, "--png", "out.jpg"], "out.jpg: unknown extension '.jpg'"),
     "picture's folder": (
         ["--path", "3", "-o", "new", "--png", "none/out.png"],

@@ -128,10 +128,10 @@ def test_a_surface_is_filled_once(
     tmp_path: Path, cache: FitCache, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Filling is slow and differs each time, so its result is kept."""
-    calls: list[dict[str, float]] = []
+    calls: list[dict[str, Any]] = []
 
-    def fill(vertices: Any, faces: Any, **size: float) -> TetMesh:
-        calls.append(size)
+    def fill(vertices: Any, faces: Any, **options: Any) -> TetMesh:
+        calls.append(options)
         np.testing.assert_array_equal(vertices, bar_surfaces()["rest"][0])
         np.testing.assert_array_equal(faces, bar_surfaces()["rest"][1])
         return enclosing_mesh()
@@ -140,11 +140,11 @@ def test_a_surface_is_filled_once(
     files = write_surface_poses(tmp_path)
     first = read_poses(files, options(), cache)
     again = read_poses(files, options(), cache)
-    assert calls == [{}]
+    assert calls == [{"mend": True}]
     np.testing.assert_array_equal(again.poses.shapes, first.poses.shapes)
     assert list(again.fits) == list(first.fits)  # the seconds too: nothing was fitted again
     read_poses(files, options(edge_length=0.1), cache)
-    assert calls == [{}, {"edge_length": 0.1}]
+    assert calls == [{"mend": True}, {"mend": True, "edge_length": 0.1}]
 
 
 def test_the_first_pose_decides_the_unit_of_length(

@@ -65,9 +65,10 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=160, percent=0.01)
+    compute(page, most_samples=320, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
+    first = page.run(RECORDING)  # before the drag, in which better models may come
     x, y = page.run("snapspace.handle(1)")
     mouse = page.page.mouse
     mouse.move(x, y)
@@ -76,7 +77,6 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     page.settle()
     before = page.motions()[1][1]
     assert np.linalg.norm(before) > 0.02
-    first = page.run(RECORDING)
     page.wait(f"snapspace.session.model.dimension > {first}")
     page.page.wait_for_timeout(600)
     steps = np.array(page.run("window.recorded"))

@@ -8,7 +8,7 @@ interface Entry {
   data_offsets: [number, number];
 }
 
-const ITEM_BYTES: Record<string, number> = { F64: 8, F32: 4, I32: 4, I16: 2 };
+const ITEM_BYTES: Record<string, number> = { F64: 8, F32: 4, I32: 4, I16: 2, U8: 1 };
 
 function isObject(value: unknown): value is Record<string, unknown> {
   return typeof value === "object" && value !== null && !Array.isArray(value);
