@@ -56,6 +56,11 @@ def tool(page: Page, name: str) -> None:
     page.page.get_by_role("radio", name=name, exact=True).click()
 
 
+def cancel(page: Page) -> None:
+    """Presses Cancel at once: Playwright's own click waits for pictures, and computations end."""
+    page.page.get_by_role("button", name="Cancel", exact=True).dispatch_event("click")
+
+
 def press(page: Page, name: str) -> None:
     page.page.get_by_role("button", name=name, exact=True).click()
 

@@ -12,6 +12,7 @@ from snapspace import InterpolationModel, PosingModel, load, read_problem
 
 from .choosing_page import (
     bar_with_ends,
+    cancel,
     handles,
     press,
     saved_file,
@@ -51,7 +52,7 @@ def test_handles_computation_and_pose_are_there_again(
     page.wait("snapspace.kind === 'posing'")
     reload(page, "posing")
     wait_for_text(page, "#panel", "improving")
-    press(page, "Cancel")
+    cancel(page)
     wait_for_text(page, "#panel", "Ready to pose:")
     assert "improving" not in page.text("#panel"), "no computation improves it"
     page.drag(page.run("snapspace.handle(1)"), 30, -30)

@@ -16,6 +16,7 @@ from snapspace.mesh import write_tets
 from .choosing_page import (
     BAR,
     bar_with_ends,
+    cancel,
     ends_as_handles,
     handles,
     press,
@@ -113,9 +114,9 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
 def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
     compute(page, most_samples=20_000, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
-    press(page, "Cancel")
-    cancel = page.page.get_by_role("button", name="Cancel")
-    cancel.wait_for(state="hidden", timeout=1000 * SECONDS)
+    cancel(page)
+    button = page.page.get_by_role("button", name="Cancel")
+    button.wait_for(state="hidden", timeout=1000 * SECONDS)
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02, "what there is can be posed"
     press(page, "Choose handles")
@@ -148,7 +149,7 @@ def test_two_pages_do_not_disturb_each_other(page: Page, bar_server: str, opened
     wait_for_text(other, "#panel", "Waiting for another computation")
     assert other.text(".progress-words").strip() == "Waiting for another computation"
     assert not other.page.locator("#panel progress").get_attribute("value"), "it has no end yet"
-    press(page, "Cancel")
+    cancel(page)
     page.page.get_by_role("button", name="Cancel").wait_for(state="hidden")
     press(page, "Choose handles")
     compute(page)

@@ -3,8 +3,10 @@ import type { Dynamics, FrameReport } from "../engine/index.ts";
 /** Seconds of one step, and the most steps of a picture. */
 const DT = 1 / 60;
 const MOST_STEPS = 4;
-/** A body rests once it moves by less than this many coordinate scales in a second. */
-const RESTING = 2e-3;
+/** A body rests once it moves by less than this many coordinate scales in a second, in so many steps: it is slow for a
+ * moment at each end of a swing, and never slower than the tolerance of the solves. */
+const RESTING = 0.05;
+const STILL = 12;
 
 /** What swings: a session, with what is asked of it. */
 export interface Swinging {
@@ -24,6 +26,7 @@ export class Jiggle {
   #moves = false;
   #waiting = 0; // seconds that have not been stepped
   #isFirst = false;
+  #still = 0; // steps since it moved
 
   constructor(swinging: Swinging) {
     this.#swinging = swinging;
@@ -64,7 +67,9 @@ export class Jiggle {
     while (this.#waiting >= DT) {
       this.#waiting -= DT;
       report = this.#swinging.step(DT, this.dynamics);
-      if (this.#swinging.speed < RESTING) {
+      this.#still = this.#swinging.speed < RESTING ? this.#still + 1 : 0;
+      if (this.#still === STILL) {
+        this.#still = 0;
         this.#moves = false;
         return this.dynamics.gravity.some((g) => g !== 0) ? report : this.#swinging.settle();
       }
