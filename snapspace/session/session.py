@@ -118,6 +118,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
     def solve(self) -> FrameReport:
         """Solves for the current handles or weights, from the current shape."""
         begin = time.perf_counter()
+        self._movement = None  # a body that is solved for statically no longer moves
         report = self._loop.solve(**self._solver_options())
         return FrameReport(
             report.status.name,

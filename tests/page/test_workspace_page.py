@@ -143,12 +143,14 @@ def test_two_pages_do_not_disturb_each_other(page: Page, bar_server: str, opened
     name = other.page.get_by_label("Name of the handle").last
     name.fill("hand")
     name.press("Enter")
+    set_number(other, "Error of unseen motions, %", 50.0)
+    set_number(other, "Samples, at most", 20)
     compute(page, most_samples=20_000, percent=0.01)
-    page.wait("snapspace.kind === 'posing'")
-    compute(other)
+    press(other, "Compute")
     wait_for_text(other, "#panel", "Waiting for another computation")
     assert other.text(".progress-words").strip() == "Waiting for another computation"
     assert not other.page.locator("#panel progress").get_attribute("value"), "it has no end yet"
+    page.wait("snapspace.kind === 'posing'")
     cancel(page)
     page.page.get_by_role("button", name="Cancel").wait_for(state="hidden")
     press(page, "Choose handles")

@@ -88,6 +88,7 @@ export class BlendingSession {
 
   /** Solves for what is set, from the present shape. */
   solve(): FrameReport {
+    this.time.stop();
     return this.#core.solve(this.#stop);
   }
 

@@ -113,6 +113,7 @@ export class PosingSession {
 
   /** Solves for what is set, from the present shape. */
   solve(): FrameReport {
+    this.time.stop();
     return this.#core.solve(this.#stop);
   }
 

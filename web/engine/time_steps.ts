@@ -59,6 +59,11 @@ export class TimeSteps {
     return { q, before: q, frame, frameBefore: frame, dt: 1 };
   }
 
+  /** The body no longer moves. */
+  stop(): void {
+    this.#movement = null;
+  }
+
   /** Speed of the coordinates, per second. */
   speed(frame: RigidMap): number {
     const { q, before, dt } = this.moving(frame);
