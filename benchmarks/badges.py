@@ -19,8 +19,6 @@ from typing import Any
 import common
 import numpy as np
 import problems
-from rich.console import Console
-from rich.table import Table
 from scipy.stats import spearmanr
 
 import snapspace as ss
@@ -80,10 +78,7 @@ def main() -> None:
             print(json.dumps(rows[-1]), flush=True)
     if args.json:
         return
-    table = Table(*rows[0], title="error estimates of models with default options")
-    for row in rows:
-        table.add_row(*(f"{x:.2g}" if isinstance(x, float) else str(x) for x in row.values()))
-    Console(width=160).print(table)
+    common.print_rows(rows, title="error estimates of models with default options", width=160)
 
 
 if __name__ == "__main__":

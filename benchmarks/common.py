@@ -119,6 +119,14 @@ def show(
     Console().print(table)
 
 
+def print_rows(rows: Sequence[dict[str, Any]], *, title: str, width: int) -> None:
+    """Prints rows with the same keys as a table, numbers with two digits."""
+    table = Table(*rows[0], title=title)
+    for row in rows:
+        table.add_row(*(f"{x:.2g}" if isinstance(x, float) else str(x) for x in row.values()))
+    Console(width=width).print(table)
+
+
 def drag(
     model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int, **options: Any
 ) -> tuple[np.ndarray, np.ndarray]:

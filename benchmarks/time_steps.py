@@ -18,8 +18,6 @@ from typing import Any
 import common
 import numpy as np
 import problems
-from rich.console import Console
-from rich.table import Table
 
 import snapspace as ss
 
@@ -87,10 +85,7 @@ def main() -> None:
             print(json.dumps(rows[-1]), flush=True)
     if args.json:
         return
-    table = Table(*rows[0], title="steps of 1/60 s against static frames")
-    for row in rows:
-        table.add_row(*(f"{x:.2g}" if isinstance(x, float) else str(x) for x in row.values()))
-    Console(width=120).print(table)
+    common.print_rows(rows, title="steps of 1/60 s against static frames", width=120)
 
 
 if __name__ == "__main__":

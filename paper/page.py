@@ -14,7 +14,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from .result import FOLDER
+from snapspace.disk import atomic_file
+
+from .result import FOLDER, text
 
 PAGE = Path(__file__).parents[1] / "docs" / "comparison.md"
 
@@ -46,17 +48,8 @@ def markdown(rows: list[dict[str, Any]]) -> str:
     """A table with a line for each row; columns that are always empty are left out."""
     names = [name for name in rows[0] if any(row[name] is not None for row in rows)]
     lines = [names, ["---"] * len(names)]
-    lines += [[_text(row[name]) for name in names] for row in rows]
+    lines += [[text(row[name]).replace("|", "\\|") for name in names] for row in rows]
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def _text(value: Any) -> str:
-    if value is None:
-        return ""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    text = f"{value:.3g}" if isinstance(value, float) else str(value)
-    return text.replace("|", "\\|")
 
 
 def main() -> int:
@@ -71,9 +64,8 @@ def main() -> int:
         return 2
     if check:
         return 0 if before == after else 1
-    temporary = PAGE.with_suffix(".md.part")
-    temporary.write_text(after, "utf-8")
-    temporary.replace(PAGE)
+    with atomic_file(PAGE) as temporary:
+        temporary.write_text(after, "utf-8")
     return 0
 
 

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
+from snapspace.disk import atomic_file
+
 FOLDER = Path(__file__).parent / "results"
 PICTURES = Path(__file__).parents[1] / "docs" / "pictures" / "paper"
 
@@ -35,27 +37,27 @@ class Result:
     def add(self, **row: Any) -> None:
         """Adds a row, and says so on standard error."""
         self.rows.append(row)
-        print(self.name, *(_text(value) for value in row.values()), file=sys.stderr, flush=True)
+        print(self.name, *(text(value) for value in row.values()), file=sys.stderr, flush=True)
 
     def print(self) -> None:
         """Prints the table."""
         table = Table(*self.rows[0], title=self.title)
         for row in self.rows:
-            table.add_row(*(_text(value) for value in row.values()))
+            table.add_row(*(text(value) for value in row.values()))
         Console(width=190).print(table)
 
     def save(self, folder: Path = FOLDER) -> Path:
         """Writes NAME.json; the path."""
         folder.mkdir(parents=True, exist_ok=True)
         path = folder / f"{self.name}.json"
-        temporary = path.with_suffix(".json.part")
         content = {"title": self.title, "rows": self.rows}
-        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-        temporary.replace(path)
+        with atomic_file(path) as temporary:
+            temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
         return path
 
 
-def _text(value: Any) -> str:
+def text(value: Any) -> str:
+    """A figure as tables show it: three digits, and nothing for None."""
     if value is None:
         return ""
     return f"{value:.3g}" if isinstance(value, float) else str(value)

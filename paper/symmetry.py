@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 import snapspace as ss
-from snapspace.gltf.vertex_normals import vertex_normals
+from snapspace.mesh import vertex_normals
 
 FloatArray = NDArray[np.float64]
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..blas import single_threaded_blas
+from ..mesh import vertex_normals
 from ..reduction import ReducedModel
-from .vertex_normals import vertex_normals
 
 FloatArray = NDArray[np.float64]
 
@@ -104,6 +104,13 @@ def fitted_targets(model: ReducedModel, shapes: ArrayLike, *, count: int = 8) ->
     return MorphTargets(base, targets, normals, changes, weights, error)
 
 
+def unit_normals(vertices: FloatArray, faces: NDArray[np.int32]) -> FloatArray:
+    """`vertex_normals` (s, 3), but (0, 0, 1) where there is none: glTF has no zero normals."""
+    normals = vertex_normals(vertices, faces)
+    normals[~normals.any(axis=1)] = (0.0, 0.0, 1.0)
+    return normals
+
+
 def _on_surface(model: ReducedModel, shapes: FloatArray) -> FloatArray:
     return np.array([model.surface.vertices(shape) for shape in shapes])
 
@@ -126,12 +133,12 @@ def _normals(
     base: FloatArray, targets: FloatArray, weights: FloatArray, faces: NDArray[np.int32]
 ) -> tuple[FloatArray, FloatArray]:
     """Normals of the base, and their changes by target, fitted to the shapes of some weights."""
-    normals = vertex_normals(base, faces)
+    normals = unit_normals(base, faces)
     if len(weights) == 0:
         return normals, np.zeros_like(targets)
     flat = targets.reshape(len(targets), -1)
     changes = np.array(
-        [vertex_normals(base + (w @ flat).reshape(-1, 3), faces) - normals for w in weights]
+        [unit_normals(base + (w @ flat).reshape(-1, 3), faces) - normals for w in weights]
     )
     fitted = np.linalg.pinv(weights, rcond=1e-6) @ changes.reshape(len(weights), -1)
     return normals, fitted.reshape(targets.shape)

@@ -67,7 +67,7 @@ def vertex_normals(vertices: FloatArray, faces: IndexArray) -> FloatArray:
         axis=1,
     )
     lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.asarray(np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0))
+    return np.asarray(np.divide(normals, lengths, out=np.zeros(normals.shape), where=lengths > 0))
 
 
 def compact_surface(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, IndexArray]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,18 @@ class FrameReport:
     gradient_norm: float
     seconds: float
     start: str = "last frame"
+
+    @classmethod
+    def of(cls, report: Any, seconds: float) -> FrameReport:
+        """The report of a loop's solve or step, which took this time."""
+        return cls(
+            report.status.name,
+            report.iterations,
+            report.evaluations,
+            report.value,
+            report.gradient_norm,
+            seconds,
+        )
 
     @property
     def converged(self) -> bool:

@@ -120,14 +120,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         begin = time.perf_counter()
         self._movement = None  # a body that is solved for statically no longer moves
         report = self._loop.solve(**self._solver_options())
-        return FrameReport(
-            report.status.name,
-            report.iterations,
-            report.evaluations,
-            report.value,
-            report.gradient_norm,
-            time.perf_counter() - begin,
-        )
+        return FrameReport.of(report, time.perf_counter() - begin)
 
     def _solver_options(self) -> dict[str, Any]:
         return {

@@ -186,14 +186,7 @@ class TimeSteps(ABC, Generic[Model]):
         if report.status.name != "not_finite":
             self._movement = Movement(q, last.q, frame, last.frame, dt)
             self._limit(last, before, report.value)
-        return FrameReport(
-            report.status.name,
-            report.iterations,
-            report.evaluations,
-            report.value,
-            report.gradient_norm,
-            time.perf_counter() - begin,
-        )
+        return FrameReport.of(report, time.perf_counter() - begin)
 
     def _target(self, last: Movement, frame: FloatArray, dt: float) -> FloatArray:
         """Where the body would be after dt without elastic forces, seen from the new frame."""

@@ -114,7 +114,7 @@ ALLOWED: dict[str, set[str]] = {
         "snapshots",
         "validation",
     },
-    "gltf": {"blas", "disk", "reduction"},
+    "gltf": {"blas", "disk", "mesh", "reduction"},
     "animation": {"gltf", "mesh", "pictures", "reduction"},
     "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace"},
     "server": {

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from snapspace import InterpolationModel, PosingModel, write_animation
 from snapspace.gltf import fitted_targets, mode_targets, write_glb
-from snapspace.gltf.vertex_normals import vertex_normals
+from snapspace.gltf.morph_targets import unit_normals
 
 from ..page.tools import ROOT, tool
 from .glb_content import GlbContent
@@ -78,7 +78,7 @@ def test_normals_follow_the_shape(posing_model: PosingModel, shapes: Shapes) -> 
     """They are nearer to those of the shape than the base's are, by far."""
     morphs = fitted_targets(posing_model, shapes, count=8)
     faces = posing_model.surface.faces
-    true = vertex_normals(posing_model.surface.vertices(shapes[-1]), faces)
+    true = unit_normals(posing_model.surface.vertices(shapes[-1]), faces)
     sums = morphs.normals + np.tensordot(morphs.weights[-1], morphs.normal_targets, axes=1)
     shown = sums / np.linalg.norm(sums, axis=1)[:, None]
     assert np.abs(shown - true).max() < 0.1 * np.abs(morphs.normals - true).max()
@@ -89,8 +89,8 @@ def test_normals_are_those_of_a_sphere() -> None:
     faces = np.array(
         [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]]
     )
-    np.testing.assert_allclose(vertex_normals(octahedron, faces), octahedron, atol=1e-12)
-    lonely = vertex_normals(np.zeros((2, 3)), np.zeros((0, 3), np.int32))
+    np.testing.assert_allclose(unit_normals(octahedron, faces), octahedron, atol=1e-12)
+    lonely = unit_normals(np.zeros((2, 3)), np.zeros((0, 3), np.int32))
     np.testing.assert_array_equal(lonely, [[0, 0, 1], [0, 0, 1]])
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from paper.page import PAGE, with_tables
-from paper.result import FOLDER
+from paper.result import FOLDER, Result
 
 TEXT = "Before\n\n<!-- one -->\nold\n<!-- end of one -->\n\nAfter\n"
 
@@ -45,3 +45,12 @@ def test_a_missing_result_is_named(tmp_path: Path) -> None:
 def test_the_page_is_up_to_date() -> None:
     text = PAGE.read_text("utf-8")
     assert with_tables(text, FOLDER) == text, "run python -m paper.page"
+
+
+def test_results_are_saved_whole(tmp_path: Path) -> None:
+    result = Result("one", "One")
+    result.add(shape="bar", error=0.25, paper=None)
+    path = result.save(tmp_path / "new")
+    content = json.loads(path.read_text("utf-8"))
+    assert content == {"title": "One", "rows": [{"shape": "bar", "error": 0.25, "paper": None}]}
+    assert [file.name for file in path.parent.iterdir()] == ["one.json"]
