@@ -70,51 +70,77 @@ QUICK = 2
 def run(*, quick: bool = False) -> Result:
     """Both columns, for the paper's material and for stable neo-Hookean."""
     result = Result("table3", "Table 3: objective and gradient norm in the unreduced space")
-    for kind in MATERIALS:
-        for column in (DRAGON,) if quick else (DRAGON, ARMADILLO):
-            _add(result, column, kind, quick=quick)
+    for column in (DRAGON,) if quick else (DRAGON, ARMADILLO):
+        _add(result, column, quick=quick)
+    result.rows.sort(key=lambda row: MATERIALS.index(row["material"]))
     return result
 
 
-def _add(result: Result, column: Column, kind: str, *, quick: bool) -> None:
-    case = read(column.name, kind, quick=quick)
-    problem = case.problem
-    assert isinstance(problem, ss.PosingProblem)
-    samples, ours = (60, 20) if quick else (column.samples, column.ours)
-    dimensions = column.dimensions[:QUICK] if quick else column.dimensions
-    reference = unseen(problem, 1)
-    parameters, full = reference.parameters[0], reference.shapes[0]
+def _add(result: Result, column: Column, *, quick: bool) -> None:
+    columns = [_Judged(column, kind, quick=quick) for kind in MATERIALS]
+    for judged in columns:
+        judged.add(result, "full", None, judged.full, column.full)
+        samples, ours = (60, 20) if quick else (column.samples, column.ours)
+        found = ss.snapshot_pca(training(judged.problem, samples), dimension=ours)
+        judged.minimise(result, "ours", found, column.our_paper)
+    # the rivals know the mesh and the handles only: both materials share them
+    for name, build, papers in (
+        ("biharmonic", rivals.biharmonic_subspace, column.biharmonic),
+        ("radial basis", rivals.radial_basis_subspace, column.radial),
+    ):
+        dimensions = column.dimensions[:QUICK] if quick else column.dimensions
+        for d, paper in zip(dimensions, papers, strict=False):
+            subspace = build(columns[0].problem, d)
+            for judged in columns:
+                judged.minimise(
+                    result, name, subspace, paper, shown=d in (dimensions[0], dimensions[-1])
+                )
+    number = 7 if column is DRAGON else 8
+    for judged in columns:
+        picture = _picture(judged.problem, judged.shapes, column.up)
+        result.pictures[f"figure{number}_{judged.kind}"] = picture
 
-    def add(name: str, d: int | None, x: np.ndarray, paper: tuple[float, float]) -> None:
-        value, gradient = problem.value_and_gradient(x, parameters)
-        known = paper if kind == "stvk" else (None, None)
+
+class _Judged:
+    """A column in one material: its unseen motion, and the shapes that are shown of it."""
+
+    def __init__(self, column: Column, kind: str, *, quick: bool) -> None:
+        case = read(column.name, kind, quick=quick)
+        assert isinstance(case.problem, ss.PosingProblem)
+        self.kind, self.shape, self.problem = kind, case.shape, case.problem
+        self.reference = unseen(self.problem, 1)
+        self.full = self.reference.shapes[0]
+        self.shapes = {"full": self.full}
+
+    def minimise(
+        self,
+        result: Result,
+        name: str,
+        subspace: ss.AffineSubspace,
+        paper: tuple[float, float],
+        *,
+        shown: bool = True,
+    ) -> None:
+        """Adds the row of the minimiser in a subspace."""
+        shape = next(minimisers(subspace, self.reference))
+        self.add(result, name, subspace.dimension, shape, paper)
+        if shown:
+            self.shapes[f"{name}, {subspace.dimension}"] = shape
+
+    def add(
+        self, result: Result, name: str, d: int | None, x: FloatArray, paper: tuple[float, float]
+    ) -> None:
+        """Adds a row: the objective of a shape, and the norm of its gradient."""
+        value, gradient = self.problem.value_and_gradient(x, self.reference.parameters[0])
+        known = paper if self.kind == "stvk" else (None, None)
         result.add(
-            shape=case.shape,
-            material=kind,
+            shape=self.shape,
+            material=self.kind,
             subspace=name,
             d=d,
             **{"paper F": known[0], "F": value},
             **{"paper |grad F|": known[1], "|grad F|": float(np.linalg.norm(gradient))},
         )
-
-    add("full", None, full, column.full)
-    wanted = [
-        ("ours", ss.snapshot_pca(training(problem, samples), dimension=ours), column.our_paper)
-    ]
-    for d, paper in zip(dimensions, column.biharmonic, strict=False):
-        wanted.append(("biharmonic", rivals.biharmonic_subspace(problem, d), paper))
-    for d, paper in zip(dimensions, column.radial, strict=False):
-        wanted.append(("radial basis", rivals.radial_basis_subspace(problem, d), paper))
-    shapes = {"full": full}
-    shown = {"ours": (ours,), "biharmonic": dimensions[:: len(dimensions) - 1]}
-    shown["radial basis"] = shown["biharmonic"]
-    for name, subspace, paper in wanted:
-        shape = next(minimisers(subspace, reference))
-        add(name, subspace.dimension, shape, paper)
-        if subspace.dimension in shown[name]:
-            shapes[f"{name}, {subspace.dimension}"] = shape
-    number = 7 if column is DRAGON else 8
-    result.pictures[f"figure{number}_{kind}"] = _picture(problem, shapes, column.up)
 
 
 faults = objectives_in_order

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 FloatArray = NDArray[np.float64]
 
@@ -19,10 +20,9 @@ def farthest_points(
     from the centre.
     """
     start = list(given)
-    distance = np.full(len(vertices), np.inf)
-    for index in start:
-        distance = np.minimum(distance, np.linalg.norm(vertices - vertices[index], axis=1))
-    if not start:
+    if start:
+        distance, _ = KDTree(vertices[start]).query(vertices)
+    else:
         distance = np.linalg.norm(vertices - vertices.mean(axis=0), axis=1)
     chosen: list[int] = []
     for _ in range(count):

@@ -43,16 +43,13 @@ def normal_derivative(mesh: ss.TetMesh) -> csr_array:
         np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True
     )
     outer = first[counts == 1]
-    rows, columns, values = [], [], []
-    for index in outer:
-        corners = mesh.vertices[faces[index]]
-        area = np.cross(corners[1] - corners[0], corners[2] - corners[0]) / 2.0
-        away = corners[0] - mesh.vertices[mesh.tets[tet[index], opposite[index]]]
-        outward = area * np.sign(area @ away)
-        slope = gradients[tet[index]] @ outward / 3.0  # of each corner's hat, for one vertex
-        rows.append(np.repeat(faces[index], 4))
-        columns.append(np.tile(mesh.tets[tet[index]], 3))
-        values.append(np.tile(slope, 3))
+    tets, corners = mesh.tets[tet[outer]], mesh.vertices[faces[outer]]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2.0
+    apexes = mesh.vertices[mesh.tets[tet[outer], opposite[outer]]]
+    side = np.sign(np.einsum("fi,fi->f", area, corners[:, 0] - apexes))
+    outward = side[:, None] * area
+    slopes = np.einsum("fai,fi->fa", gradients[tet[outer]], outward) / 3.0  # of each corner's hat
+    rows = np.repeat(faces[outer], 4, axis=1)
+    columns, values = np.tile(tets, (1, 3)), np.tile(slopes, (1, 3))
     size = (len(mesh.vertices),) * 2
-    entries = (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns)))
-    return coo_array(entries, shape=size).tocsr()
+    return coo_array((values.ravel(), (rows.ravel(), columns.ravel())), shape=size).tocsr()

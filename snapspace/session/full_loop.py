@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import LinAlgError, cho_factor, cho_solve
+from scipy.linalg import LinAlgError, cho_factor
 
 from .. import _core as core
 from ..blas import single_threaded_blas
 from ..reduction import FullBlends, FullEnergy, InterpolationModel, PosingModel
+from .kept_factor import KeptFactor
 
 FloatArray = NDArray[np.float64]
 
@@ -18,6 +19,8 @@ FloatArray = NDArray[np.float64]
 DECREASE, HALVINGS = 1e-4, 30
 #: What a singular Hessian's diagonal is raised by, relative to its mean; times 16 until it helps.
 FIRST_SHIFT, SHIFT_GROWTH, MOST_SHIFTS = 1e-10, 16.0, 20
+#: Iterations of "bfgs" that one factor serves: about what its Hessian costs in gradients.
+KEPT = 40
 _NO_SINGLE = "Session: precision 'single' is for exact quartics; a full energy is in double"
 
 
@@ -33,11 +36,12 @@ class FullReport:
 
 
 class FullLoop:
-    """Newton's method on the energy of all tets and the handles, from the last frame.
+    """Minimises the energy of all tets and of the handles, from the last frame.
 
-    Where the Hessian is not positive definite, that of projected tets takes its place. The tests
-    of the end are those of the paper, sec. 6.2, as for the compiled loops. Only the method "newton"
-    is known.
+    Newton's method factors a Hessian in each iteration. "bfgs" keeps a factor for `KEPT`
+    iterations, and corrects it by their steps. Where the Hessian is not positive definite, that of
+    projected tets takes its place. The tests of the end are those of the paper, sec. 6.2, as for
+    the compiled loops.
 
     Parameters
     ----------
@@ -93,17 +97,19 @@ class FullLoop:
         coordinate_scale: float,
     ) -> FullReport:
         """Minimises from q, in place."""
-        if method != core.Method.newton:
-            raise ValueError("Session: a full energy is minimised by 'newton' only")
         value, gradient = self.value_and_gradient(self._q)
         iterations, evaluations, status = 0, 1, core.Status.max_iterations
         if not np.isfinite(value):
             status, max_iterations = core.Status.not_finite, 0
+        kept = 1 if method == core.Method.newton else KEPT
+        inverse, age = None, 0
         while iterations < max_iterations:
             if evaluations >= max_evaluations:
                 status = core.Status.max_evaluations
                 break
-            direction = self._direction(gradient)
+            if inverse is None or age >= kept:
+                inverse, age = self._inverse(), 0
+            direction = inverse.direction(gradient)
             slope = float(gradient @ direction)
             size = np.linalg.norm(self._q) / coordinate_scale
             unit = 1.0 + abs(value) / value_scale
@@ -117,12 +123,16 @@ class FullLoop:
                 break
             length, tried, after, new_gradient = self._step(direction, value, slope)
             evaluations += tried
-            if length == 0.0:
+            if length == 0.0 and age == 0:
                 status = core.Status.line_search_failed
                 break
+            if length == 0.0:
+                inverse = None
+                continue
             self._q += length * direction
+            inverse.learn(length * direction, new_gradient - gradient)
             value, gradient = after, new_gradient
-            iterations += 1
+            iterations, age = iterations + 1, age + 1
         return FullReport(status, iterations, evaluations, value, float(np.linalg.norm(gradient)))
 
     def _with_handles(
@@ -134,21 +144,22 @@ class FullLoop:
         return 0.0
 
     @single_threaded_blas
-    def _direction(self, gradient: FloatArray) -> FloatArray:
+    def _inverse(self) -> KeptFactor:
+        """The inverse Hessian at q, or of projected tets if it is not positive definite."""
         hessian = self.hessian(self._q)
         try:
-            return -np.asarray(cho_solve(cho_factor(hessian), gradient))
+            return KeptFactor(cho_factor(hessian))
         except LinAlgError:
             projected = self._energy.hessian(self._q, projection=self._projection)
         hessian = projected + self._handle_hessian()
         shift = FIRST_SHIFT * float(np.trace(hessian)) / len(hessian)
         for _ in range(MOST_SHIFTS):
             try:
-                return -np.asarray(cho_solve(cho_factor(hessian), gradient))
+                return KeptFactor(cho_factor(hessian))
             except LinAlgError:
                 hessian += shift * np.eye(len(hessian))
                 shift *= SHIFT_GROWTH
-        return -gradient
+        return KeptFactor((np.eye(len(hessian)), False))
 
     def _step(
         self, direction: FloatArray, value: float, slope: float

@@ -146,4 +146,4 @@ class Tabs:
         page.close()
         page.forget()
         self._free[self._options.pop(page)].append(page.page)
-        assert page.faults == []
+        assert page.faults == [], page.faults

@@ -56,6 +56,27 @@ def test_sessions_end_where_those_of_the_quartic_do(
         assert distance < 1e-6 * full.problem.mesh.diagonal
 
 
+def test_bfgs_ends_where_newton_does_with_fewer_hessians(
+    full: PosingModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    counts, original = {"newton": 0, "bfgs": 0}, FullEnergy.hessian
+    unit = np.full(full.problem.parameter_count, 0.7)
+    ends = {}
+    for minimizer in counts:
+
+        def counted(*args: object, name: str = minimizer, **options: object) -> np.ndarray:
+            counts[name] += 1
+            return original(*args, **options)  # type: ignore[arg-type]
+
+        monkeypatch.setattr(FullEnergy, "hessian", counted)
+        session = full.session(minimizer=minimizer, tolerance=1e-12)
+        assert session.pose(full.problem.domain.from_unit(unit)).status == "converged"
+        ends[minimizer] = session.vertices
+    assert counts["bfgs"] <= counts["newton"] // 2
+    distance = np.abs(ends["newton"] - ends["bfgs"]).max()
+    assert distance < 1e-6 * full.problem.mesh.diagonal
+
+
 def test_blends_are_those_of_the_problem(full_blends: InterpolationModel) -> None:
     """The oracle is the compiled system of all poses, whose form collapses."""
     weights = np.array([0.2, 0.5, 0.3])
@@ -146,6 +167,3 @@ def test_what_it_cannot_do_is_refused(full: PosingModel) -> None:
         reduce(full.problem, full.subspace, energy="full", tets=10)
     with pytest.raises(ValueError, match="precision 'single' is for exact quartics"):
         full.session(precision="single")
-    session = full.session(minimizer="bfgs")
-    with pytest.raises(ValueError, match="by 'newton' only"):
-        session.solve()

@@ -59,6 +59,19 @@ def test_nearly_dependent_directions_give_an_orthonormal_basis() -> None:
     assert products(basis) == pytest.approx(np.eye(4), abs=1e-12)
 
 
+def test_directions_that_nearly_depend_on_other_blocks_give_an_orthonormal_basis() -> None:
+    """Directions are made orthogonal in blocks: these differ by 1e-9 from others in their own block
+    and in an earlier one, and one lies in the span of both blocks."""
+    given = directions(75)
+    given[:, 40] = given[:, 3] + 1e-9 * given[:, 40]
+    given[:, 41] = given[:, 40] + 1e-9 * given[:, 41]
+    given[:, 70] = given[:, :69] @ np.ones(69) + 1e-8 * given[:, 70]
+    basis = affine_subspace(given, PROBLEM).basis
+    assert products(basis) == pytest.approx(np.eye(75), abs=1e-12)
+    dependent = np.column_stack([given[:, :50], given[:, 7] + given[:, 45], given[:, 60]])
+    assert affine_subspace(dependent, PROBLEM, nested=False).dimension == 51
+
+
 def test_dependent_directions_are_refused_or_dropped() -> None:
     given = np.column_stack([directions(3), np.zeros(SIZE), directions(1, seed=5)])
     given = np.insert(given, 2, given[:, 0] - 2 * given[:, 1], axis=1)
