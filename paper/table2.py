@@ -12,8 +12,6 @@ from dataclasses import dataclass
 from itertools import zip_longest
 from pathlib import Path
 
-import numpy as np
-
 import snapspace as ss
 from snapspace.pictures import Curve, chart, save_png
 
@@ -25,8 +23,6 @@ from .orderings import Rows, by_case, errors_in_order, named
 from .result import Result, slug
 
 UNSEEN = 10
-#: Subspaces of more dimensions are judged on fewer of the same motions: a solve takes a minute.
-LARGE, FEW = 60, 4
 
 
 @dataclass(frozen=True)
@@ -75,19 +71,14 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
         )
     paper = row.paper if kind == "stvk" else ()
     for (name, subspace), known in zip_longest(wanted, paper):
-        judged = (
-            reference
-            if subspace.dimension <= LARGE
-            else reference.select(np.arange(len(reference)) < FEW)
-        )
-        errors = relative_errors(subspace, judged)
+        errors = relative_errors(subspace, reference)
         result.add(
             shape=case.shape,
             material=kind,
             subspace=name,
             d=subspace.dimension,
             paper=known,
-            projection=float(projection_errors(subspace, judged).mean()),
+            projection=float(projection_errors(subspace, reference).mean()),
             mean=float(errors.mean()),
             deviation=float(errors.std()),
             unseen=len(errors),

@@ -41,7 +41,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         Newton's method with the exact Hessian, shifted where that is not positive definite; or
         the paper's BFGS, with the inverse Hessian at tau as the first approximation (sec. 6.2),
         or, where the energy is a cubature, that of the last frame. With the energy of all tets,
-        it begins with the Hessian of the frame before, and takes another after 40 iterations.
+        it begins with the Hessian where it starts, and takes another after 40 iterations.
     precision : "double" or "single", default "double"
         Precision of the stored coefficients. Single takes half of the memory, and less time where
         the coefficients do not fit into the second-level cache (d = 60 and more). Each coefficient

@@ -18,7 +18,7 @@ FloatArray = NDArray[np.float64]
 #: orthogonalization process").
 _ROUNDS = 2
 #: Directions that are made orthogonal to all earlier ones together, by products of matrices: one at
-#: a time, they take ten times as long for d = 744, since all earlier ones are read for each.
+#: a time, they take twice as long for d = 384, since all earlier ones are read for each.
 _BLOCK = 32
 #: A direction that loses more than this within its block is made orthogonal to all once more.
 _CANCELS = 0.1
