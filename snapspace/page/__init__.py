@@ -1,7 +1,7 @@
 """The page: poses and blends models in the browser."""
 
-from .export import export_html, page_with_model
+from .export import export_html, page_with_model, page_with_packed
 from .pack import packed
 from .show import NotebookPage
 
-__all__ = ["NotebookPage", "export_html", "packed", "page_with_model"]
+__all__ = ["NotebookPage", "export_html", "packed", "page_with_model", "page_with_packed"]

@@ -32,13 +32,20 @@ def page_with_model(model: ReducedModel, *, title: str, up: str | None = None) -
     ValueError
         For an unknown axis, or if the package was built without its page.
     """
-    packed_model = packed(model, name=title, up=up)
-    content = base64.b64encode(packed_model).decode("ascii")
+    return page_with_packed(packed(model, name=title, up=up), title=title)
+
+
+def page_with_packed(content: bytes, *, title: str) -> str:
+    """The page as HTML text, with the content of `packed` embedded.
+
+    ValueError if the package was built without its page.
+    """
+    encoded = base64.b64encode(content).decode("ascii")
     # the page checks it before it shows the model
-    checksum = f"{zlib.crc32(packed_model):08x}"
+    checksum = f"{zlib.crc32(content):08x}"
     element = (
         f'<script id="model" data-crc32="{checksum}" type="application/octet-stream">'
-        f"{content}</script>"
+        f"{encoded}</script>"
     )
     page = page_html()
     for place in (PLACE, _TITLE):

@@ -12,7 +12,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
 
-from ..page import packed
+from ..page import packed, page_with_packed
 from ..page.page_file import PLACE, page_html
 from .guard import Guard
 from .hosts import LOCAL
@@ -29,7 +29,8 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
     """Serves requests that `Guard` lets through.
 
     GET / is the page, /model the model of the settings, and /mesh/ID/NUMBER and /model/ID/NUMBER
-    are those of a workspace. POST /mesh takes uploads, and /live is the websocket, see `messages`.
+    are those of a workspace. /page and /page/ID/NUMBER are pages in one file with these models.
+    POST /mesh takes uploads, and /live is the websocket, see `messages`.
 
     Parameters
     ----------
@@ -48,12 +49,13 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
         Route("/mesh", upload_endpoint(settings, workspaces), methods=["POST"]),
         Route("/mesh/{id}/{number:int}", _content(workspaces, Workspace.mesh_content)),
         Route("/model/{id}/{number:int}", _content(workspaces, Workspace.model_content)),
+        Route("/page/{id}/{number:int}", _content(workspaces, Workspace.page_content)),
         WebSocketRoute("/live", live_endpoint(workspaces)),
     ]
     if settings.model is not None:
-        routes.append(
-            Route("/model", _bytes(packed(settings.model, name=settings.title, up=settings.up)))
-        )
+        content = packed(settings.model, name=settings.title, up=settings.up)
+        page = page_with_packed(content, title=settings.title).encode()
+        routes += [Route("/model", _bytes(content)), Route("/page", _bytes(page))]
     return Starlette(
         routes=routes, middleware=[Middleware(Guard, token=settings.token, hosts=hosts)]
     )

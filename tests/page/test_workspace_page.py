@@ -88,6 +88,11 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     page.settle()
     assert np.linalg.norm(np.subtract(page.motions()[1][1], before)) > 0.01
     wait_for_text(page, "#panel", "Done in")
+    with page.page.expect_download() as waiting:
+        press(page, "Export HTML")
+    content = Path(waiting.value.path()).read_text(encoding="utf-8")
+    assert waiting.value.suggested_filename == "bar.html"
+    assert '<script id="model"' in content and 'snapspace-server" content' not in content
     press(page, "Save")
     wait_for_text(page, "#panel", f"in {bar_folder}")
 

@@ -93,6 +93,9 @@ def test_models_arrive_and_improve(server: Running, page: Page) -> None:
         assert len(server.fetch(model["address"])["space_scales"]) == model["dimension"]
     stages = [message["stage"] for message in page.seen if message["type"] == "progress"]
     assert list(dict.fromkeys(stages)) == ["snapshots", "subspace", "energy"]
+    address = models[1]["address"].split("?")[0].replace("model", "page", 1)
+    status, text = server.get(f"/{address}")
+    assert status == 200 and text.count(b'<script id="model"') == 1, "a page with the model"
     status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
     assert status == 404 and b"no longer kept" in text
 

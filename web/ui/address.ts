@@ -78,6 +78,12 @@ export function keepHash(hash: () => string): void {
   writeHash();
 }
 
+/** The address of what is shown now. */
+export function currentAddress(): string {
+  writeHash();
+  return location.href;
+}
+
 function writeHash(): void {
   if (!waiting) return;
   const { hash, timer } = waiting;

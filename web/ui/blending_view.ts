@@ -7,6 +7,7 @@ import { listenToBlendingKeys } from "./blending_keys.ts";
 import { blendHash, keepHashSoon } from "./address.ts";
 import { chooser, enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
+import { ExportPanel } from "./export_panel.ts";
 import { Hud } from "./hud.ts";
 import { Jiggle } from "./jiggle.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
@@ -148,6 +149,13 @@ export async function blendingView(
     if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
   const look = lookSection(stage, [elastic, straight], model, options.up);
+  const takeAway = new ExportPanel(stage, {
+    name: model.name,
+    faces: model.faces,
+    page: options.page,
+    shape: () => elastic.shown(),
+    bare: () => () => {},
+  });
   stage.beforeFrame = (seconds) => {
     if (path.playing) walk(seconds);
     else solve(seconds);
@@ -192,6 +200,7 @@ export async function blendingView(
       }),
       jigglePanel(jiggle, () => stage.draw(), null),
       look.element,
+      takeAway.element,
       ...chooser(options.choose),
     ],
     script: {
@@ -204,6 +213,7 @@ export async function blendingView(
     },
     dispose: () => {
       stop.abort();
+      takeAway.dispose();
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
       stage.restored = () => {};

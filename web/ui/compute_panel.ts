@@ -15,6 +15,7 @@ export interface ComputeActions {
   compute(): void;
   cancel(): void;
   save(): void;
+  exportPage(): void;
   choose(): void;
   pose(): void;
 }
@@ -25,6 +26,7 @@ export class ComputePanel {
   readonly #compute: HTMLButtonElement;
   readonly #cancel: HTMLButtonElement;
   readonly #save: HTMLButtonElement;
+  readonly #export: HTMLButtonElement;
   readonly #choose: HTMLButtonElement;
   readonly #pose: HTMLButtonElement;
   readonly #bar = new ProgressBar();
@@ -40,6 +42,8 @@ export class ComputePanel {
     this.#compute.setAttribute("aria-describedby", "lacking");
     this.#cancel = button("Cancel", acts.cancel);
     this.#save = button("Save", acts.save);
+    this.#export = button("Export HTML", acts.exportPage);
+    this.#export.title = "A page in one file, which needs no server";
     this.#choose = button("Choose handles", acts.choose);
     this.#pose = button("Pose", acts.pose);
     this.element = section(
@@ -48,7 +52,16 @@ export class ComputePanel {
       this.#model,
       this.#fault,
       this.#savedText,
-      h("div", { className: "row acts" }, this.#compute, this.#cancel, this.#choose, this.#pose, this.#save),
+      h(
+        "div",
+        { className: "row acts" },
+        this.#compute,
+        this.#cancel,
+        this.#choose,
+        this.#pose,
+        this.#save,
+        this.#export,
+      ),
     );
   }
 
@@ -64,6 +77,7 @@ export class ComputePanel {
     this.#save.textContent = now.hasModel ? "Save" : "Save handles";
     this.#showModel(now.isRunning);
     this.#save.hidden = now.lacking !== "" || (!now.isChoosing && !now.hasModel);
+    this.#export.hidden = !now.hasModel;
     if (!now.isRunning) this.#bar.element.hidden = true;
   }
 

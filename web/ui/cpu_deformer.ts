@@ -1,6 +1,6 @@
 import { DataTexture, FloatType, RGBAFormat } from "three";
 
-import { reconstruct, vertexStrains, type Rests, type ShapeSpace } from "../engine/index.ts";
+import { reconstruct, vertexStrains, weightedNormals, type Rests, type ShapeSpace } from "../engine/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 
 /** Positions and normals on the processor, where the graphics cannot draw into float textures. */
@@ -59,7 +59,7 @@ export class CpuDeformer implements Deformer {
     this.#weights = weights;
   }
 
-  read(): Float32Array {
+  read(): Float32Array<ArrayBuffer> {
     return fromTexels(this.positions.image.data as Float32Array, this.#space);
   }
 
@@ -71,21 +71,5 @@ export class CpuDeformer implements Deformer {
     this.strains.dispose();
     this.positions.dispose();
     this.normals.dispose();
-  }
-}
-
-/** Sums of the faces' normals, weighted by area; not of length one. */
-function weightedNormals(shape: Float32Array, faces: Uint32Array, normals: Float32Array): void {
-  normals.fill(0);
-  for (let f = 0; f < faces.length; f += 3) {
-    const [a, b, c] = [3 * faces[f], 3 * faces[f + 1], 3 * faces[f + 2]];
-    const [ux, uy, uz] = [shape[b] - shape[a], shape[b + 1] - shape[a + 1], shape[b + 2] - shape[a + 2]];
-    const [vx, vy, vz] = [shape[c] - shape[a], shape[c + 1] - shape[a + 1], shape[c + 2] - shape[a + 2]];
-    const [x, y, z] = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
-    for (const corner of [a, b, c]) {
-      normals[corner] += x;
-      normals[corner + 1] += y;
-      normals[corner + 2] += z;
-    }
   }
 }

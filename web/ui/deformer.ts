@@ -18,7 +18,7 @@ export interface Deformer {
   /** Sets the weights of the shapes at rest, and computes strains from then on; null ends that. */
   weigh(weights: readonly number[] | null): void;
   /** The positions as the vertex shader gets them, 3 per vertex. */
-  read(): Float32Array;
+  read(): Float32Array<ArrayBuffer>;
   /** The strains as the vertex shader gets them. */
   readStrains(): Float32Array;
   dispose(): void;
@@ -41,7 +41,7 @@ export function asTexels(rows: ArrayLike<number>, texels: Float32Array): void {
 }
 
 /** Texels of 4 as rows of 3 numbers. */
-export function fromTexels(texels: Float32Array, space: ShapeSpace): Float32Array {
+export function fromTexels(texels: Float32Array, space: ShapeSpace): Float32Array<ArrayBuffer> {
   const rows = new Float32Array(3 * space.vertices);
   for (let i = 0; i < rows.length; i++) rows[i] = texels[4 * Math.floor(i / 3) + (i % 3)];
   return rows;

@@ -149,7 +149,7 @@ export class GpuDeformer implements Deformer {
     this.#strains?.weigh(weights);
   }
 
-  read(): Float32Array {
+  read(): Float32Array<ArrayBuffer> {
     return this.#readFrom(this.#positions.target);
   }
 
@@ -172,7 +172,7 @@ export class GpuDeformer implements Deformer {
     return { positions: this.positions, ranges: this.#ranges, pairs: this.#pairs };
   }
 
-  #readFrom(target: WebGLRenderTarget): Float32Array {
+  #readFrom(target: WebGLRenderTarget): Float32Array<ArrayBuffer> {
     const { width, height } = target;
     const texels = new Float32Array(4 * width * height);
     this.#renderer.readRenderTargetPixels(target, 0, 0, width, height, texels);

@@ -50,6 +50,7 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     const hash = source === ownModel ? location.hash : "";
     const options = { ...shell.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
     if (choose) Object.assign(options, { choose });
+    if (server && source === ownModel) Object.assign(options, { page: server.address("page", {}) });
     const view =
       model.kind === "posing"
         ? await posingView(stage, module, model, options)

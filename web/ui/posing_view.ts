@@ -2,6 +2,7 @@ import { PosingSession, type PosingModel } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
+import { ExportPanel } from "./export_panel.ts";
 import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
@@ -178,6 +179,17 @@ export async function posingView(
   };
 
   const look = lookSection(stage, surfaces, model, options.up);
+  const takeAway = new ExportPanel(stage, {
+    name: model.name,
+    faces: model.faces,
+    page: options.page,
+    shape: () => carried(posing.surface.shown(), posing.session),
+    bare: () => {
+      const { selected } = posing;
+      posing.select(-1);
+      return () => posing.select(selected);
+    },
+  });
   const panel = [
     section(
       "Handles",
@@ -194,6 +206,7 @@ export async function posingView(
       model.frames && { diagonal: model.diagonal, up: () => stage.up },
     ),
     look.element,
+    takeAway.element,
   ];
   return {
     hud,
@@ -215,6 +228,7 @@ export async function posingView(
     },
     dispose: () => {
       stop.abort();
+      takeAway.dispose();
       polishing?.cancel();
       readout.dispose();
       stage.beforeFrame = () => {};
@@ -244,7 +258,7 @@ function described(session: PosingSession, handle: number): string {
 }
 
 /** Positions after the first handle's motion. */
-function carried(shape: Float32Array, session: PosingSession): Float32Array {
+function carried(shape: Float32Array<ArrayBuffer>, session: PosingSession): Float32Array<ArrayBuffer> {
   const { rotation: R, shift: t } = session.carriedBy;
   for (let i = 0; i < shape.length; i += 3) {
     const [x, y, z] = shape.subarray(i, i + 3);

@@ -70,8 +70,8 @@ export class Stage {
       this.restored();
       this.draw();
     });
-    new ResizeObserver(() => this.#resize()).observe(canvas.parentElement!);
-    this.#resize();
+    new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
+    this.fit();
   }
 
   /** Asks for a picture. Several requests before it is drawn, also by `beforeFrame`, give one picture. */
@@ -163,7 +163,8 @@ export class Stage {
     this.draw();
   }
 
-  #resize(): void {
+  /** Fits the canvas to its place. */
+  fit(): void {
     const { clientWidth, clientHeight } = this.renderer.domElement.parentElement!;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));

@@ -166,7 +166,7 @@ export class Surface {
   }
 
   /** The shape before its rigid motion, as the vertex shader gets it. */
-  shown(): Float32Array {
+  shown(): Float32Array<ArrayBuffer> {
     return this.#deformer.read();
   }
 

@@ -26,6 +26,8 @@ export interface ViewOptions {
   readonly blend?: { readonly names: readonly string[]; readonly weights: readonly number[] };
   /** Goes to the view in which handles are chosen on the model's body; missing without a server. */
   readonly choose?: () => void;
+  /** Where the server has a page in one file with the model; missing without a server. */
+  readonly page?: URL | undefined;
   /** Improves frames when a handle is let go. */
   readonly polish?: Polish;
 }

@@ -5,6 +5,7 @@ import type { Failed, Model, Progress, Workspace as Given } from "../engine/mess
 import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
 import { CHOOSING, keepHash, motionsOf } from "./address.ts";
 import { ConnectionNotice } from "./connection_notice.ts";
+import { downloadFrom } from "./download.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
@@ -52,6 +53,7 @@ export class Workspace {
       compute: () => void this.#try(() => this.#compute()),
       cancel: () => void this.#try(() => this.#cancel()),
       save: () => void this.#try(() => this.#save()),
+      exportPage: () => this.#exportPage(),
       choose: () => void this.#try(() => this.#backToChoosing()),
       pose: () => void this.#try(() => this.#pose()),
     });
@@ -235,6 +237,13 @@ export class Workspace {
       "saved",
     );
     this.#panel.saved(message, this.#given!.folder);
+  }
+
+  /** A page in one file with the newest model; the server makes it. */
+  #exportPage(): void {
+    const { sent, content } = this.#model!;
+    const address = new URL(sent.address.replace(/^model/, "page"), location.href);
+    downloadFrom(address, `${content.name}.html`);
   }
 
   #progress(progress: Progress): void {
