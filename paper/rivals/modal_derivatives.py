@@ -12,7 +12,7 @@ from .vibration_modes import RIGID, Vibrations, hessian_at, vibrations
 FloatArray = NDArray[np.float64]
 
 #: Rounds of iterative refinement; each leaves less than a thousandth of what the shift did.
-REFINEMENTS = 3
+REFINEMENTS = 2
 #: Step of the difference of Hessians, as the longest displacement over the body's size. Hessians of
 #: St.Venant-Kirchhoff are quadratic, so that its central differences are exact for every step.
 STEP = 1e-3

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import hashlib
+from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,7 +69,7 @@ def vibrations(
     mass3 = csr_array(kron(mass, np.eye(3)))
     rigid = rigid_motions(vertices, mass3)
     shift = SHIFT * float(stiffness.diagonal().sum() / mass3.diagonal().sum())
-    solver = SparseSolver(csr_array(stiffness + shift * mass3), per_vertex=3)
+    solver = _solver(_Matrix.of(csr_array(stiffness + shift * mass3)))
 
     def deflated(right: FloatArray) -> FloatArray:
         solved = solver.solve(right)
@@ -80,6 +82,26 @@ def vibrations(
     )
     order = np.argsort(values)
     return Vibrations(energy, stiffness, mass3, rigid, modes[:, order], values[order], solver)
+
+
+@dataclass(frozen=True)
+class _Matrix:
+    """A matrix that is known by its entries, so that its factor is found again."""
+
+    digest: str
+    content: csr_array = field(compare=False, repr=False)
+
+    @classmethod
+    def of(cls, content: csr_array) -> _Matrix:
+        digest = hashlib.sha256(content.data.tobytes())
+        digest.update(content.indices.tobytes())
+        return cls(digest.hexdigest(), content)
+
+
+@lru_cache(maxsize=1)
+def _solver(matrix: _Matrix) -> SparseSolver:
+    """The factor of a body, which all subspaces of it share: it takes longer than their modes."""
+    return SparseSolver(matrix.content, per_vertex=3)
 
 
 def vibration_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSubspace:
