@@ -95,6 +95,7 @@ EXPORTS = {
         "solve_snapshots",
     ),
     "subspace": ("AffineSubspace", "affine_subspace", "pca", "snapshot_pca"),
+    "timeline": ("Key", "Timeline", "read_timeline", "write_timeline"),
     "validation": (
         "ErrorCurve",
         "ErrorSplit",

@@ -105,6 +105,7 @@ from .subspace import (
     pca,
     snapshot_pca,
 )
+from .timeline import Key, Timeline, read_timeline, write_timeline
 from .validation import (
     ErrorCurve,
     ErrorSplit,
@@ -149,6 +150,7 @@ __all__ = [
     "InterpolationModel",
     "InterpolationProblem",
     "Interrupted",
+    "Key",
     "Material",
     "MendedSurface",
     "MeshNotice",
@@ -178,6 +180,7 @@ __all__ = [
     "SurfaceReport",
     "SymmetricDirichlet",
     "TetMesh",
+    "Timeline",
     "UnsavedSamplesError",
     "Validation",
     "accurate_model",
@@ -211,6 +214,7 @@ __all__ = [
     "read_problem_surface",
     "read_surface",
     "read_tets",
+    "read_timeline",
     "reduce",
     "registered",
     "repair_tets",
@@ -227,4 +231,5 @@ __all__ = [
     "write_glb",
     "write_surface",
     "write_tets",
+    "write_timeline",
 ]

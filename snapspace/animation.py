@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import json
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .disk import atomic_file
 from .gltf import fitted_targets, write_glb
 from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, write_surface, write_tets
 from .reduction import ReducedModel
+
+#: Formats that ParaView reads, with a list of the files beside them.
+_SERIES = (".vtu", ".vtk")
 
 
 def write_animation(
@@ -38,9 +43,10 @@ def write_animation(
     kind : str, default that of the user's surface, or obj
         Format of the files in a folder: a surface as obj, ply, off or stl, or all tets as msh, vtu,
         vtk or mesh. In the format of the file that the surface came from (also glb and gltf) it is
-        that file with other positions, see `SurfaceFile`; in others it has triangles only.
+        that file with other positions, see `SurfaceFile`; in others it has triangles only. With
+        vtu and vtk there is also frames.vtu.series, which ParaView opens with the times.
     frames_per_second : float, default 30
-        The frame rate of a film or a .glb.
+        The frame rate of a film, a .glb or a series for ParaView.
     **picture
         Options for a film: size, azimuth, elevation, up (default: that of the model), colors and
         others, see `pictures.save_film`. A .glb takes up, colors, and targets: the largest number
@@ -83,7 +89,7 @@ def write_animation(
             "folder; give a name that ends in .gif, .mp4 or .glb"
         )
     suffix = f".{kind}" if kind else usual_suffix(model.surface)
-    return _written(target, model, shapes, suffix)
+    return _written(target, model, shapes, suffix, frames_per_second)
 
 
 def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) -> None:
@@ -113,7 +119,11 @@ def usual_suffix(surface: EmbeddedSurface) -> str:
 
 
 def _written(
-    folder: Path, model: ReducedModel, shapes: Iterable[ArrayLike], suffix: str
+    folder: Path,
+    model: ReducedModel,
+    shapes: Iterable[ArrayLike],
+    suffix: str,
+    frames_per_second: float,
 ) -> list[Path]:
     allowed = shape_suffixes(model.surface)
     if suffix not in allowed:
@@ -136,7 +146,17 @@ def _written(
         file = folder / f"frame-{number:04d}{suffix}"
         write_shape(file, model, vertices)
         files.append(file)
+    if suffix in _SERIES:
+        _write_series(folder / f"frames{suffix}.series", files, frames_per_second)
     return files
+
+
+def _write_series(path: Path, files: Sequence[Path], frames_per_second: float) -> None:
+    """The list of files with their times in seconds, which ParaView opens as one."""
+    entries = [{"name": f.name, "time": k / frames_per_second} for k, f in enumerate(files)]
+    content = {"file-series-version": "1.0", "files": entries}
+    with atomic_file(path) as temporary:
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
 
 
 def _checked(shape: ArrayLike, model: ReducedModel) -> NDArray[np.float64]:

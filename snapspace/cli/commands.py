@@ -8,6 +8,7 @@ import click
 
 #: The commands, each in the module of its name, with its line in the program's help.
 COMMANDS = {
+    "animate": "Solve a timeline and write its frames.",
     "blend": "Blend poses and write the shapes.",
     "build": "Make a model from a problem.",
     "check": "Say what is wrong with a surface or mesh, and mend it.",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..disk.atomic_file import atomic_file
 from ..reduction import ReducedModel
-from .pack import packed
+from .pack import packed, packed_name
 from .page_file import PLACE, page_html
 
 SUFFIXES = (".html", ".htm")
@@ -32,14 +32,15 @@ def page_with_model(model: ReducedModel, *, title: str, up: str | None = None) -
     ValueError
         For an unknown axis, or if the package was built without its page.
     """
-    return page_with_packed(packed(model, name=title, up=up), title=title)
+    return page_with_packed(packed(model, name=title, up=up))
 
 
-def page_with_packed(content: bytes, *, title: str) -> str:
-    """The page as HTML text, with the content of `packed` embedded.
+def page_with_packed(content: bytes) -> str:
+    """The page as HTML text, with the content of `packed` embedded, and its name as the title.
 
     ValueError if the package was built without its page.
     """
+    title = packed_name(content)
     encoded = base64.b64encode(content).decode("ascii")
     # the page checks it before it shows the model
     checksum = f"{zlib.crc32(content):08x}"

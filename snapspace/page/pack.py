@@ -108,6 +108,13 @@ def packed(
     return safetensors_bytes(arrays | estimator_arrays(model), header)
 
 
+def packed_name(content: bytes) -> str:
+    """The name in the content of `packed`."""
+    size = int.from_bytes(content[:8], "little")  # of the safetensors header
+    about = json.loads(content[8 : 8 + size])["__metadata__"]["about"]
+    return str(json.loads(about)["name"])
+
+
 def _modes_in_other(before: PosingModel, model: PosingModel) -> NDArray[np.float32]:
     """The d' modes of one model in those of another, (d, d'): the closest ones in the M-norm."""
     subspace = model.subspace

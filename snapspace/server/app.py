@@ -49,12 +49,12 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
         Route("/mesh", upload_endpoint(settings, workspaces), methods=["POST"]),
         Route("/mesh/{id}/{number:int}", _content(workspaces, Workspace.mesh_content)),
         Route("/model/{id}/{number:int}", _content(workspaces, Workspace.model_content)),
-        Route("/page/{id}/{number:int}", _content(workspaces, Workspace.page_content)),
+        Route("/page/{id}/{number:int}", _content(workspaces, _page_content)),
         WebSocketRoute("/live", live_endpoint(workspaces)),
     ]
     if settings.model is not None:
         content = packed(settings.model, name=settings.title, up=settings.up)
-        page = page_with_packed(content, title=settings.title).encode()
+        page = page_with_packed(content).encode()
         routes += [Route("/model", _bytes(content)), Route("/page", _bytes(page))]
     return Starlette(
         routes=routes, middleware=[Middleware(Guard, token=settings.token, hosts=hosts)]
@@ -77,6 +77,11 @@ def _page(settings: ServerSettings) -> Handler:
         return HTMLResponse(page)
 
     return show_page
+
+
+def _page_content(workspace: Workspace, number: int) -> bytes | None:
+    content = workspace.model_content(number)
+    return None if content is None else page_with_packed(content).encode()
 
 
 def _bytes(content: bytes) -> Handler:

@@ -13,7 +13,7 @@ from pathlib import Path
 from ..accurate import MOTIONS, Growth
 from ..material import DEFAULT_MATERIAL
 from ..model_file import SUFFIX, load
-from ..page import packed, page_with_packed
+from ..page import packed
 from ..reduction import PosingModel, ReducedModel
 from ..stopping import check_stop
 from . import messages
@@ -135,13 +135,6 @@ class Workspace:
         """The packed model of an address; None if it is no longer kept."""
         kept = self._models.find(number)
         return None if kept is None else kept.content
-
-    def page_content(self, number: int) -> bytes | None:
-        """A page in one file with the model of an address; None if it is no longer kept."""
-        kept = self._models.find(number)
-        if kept is None:
-            return None
-        return page_with_packed(kept.content, title=self._current_session().body.name).encode()
 
     def close(self) -> None:
         """Stops all work, and drops its results."""

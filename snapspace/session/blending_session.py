@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,13 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from .. import _core as core
 from ..certificate import BlendingProbe, ResidualSample
 from ..reduction import FullBlends, InterpolationModel, PoseQuartics
+from ..timeline import Timeline
 from .display_shapes import Vertices
 from .frame_report import FrameReport
 from .full_loop import FullBlendingLoop
 from .given_coordinates import given_coordinates
 from .posing_loop import SINGLE_CUBATURE
 from .session import Session
-from .trajectory import between_rows, checked_path
+from .trajectory import between_rows, keyed
 
 FloatArray = NDArray[np.float64]
 
@@ -86,7 +87,11 @@ class BlendingSession(Session[InterpolationModel]):
         return report
 
     def animate(
-        self, keys: Sequence[ArrayLike], *, frames: int = 60, easing: str = "smooth"
+        self,
+        keys: Sequence[ArrayLike] | Timeline,
+        *,
+        frames: int | None = None,
+        easing: str = "smooth",
     ) -> Iterator[FrameReport]:
         """Blends from the current weights through keys, frame by frame.
 
@@ -94,11 +99,12 @@ class BlendingSession(Session[InterpolationModel]):
 
         Parameters
         ----------
-        keys : sequence of weights (poses,), as for `blend`
-        frames : int, default 60
+        keys : sequence of weights (poses,), as for `blend`, or a Timeline
+            A timeline begins with its first key.
+        frames : int, default 60, and for a timeline 30 a second
             Number of frames. The first has the current weights, the last is the last key.
         easing : "smooth" or "linear", default "smooth"
-            Whether each leg begins and ends slowly.
+            Whether each leg begins and ends slowly; the keys of a timeline have their own.
 
         Yields
         ------
@@ -109,11 +115,16 @@ class BlendingSession(Session[InterpolationModel]):
         ------
         ValueError
             As for `blend`, and if there are no keys, for fewer than two frames or an unknown
-            easing; the shape stays as it was.
+            easing, a timeline of motions or an unknown pose; the shape stays as it was.
         """
-        weights = [self.model.problem.weights(key) for key in keys]
-        states = np.array([self._weights, *weights])
-        path = between_rows(states, *checked_path(frames, len(states), easing))
+        problem = self.model.problem
+        given, shares, anew = keyed(keys, frames, easing, "interpolation")
+        if anew:
+            rows = [_named(weights, problem.poses.names) for weights in given]
+            states = np.array([problem.weights(row, extrapolate=True) for row in rows])
+        else:
+            states = np.array([self._weights, *(problem.weights(key) for key in given)])
+        path = between_rows(states, shares)
         return (self.blend(w, extrapolate=True) for w in path)
 
     def put(self, weights: ArrayLike, q: ArrayLike) -> None:
@@ -234,3 +245,13 @@ class BlendingSession(Session[InterpolationModel]):
         if single:
             raise ValueError(SINGLE_CUBATURE)
         return core.BlendedCubatureLoop(*blends.core_arguments)
+
+
+def _named(weights: Mapping[str, float], names: Sequence[str]) -> FloatArray:
+    """Weights (poses,) by the names of some poses; the others are zero."""
+    row = np.zeros(len(names))
+    for name, weight in weights.items():
+        if name not in names:
+            raise ValueError(f"animate: unknown pose '{name}'; known are {', '.join(names)}")
+        row[list(names).index(name)] = weight
+    return row

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..certificate import PosingProbe, ResidualSample
 from ..reduction import PosingModel
+from ..timeline import Timeline
 from .display_shapes import Vertices
 from .finite_input import finite
 from .frame_report import FrameReport
@@ -22,7 +23,7 @@ from .posing_loop import posing_loop
 from .sample_starts import SampleStarts
 from .sampled_box import is_inside
 from .session import Session
-from .trajectory import between_maps, checked_path
+from .trajectory import between_maps, keyed
 
 FloatArray = NDArray[np.float64]
 
@@ -65,9 +66,8 @@ class PosingSession(Session[PosingModel]):
     ) -> FrameReport:
         """Moves a handle rigidly from rest, about its centroid, and solves.
 
-        The motion is absolute: moving twice to the same place is moving once. The first handle,
-        which was fixed while sampling, may move as well: the problem is solved relative to it, so
-        that the same rigid motion of all handles carries the shape along rigidly.
+        The motion is absolute: moving twice to the same place is moving once. The first handle may
+        move as well: the same rigid motion of all handles carries the shape along rigidly.
 
         Parameters
         ----------
@@ -105,7 +105,11 @@ class PosingSession(Session[PosingModel]):
         return self._solve_at(*self._moved(self._wanted(motions, who="move")))
 
     def animate(
-        self, keys: Sequence[Mapping[str, Motion]], *, frames: int = 60, easing: str = "smooth"
+        self,
+        keys: Sequence[Mapping[str, Motion]] | Timeline,
+        *,
+        frames: int | None = None,
+        easing: str = "smooth",
     ) -> Iterator[FrameReport]:
         """Moves the handles from where they are through keys, frame by frame.
 
@@ -114,36 +118,34 @@ class PosingSession(Session[PosingModel]):
 
         Parameters
         ----------
-        keys : sequence of mappings as for `move_all`
-            A handle that a key does not name stays where it was at the previous key.
-        frames : int, default 60
+        keys : sequence of mappings as for `move_all`, or a Timeline
+            A handle that a key does not name stays where it was at the previous key. A timeline
+            begins with its first key, with all other handles at rest.
+        frames : int, default 60, and for a timeline 30 a second
             The first has the handles where they are now, and the last is the last key.
         easing : "smooth" or "linear", default "smooth"
-            Whether each leg begins and ends slowly.
+            Whether each leg begins and ends slowly; the keys of a timeline have their own.
 
-        Yields
-        ------
-        FrameReport
-            The report of each frame, once it is solved.
+        Yields a FrameReport of each frame, once it is solved.
 
         Raises
         ------
         ValueError
-            As for `move_all`, without keys, for fewer than two frames or an unknown easing, or if a
-            handle is at an affine map that is not a rigid motion. Then no handle moves.
+            As for `move_all`, without keys, for fewer than two frames or an unknown easing, if a
+            handle is at an affine map that is not rigid, or for a timeline of weights.
 
         Examples
         --------
-        >>> nod = session.animate([{"head": ((0, 0.6, 0), (0, 0, 0))}], frames=48)
-        >>> shapes = [session.vertices for _ in nod]
+        >>> shapes = [session.vertices for _ in session.animate(read_timeline("nod.json"))]
         """
         if not all(is_rotation(linear) for linear in self._maps[:, :, :3]):
             raise ValueError("animate: a handle is at a map that is not rigid; call reset() first")
-        states = [self._maps]
-        for key in keys:
-            states.append(self._with(self._wanted(key, who="animate"), states[-1]))
+        motions, shares, anew = keyed(keys, frames, easing, "posing")
         centers = self.model.problem.centroids
-        path = between_maps(np.array(states), centers, *checked_path(frames, len(states), easing))
+        states = [np.tile(np.eye(3, 4), (len(centers), 1, 1)) if anew else self._maps]
+        for key in motions:
+            states.append(self._with(self._wanted(key, who="animate"), states[-1]))
+        path = between_maps(np.array(states[anew:]), centers, shares)
         return (self._solve_at(maps, relative_offsets(maps, centers)) for maps in path)
 
     def move_affine(self, handle: str, matrix: ArrayLike) -> FrameReport:

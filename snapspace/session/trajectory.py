@@ -2,28 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
+from ..timeline import Timeline
+
 FloatArray = NDArray[np.float64]
 
 EASINGS = ("linear", "smooth")
+#: Default number of frames of a path, and frames per second of a timeline.
+FRAMES, RATE = 60, 30.0
 
 
-def checked_path(frames: int, keys: int, easing: str) -> tuple[int, str]:
-    """Frames and easing; ValueError for fewer than two frames or keys, or an unknown easing."""
+def path_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float]]:
+    """`key_shares`; ValueError for fewer than two frames or keys, or an unknown easing."""
     if easing not in EASINGS:
         raise ValueError(f"animate: unknown easing '{easing}'; known are {', '.join(EASINGS)}")
     if keys < 2:
         raise ValueError("animate: no keys are given, but at least one is needed")
+    return key_shares(checked_frames(frames), keys, easing)
+
+
+def checked_frames(frames: int) -> int:
+    """`frames`; ValueError for fewer than two."""
     if frames < 2:
         raise ValueError(
             f"animate: frames is {frames}, but at least two are needed, the first and the last"
         )
-    return frames, easing
+    return frames
+
+
+def keyed(
+    keys: Sequence[Any] | Timeline, frames: int | None, easing: str, kind: str
+) -> tuple[list[Any], Iterator[tuple[int, float]], bool]:
+    """States of keys, `key_shares` of a path through them, and whether it begins at the first.
+
+    A timeline does, and has 30 frames a second by default; other keys are led to from where the
+    session is, in 60 frames. ValueError as for `path_shares`, and for a timeline of another kind.
+    """
+    if not isinstance(keys, Timeline):
+        states = list(keys)
+        return (
+            states,
+            path_shares(FRAMES if frames is None else frames, len(states) + 1, easing),
+            False,
+        )
+    if keys.kind != kind:
+        raise ValueError(
+            f"animate: the timeline is of kind '{keys.kind}', but the model of '{kind}'"
+        )
+    count = keys.frame_count(RATE) if frames is None else checked_frames(frames)
+    return [key.state for key in keys.keys], keys.shares(count), True
 
 
 def key_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float]]:
@@ -40,22 +73,22 @@ def key_shares(frames: int, keys: int, easing: str) -> Iterator[tuple[int, float
         yield leg, share * share * (3.0 - 2.0 * share) if easing == "smooth" else share
 
 
-def between_rows(keys: FloatArray, frames: int, easing: str) -> Iterator[FloatArray]:
-    """Rows on the straight lines between the rows of keys (k, p)."""
-    for key, share in key_shares(frames, len(keys), easing):
+def between_rows(keys: FloatArray, shares: Iterable[tuple[int, float]]) -> Iterator[FloatArray]:
+    """Rows on the straight lines between the rows of keys (k, p), for shares as of `key_shares`."""
+    for key, share in shares:
         row = keys[key]
         yield row if share == 0.0 else (1.0 - share) * row + share * keys[key + 1]
 
 
 def between_maps(
-    keys: FloatArray, centers: FloatArray, frames: int, easing: str
+    keys: FloatArray, centers: FloatArray, shares: Iterable[tuple[int, float]]
 ) -> Iterator[FloatArray]:
-    """Rigid maps (h, 3, 4) on the path through keys (k, h, 3, 4).
+    """Rigid maps (h, 3, 4) on the path through keys (k, h, 3, 4), for shares as of `key_shares`.
 
     On each leg a center moves straight, and its handle turns about one axis at a constant rate, by
     the smaller of the two angles.
     """
-    for key, share in key_shares(frames, len(keys), easing):
+    for key, share in shares:
         if share == 0.0:
             yield keys[key]
             continue

@@ -103,7 +103,9 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "snapshots",
         "subspace",
+        "timeline",
     },
+    "timeline": {"disk", "mesh", "problem"},
     "calibration": {
         "certificate",
         "mesh",
@@ -115,7 +117,7 @@ ALLOWED: dict[str, set[str]] = {
         "validation",
     },
     "gltf": {"blas", "disk", "mesh", "reduction"},
-    "animation": {"gltf", "mesh", "pictures", "reduction"},
+    "animation": {"disk", "gltf", "mesh", "pictures", "reduction"},
     "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace"},
     "server": {
         "accurate",

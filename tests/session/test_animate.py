@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from snapspace import BlendingSession, InterpolationModel, PosingModel, PosingSession
-from snapspace.session.trajectory import between_maps
+from snapspace.session.trajectory import between_maps, key_shares
 
 KEY: dict[str, Any] = {"head": ((0.2, 0.0, 0.4), (0.0, 0.1, 0.2))}
 
@@ -53,7 +53,7 @@ def test_centers_move_straight_and_bodies_turn_evenly() -> None:
     first = np.eye(3, 4)[None]
     matrix = turn.as_matrix()
     last = np.column_stack([matrix, target - matrix @ centers[0]])[None]
-    path = list(between_maps(np.array([first, last]), centers, 5, "linear"))
+    path = list(between_maps(np.array([first, last]), centers, key_shares(5, 2, "linear")))
     for share, maps in zip(np.linspace(0, 1, 5), path, strict=True):
         position = maps[0, :, :3] @ centers[0] + maps[0, :, 3]
         np.testing.assert_allclose(position, (1 - share) * centers[0] + share * target, atol=1e-12)

@@ -5,7 +5,7 @@ import type { Failed, Model, Progress, Workspace as Given } from "../engine/mess
 import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
 import { CHOOSING, keepHash, motionsOf } from "./address.ts";
 import { ConnectionNotice } from "./connection_notice.ts";
-import { downloadFrom } from "./download.ts";
+import { exportPage } from "./export_page.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import { ComputePanel } from "./compute_panel.ts";
@@ -53,7 +53,7 @@ export class Workspace {
       compute: () => void this.#try(() => this.#compute()),
       cancel: () => void this.#try(() => this.#cancel()),
       save: () => void this.#try(() => this.#save()),
-      exportPage: () => this.#exportPage(),
+      exportPage: () => exportPage(this.#model!),
       choose: () => void this.#try(() => this.#backToChoosing()),
       pose: () => void this.#try(() => this.#pose()),
     });
@@ -232,18 +232,9 @@ export class Workspace {
 
   async #save(): Promise<void> {
     if (this.#posing === null) await this.#sendChoice();
-    const { message } = await this.#server.ask(
-      { type: "save", name: null, up: this.#shell.stage.up },
-      "saved",
-    );
+    const order = { type: "save", name: null, up: this.#shell.stage.up } as const;
+    const { message } = await this.#server.ask(order, "saved");
     this.#panel.saved(message, this.#given!.folder);
-  }
-
-  /** A page in one file with the newest model; the server makes it. */
-  #exportPage(): void {
-    const { sent, content } = this.#model!;
-    const address = new URL(sent.address.replace(/^model/, "page"), location.href);
-    downloadFrom(address, `${content.name}.html`);
   }
 
   #progress(progress: Progress): void {

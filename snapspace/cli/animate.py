@@ -1,0 +1,124 @@
+"""`snapspace animate`: solves a timeline and writes its frames."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+
+from ..animation import write_animation
+from ..reduction import InterpolationModel, PosingModel
+from ..timeline import read_timeline
+from .console import notice, print_facts, print_json
+from .frames import check_frames_output, format_option, is_film, notice_old_frames, rate_option
+from .glb import write_path
+from .loading import load_leading
+from .options import FILE, json_option, leading_option, up_option
+from .own_surface import check_own_output, surface_option, with_surface
+from .pose_path import handle_colors
+from .progress import spinner
+
+
+@click.command(short_help="Solve a timeline and write its frames.")
+@click.argument("model_file", type=FILE, metavar="M.snapspace")
+@click.argument("timeline_file", type=FILE, metavar="TIMELINE.json")
+@click.option(
+    "-o",
+    "--output",
+    type=FILE,
+    metavar="DIR|FILE",
+    help="A folder for numbered files, a film as .gif or .mp4, or an animated mesh as .glb.",
+)
+@format_option
+@rate_option
+@surface_option
+@up_option
+@leading_option
+@json_option
+def animate(
+    model_file: Path,
+    timeline_file: Path,
+    output: Path | None,
+    kind: str | None,
+    frames_per_second: float | None,
+    surface_file: Path | None,
+    up: str | None,
+    dimension: int | None,
+    as_json: bool,
+) -> None:
+    """Solve a timeline, as the page saves it, and write its frames.
+
+    Every frame is solved; shapes are not interpolated. In a folder, --format vtu also writes
+    frames.vtu.series, which ParaView opens with the times.
+
+    \b
+    Examples:
+      snapspace animate creature.snapspace wave.json -o wave.glb
+      snapspace animate creature.snapspace wave.json -o frames --format vtu
+    """
+    timeline = read_timeline(timeline_file)
+    film = is_film(output)
+    check_frames_output(output, kind=kind, frames_per_second=frames_per_second if film else None)
+    loaded: Any = load_leading(model_file, dimension)
+    model: PosingModel | InterpolationModel = with_surface(loaded, surface_file)
+    check_own_output(loaded, output, kind, path=True)
+    rate = frames_per_second or 30.0
+    session = model.session()
+    count = timeline.frame_count(rate)
+    begin = time.perf_counter()
+    shapes, reports = [], []
+    for report in session.animate(timeline, frames=count):
+        reports.append(report)
+        shapes.append(session.vertices)
+    seconds = time.perf_counter() - begin
+    failed = [report for report in reports if not report.converged]
+    if failed:
+        notice(
+            f"notice: {len(failed)} of {count} solves ended with {failed[0].status}; those shapes "
+            "may be poor"
+        )
+    colors = handle_colors(model) if isinstance(model, PosingModel) else None
+    shown_up = up or model.up
+    files: list[Path] = []
+    with spinner("writing the frames"):
+        if output is not None and output.suffix.lower() == ".glb":
+            files = write_path(
+                output, model, shapes, up=shown_up, frames_per_second=rate, colors=colors
+            )
+        elif output is not None and film:
+            painted: dict[str, Any] = {} if colors is None else {"colors": colors}
+            files = write_animation(
+                output, model, shapes, frames_per_second=rate, up=shown_up, **painted
+            )
+        elif output is not None:
+            notice_old_frames(output, count)
+            files = write_animation(output, model, shapes, kind=kind, frames_per_second=rate)
+    solve = 1e3 * float(np.median([report.seconds for report in reports]))
+    facts = [
+        ("timeline", f"{len(timeline.keys)} keys, {timeline.duration:g} s"),
+        ("frames", f"{count} at {rate:g} a second, {count - len(failed)} converged"),
+        ("solve", f"{solve:.2f} ms"),
+        ("written", _written(files)),
+    ]
+    print_facts("animated", facts)
+    if as_json:
+        print_json(
+            {
+                "keys": len(timeline.keys),
+                "frames": count,
+                "converged": count - len(failed),
+                "solve_ms": solve,
+                "seconds": seconds,
+                "written": [str(file) for file in files],
+            }
+        )
+
+
+def _written(files: list[Path]) -> str:
+    if not files:
+        return "nothing; -o DIR or -o FILE.glb keeps the frames"
+    more = f" and {len(files) - 1} more" if len(files) > 1 else ""
+    return f"{files[0]}{more}"

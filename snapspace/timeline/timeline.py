@@ -1,0 +1,102 @@
+"""Timeline: keys in time, and how one leads to the next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import floor, isfinite
+from typing import Any
+
+#: How the time from a key to the next is used: slowly at both ends, evenly, or not at all.
+EASINGS = ("smooth", "linear", "hold")
+KINDS = ("posing", "interpolation")
+
+
+@dataclass(frozen=True)
+class Key:
+    """Where handles or weights are at a time.
+
+    time : seconds, not negative
+    state : for posing, motions from rest by handle, as `PosingSession.move_all` takes them, where a
+        handle without one stays as in the key before; for blending, weights by pose, where a pose
+        without one has zero
+    easing : "smooth", "linear" or "hold", default "smooth"; how the next key is approached
+    """
+
+    time: float
+    state: Mapping[str, Any]
+    easing: str = "smooth"
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """Keys in the order of their times.
+
+    kind : "posing" or "interpolation", as of models
+    keys : one or more, with increasing times
+    loop : bool, default False; whether players begin again at the end
+
+    ValueError for an unknown kind or easing, no keys, and times that are negative, not finite or
+    not increasing.
+    """
+
+    kind: str
+    keys: tuple[Key, ...]
+    loop: bool = False
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise ValueError(f"Timeline: unknown kind '{self.kind}'; known are {', '.join(KINDS)}")
+        if not self.keys:
+            raise ValueError("Timeline: there are no keys, but at least one is needed")
+        for number, key in enumerate(self.keys):
+            if not (isfinite(key.time) and key.time >= 0.0):
+                raise ValueError(
+                    f"Timeline: key {number} is at {key.time} s, but times are 0 or more"
+                )
+            if key.easing not in EASINGS:
+                raise ValueError(
+                    f"Timeline: key {number} has the easing '{key.easing}'; known are "
+                    f"{', '.join(EASINGS)}"
+                )
+        for number, (before, after) in enumerate(pairwise(self.keys), start=1):
+            if after.time <= before.time:
+                raise ValueError(
+                    f"Timeline: key {number} is at {after.time} s, not after the one before it, "
+                    f"at {before.time} s"
+                )
+
+    @property
+    def duration(self) -> float:
+        """Seconds from the first key to the last."""
+        return self.keys[-1].time - self.keys[0].time
+
+    def frame_count(self, frames_per_second: float) -> int:
+        """Frames at a rate, including both ends; two at least."""
+        return max(2, floor(self.duration * frames_per_second + 1e-9) + 1)
+
+    def shares(self, frames: int) -> Iterator[tuple[int, float]]:
+        """For evenly spaced frames, the index of a key each, and the share of the way to the next.
+
+        The first frame is the first key, and the last frame is the last key.
+        """
+        first, last = self.keys[0].time, len(self.keys) - 1
+        at = 0
+        for frame in range(frames):
+            time = first + self.duration * frame / (frames - 1)
+            while at < last and self.keys[at + 1].time <= time + 1e-12 * (1.0 + time):
+                at += 1
+            if at == last or frame == frames - 1:
+                yield last, 0.0
+                continue
+            key = self.keys[at]
+            share = max(0.0, (time - key.time) / (self.keys[at + 1].time - key.time))
+            yield at, eased(share, key.easing)
+
+
+def eased(share: float, easing: str) -> float:
+    """The share of the way after a share of the time; "smooth" is 3 s^2 - 2 s^3."""
+    if easing == "hold":
+        return 0.0
+    return share * share * (3.0 - 2.0 * share) if easing == "smooth" else share

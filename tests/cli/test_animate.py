@@ -1,0 +1,40 @@
+"""`snapspace animate`: frames of a timeline."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from snapspace import Key, PosingModel, Timeline, write_timeline
+from snapspace.mesh import read_surface
+
+from .conftest import Run
+
+NOD = {"head": ((0.0, 0.0, 0.4), (0.0, 0.1, 0.2))}
+
+
+def test_frames_and_an_animated_mesh_are_written(
+    run: Run, posing_model: PosingModel, tmp_path: Path
+) -> None:
+    model = tmp_path / "bar.snapspace"
+    posing_model.save(model)
+    timeline = tmp_path / "nod.json"
+    write_timeline(timeline, Timeline("posing", (Key(0.0, {}), Key(0.5, NOD))))
+    out = run("animate", model, timeline, "-o", tmp_path / "frames", "--fps", 10, "--json").out
+    figures = json.loads(out)
+    assert figures["frames"] == figures["converged"] == 6 and figures["keys"] == 2
+    session = posing_model.session()
+    session.move_all(NOD)
+    vertices, _ = read_surface(figures["written"][-1])
+    wanted = posing_model.surface.vertices(session.vertices)
+    assert abs(vertices - wanted).max() < 1e-4
+    run("animate", model, timeline, "-o", tmp_path / "nod.glb")
+    assert (tmp_path / "nod.glb").read_bytes()[:4] == b"glTF"
+
+
+def test_a_wrong_timeline_is_one_line(run: Run, posing_model: PosingModel, tmp_path: Path) -> None:
+    model = tmp_path / "bar.snapspace"
+    posing_model.save(model)
+    timeline = tmp_path / "a.json"
+    write_timeline(timeline, Timeline("posing", (Key(0.0, {"tail": NOD["head"]}),)))
+    assert "tail" in run("animate", model, timeline).error
