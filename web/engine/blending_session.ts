@@ -71,6 +71,18 @@ export class BlendingSession {
     return report;
   }
 
+  /** Coordinates of the shapes for weights; the present shape stays. */
+  shapesAt(states: readonly (readonly number[])[]): Float64Array[] {
+    const [weights, q] = [this.#weights, this.q];
+    const found = states.map((state) => {
+      this.blend(state);
+      return this.q;
+    });
+    this.#set(weights);
+    this.#core.q = q;
+    return found;
+  }
+
   /** Moves time on by dt seconds, in which the weights become these: the shape swings after them. */
   step(dt: number, weights: readonly number[] = this.#weights): FrameReport {
     this.#check(weights);

@@ -97,6 +97,12 @@ export class PosingSession {
     return report;
   }
 
+  /** Goes back to a frame that was solved before: motions of all handles from rest, and its coordinates. */
+  restore(motions: readonly Motion[], q: ArrayLike<number>): void {
+    this.#set(this.#mapsOf(new Map(motions.entries())));
+    this.#core.q = q;
+  }
+
   /** Moves time on by dt seconds, in which some handles come to motions from rest: the body swings after them. */
   step(dt: number, motions: ReadonlyMap<number, Motion> = new Map()): FrameReport {
     const [before, last] = [this.#maps, this.time.moving(this.#maps[0])];

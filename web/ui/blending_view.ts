@@ -8,12 +8,15 @@ import { blendHash, keepHashSoon } from "./address.ts";
 import { chooser, enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
+import { Ghosts } from "./ghosts.ts";
 import { Hud } from "./hud.ts";
 import { Jiggle } from "./jiggle.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
+import { weightStates } from "./key_states.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import {
   allWeights,
+  choiceOfWeights,
   firstChoice,
   givenChoice,
   inEqualParts,
@@ -24,6 +27,7 @@ import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import { thumbnail } from "./thumbnail.ts";
+import { TimelinePanel } from "./timeline_panel.ts";
 import type { View, ViewOptions } from "./view.ts";
 
 /** Blending: a shape between poses, and beside it the straight blend if that is asked for. */
@@ -62,6 +66,7 @@ export async function blendingView(
 
   const ask = (asked: PoseChoice) => {
     path.play(false);
+    timeline.play(false);
     play.setAttribute("aria-pressed", "false");
     hud.remark("");
     choice = asked;
@@ -149,6 +154,21 @@ export async function blendingView(
     if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
   const look = lookSection(stage, [elastic, straight], model, options.up);
+  const ghosts = new Ghosts(stage, () => make(model.space));
+  const timeline = new TimelinePanel<readonly number[]>(stage, {
+    name: model.name,
+    states: weightStates(model.poses),
+    state: () => allWeights(choice, model.poses.length),
+    show: (weights) => {
+      choice = choiceOfWeights(weights);
+      showChoice();
+      stage.draw();
+    },
+    settle: keep,
+    ghosts: (states) =>
+      ghosts.show(session.shapesAt(states).map((q) => ({ coefficients: q, carriedBy: null }))),
+    bare: () => () => {},
+  });
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
@@ -157,6 +177,7 @@ export async function blendingView(
     bare: () => () => {},
   });
   stage.beforeFrame = (seconds) => {
+    timeline.advance(seconds);
     if (path.playing) walk(seconds);
     else solve(seconds);
     look.legend.look();
@@ -169,7 +190,7 @@ export async function blendingView(
     for (const surface of [elastic, straight]) surface.refresh();
   };
   stage.afterFrame = () => {
-    if (path.playing || jiggle.moves) stage.draw();
+    if (path.playing || jiggle.moves || timeline.isPlaying) stage.draw();
   };
   const stop = new AbortController();
   listenToBlendingKeys(play, panel.search, stop.signal);
@@ -199,6 +220,7 @@ export async function blendingView(
         stage.draw();
       }),
       jigglePanel(jiggle, () => stage.draw(), null),
+      timeline.element,
       look.element,
       takeAway.element,
       ...chooser(options.choose),
@@ -210,10 +232,12 @@ export async function blendingView(
       straight: () => straight.shown(),
       strains: () => elastic.strains(),
       onGpu: elastic.onGpu,
+      timeline,
     },
     dispose: () => {
       stop.abort();
       takeAway.dispose();
+      ghosts.clear();
       stage.beforeFrame = () => {};
       stage.afterFrame = () => {};
       stage.restored = () => {};

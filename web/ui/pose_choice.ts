@@ -34,6 +34,14 @@ export function givenChoice(
   return { poses: taken, weights: given.weights.map((weight) => weight / sum) };
 }
 
+/** The choice for one weight per pose: of many poses those that have one. */
+export function choiceOfWeights(weights: readonly number[]): PoseChoice {
+  const all = weights.map((_, pose) => pose);
+  const poses =
+    all.length > MOST_CHOSEN ? all.filter((pose) => weights[pose] !== 0).slice(0, MOST_CHOSEN) : all;
+  return { poses, weights: poses.map((pose) => weights[pose]) };
+}
+
 export function inEqualParts(poses: readonly number[]): PoseChoice {
   return { poses, weights: poses.map(() => 1 / poses.length) };
 }

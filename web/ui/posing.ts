@@ -3,6 +3,7 @@ import { Color } from "three";
 import type { Dynamics, FrameReport, Motion, PosingSession } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
+import type { Ghost } from "./ghosts.ts";
 import { History } from "./history.ts";
 import { Jiggle } from "./jiggle.ts";
 import { approach } from "./motion_parts.ts";
@@ -229,6 +230,18 @@ export class Posing {
     this.onChange();
   }
 
+  /** The shapes for motions of all handles; the present one stays. */
+  shapesAt(states: readonly (readonly Motion[])[]): Ghost[] {
+    if (states.length === 0) return [];
+    const [now, { q }] = [this.motions, this.session];
+    const found = states.map((motions) => {
+      this.session.moveAll(new Map(motions.entries()));
+      return { coefficients: this.session.q, carriedBy: this.session.carriedBy };
+    });
+    this.session.restore(now, q);
+    return found;
+  }
+
   set dimension(dimension: number) {
     this.session.dimension = dimension;
     this.#solved(this.session.solve());
@@ -263,10 +276,7 @@ export class Posing {
 
   #show(): void {
     this.surface.show(this.#shown);
-    const { rotation: R, shift: t } = this.session.carriedBy;
-    const { matrix } = this.surface.object;
-    matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);
-    this.surface.object.matrixWorldNeedsUpdate = true;
+    this.surface.carry(this.session.carriedBy);
   }
 
   /** Colours all of a new surface. */

@@ -7,7 +7,7 @@ const STEP = 0.015; // of the diagonal
 const TURN = Math.PI / 36;
 
 /** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, T, R, F, W, J,
- * Escape. In a drag Escape takes it back, and no other key does anything. */
+ * K, P, Escape. In a drag Escape takes it back, and no other key does anything. */
 export function listenToKeys(posing: Posing, signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => handle(posing, event), { signal });
 }
@@ -44,6 +44,8 @@ function letter(posing: Posing, key: string): boolean {
   else if (key === "f") document.getElementById("frame")?.click();
   else if (key === "w") document.getElementById("wires")?.click();
   else if (key === "j") document.getElementById("jiggle")?.click();
+  else if (key === "k") document.getElementById("add-key")?.click();
+  else if (key === "p") document.getElementById("play-keys")?.click();
   else return false;
   return true;
 }

@@ -12,6 +12,7 @@ import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
 import { Marks } from "./posing_marks.ts";
+import { posingTimeline } from "./posing_timeline.ts";
 import { Readout } from "./readout.ts";
 import type { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
@@ -35,6 +36,7 @@ export async function posingView(
 ): Promise<PosingView> {
   const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
     new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, [space.base]);
+  let newest = model;
   const surfaces = [surfaceOf(model)];
   stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
@@ -126,6 +128,8 @@ export async function posingView(
   else posing.onChange();
   stage.beforeFrame = (seconds) => {
     gizmo.color();
+    if (posing.isDragging) timeline.play(false);
+    timeline.advance(seconds);
     posing.solveWishes();
     posing.advance(seconds);
     polishing?.advance();
@@ -135,7 +139,7 @@ export async function posingView(
   };
   stage.restored = () => surfaces[0].refresh();
   stage.afterFrame = () => {
-    if (posing.isOnTheWay || polishing?.isOnTheWay) stage.draw();
+    if (posing.isOnTheWay || polishing?.isOnTheWay || timeline.isPlaying) stage.draw();
   };
 
   const polish = toggle(
@@ -161,6 +165,8 @@ export async function posingView(
   const replace = async (better: PosingModel) => {
     const session = await PosingSession.create(module, better);
     if (stop.signal.aborted) return; // the view was left meanwhile
+    newest = better;
+    ghosts.clear();
     const [before] = surfaces;
     surfaces[0] = surfaceOf(better);
     surfaces[0].lookAs(before);
@@ -179,17 +185,19 @@ export async function posingView(
   };
 
   const look = lookSection(stage, surfaces, model, options.up);
+  const bare = () => {
+    const { selected } = posing;
+    posing.select(-1);
+    return () => posing.select(selected);
+  };
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
     page: options.page,
     shape: () => carried(posing.surface.shown(), posing.session),
-    bare: () => {
-      const { selected } = posing;
-      posing.select(-1);
-      return () => posing.select(selected);
-    },
+    bare,
   });
+  const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => surfaceOf(newest), bare);
   const panel = [
     section(
       "Handles",
@@ -205,6 +213,7 @@ export async function posingView(
       () => stage.draw(),
       model.frames && { diagonal: model.diagonal, up: () => stage.up },
     ),
+    timeline.element,
     look.element,
     takeAway.element,
   ];
@@ -225,10 +234,12 @@ export async function posingView(
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
       arrows: gizmo.arrows,
+      timeline,
     },
     dispose: () => {
       stop.abort();
       takeAway.dispose();
+      ghosts.clear();
       polishing?.cancel();
       readout.dispose();
       stage.beforeFrame = () => {};

@@ -20,6 +20,7 @@ import {
   StrainScale,
   type Hit,
   type Rests,
+  type RigidMap,
   type ShapeSpace,
 } from "../engine/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
@@ -172,6 +173,20 @@ export class Surface {
 
   set wireframe(visible: boolean) {
     this.#wires.visible = visible;
+  }
+
+  /** Draws it pale and without a shadow. */
+  fade(opacity: number): void {
+    const [clay] = this.#materials;
+    Object.assign(clay, { transparent: true, opacity, depthWrite: false });
+    this.#solid.castShadow = this.#solid.receiveShadow = false;
+  }
+
+  /** Takes a rigid motion along. */
+  carry({ rotation: R, shift: t }: RigidMap): void {
+    const { matrix } = this.object;
+    matrix.set(R[0], R[1], R[2], t[0], R[3], R[4], R[5], t[1], R[6], R[7], R[8], t[2], 0, 0, 0, 1);
+    this.object.matrixWorldNeedsUpdate = true;
   }
 
   /** Whether shadows fall on it. */

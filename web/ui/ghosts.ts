@@ -1,0 +1,50 @@
+import type { RigidMap } from "../engine/index.ts";
+import { CLAY } from "./handle_colors.ts";
+import type { Stage } from "./stage.ts";
+import type { Surface } from "./surface.ts";
+
+/** A shape by its coefficients, and where it is carried to. */
+export interface Ghost {
+  readonly coefficients: ArrayLike<number>;
+  readonly carriedBy: RigidMap | null;
+}
+
+const OPACITY = 0.16;
+
+/** Pale shapes beside the present one. Surfaces are made when they are first needed. */
+export class Ghosts {
+  readonly #stage: Stage;
+  readonly #make: () => Surface;
+  #surfaces: Surface[] = [];
+
+  constructor(stage: Stage, make: () => Surface) {
+    [this.#stage, this.#make] = [stage, make];
+  }
+
+  show(ghosts: readonly Ghost[]): void {
+    while (this.#surfaces.length < ghosts.length) {
+      const surface = this.#make();
+      surface.paint(() => CLAY);
+      surface.fade(OPACITY);
+      this.#stage.root.add(surface.object);
+      this.#surfaces.push(surface);
+    }
+    this.#surfaces.forEach((surface, k) => {
+      surface.object.visible = k < ghosts.length;
+      if (!surface.object.visible) return;
+      const { coefficients, carriedBy } = ghosts[k];
+      surface.show(coefficients);
+      if (carriedBy) surface.carry(carriedBy);
+    });
+    this.#stage.draw();
+  }
+
+  /** Removes all surfaces, for instance because the model is another one. */
+  clear(): void {
+    for (const surface of this.#surfaces) {
+      surface.object.removeFromParent();
+      surface.dispose();
+    }
+    this.#surfaces = [];
+  }
+}

@@ -1,0 +1,29 @@
+import type { Motion } from "../engine/index.ts";
+import { Ghosts } from "./ghosts.ts";
+import { handleStates } from "./key_states.ts";
+import type { Posing } from "./posing.ts";
+import type { Surface } from "./surface.ts";
+import { TimelinePanel } from "./timeline_panel.ts";
+
+/** The timeline of posing: its keys are motions of all handles. */
+export function posingTimeline(
+  posing: Posing,
+  name: string,
+  makeSurface: () => Surface,
+  bare: () => () => void,
+): { panel: TimelinePanel<readonly Motion[]>; ghosts: Ghosts } {
+  const ghosts = new Ghosts(posing.stage, makeSurface);
+  const names = posing.session.model.handles.map((handle) => handle.name);
+  const panel = new TimelinePanel<readonly Motion[]>(posing.stage, {
+    name,
+    states: handleStates(names),
+    state: () => posing.motions,
+    show: (motions) => motions.forEach((motion, handle) => posing.wish(handle, motion)),
+    settle: () => {
+      if (!posing.isDragging) posing.commit(); // else the end of the drag does
+    },
+    ghosts: (states) => ghosts.show(posing.shapesAt(states)),
+    bare,
+  });
+  return { panel, ghosts };
+}

@@ -1,0 +1,53 @@
+import { EASINGS, Timeline, type Easing, type Key } from "./timeline.ts";
+
+/** States of a kind of model: between two of them, and as JSON. */
+export interface States<State> {
+  readonly kind: "posing" | "interpolation";
+  between(from: State, to: State, share: number): State;
+  /** The entries of a key in a file. */
+  written(state: State): Record<string, unknown>;
+  /** A state from a key's entries, after the state of the key before; throws an Error that says what is wrong. */
+  read(entry: Record<string, unknown>, before: State | null): State;
+}
+
+const [FORMAT, VERSION] = ["snapspace-timeline", 1];
+
+/** A timeline as JSON, as snapspace/timeline/timeline_file.py reads it. */
+export function timelineFile<State>({ keys, loop }: Timeline<State>, states: States<State>): string {
+  const entries = keys.map(({ time, easing, state }) => ({ time, easing, ...states.written(state) }));
+  const content = { format: FORMAT, version: VERSION, kind: states.kind, loop, keys: entries };
+  return `${JSON.stringify(content, null, 1)}\n`;
+}
+
+/** The timeline of a file; throws an Error with a text for the user. */
+export function readTimeline<State>(text: string, states: States<State>): Timeline<State> {
+  const content = parsed(text);
+  if (content["format"] !== FORMAT || content["version"] !== VERSION)
+    throw new Error("This file is no timeline of this version of Snapspace.");
+  if (content["kind"] !== states.kind)
+    throw new Error(`The timeline is of kind ${String(content["kind"])}, but the model of ${states.kind}.`);
+  const entries = content["keys"];
+  if (!Array.isArray(entries) || entries.length === 0) throw new Error("The timeline has no keys.");
+  const keys: Key<State>[] = [];
+  for (const [number, entry] of entries.entries()) {
+    const { time, easing = "smooth" } = entry as Record<string, unknown>;
+    if (typeof time !== "number" || !(time >= 0) || time <= (keys.at(-1)?.time ?? -1))
+      throw new Error(`Key ${number} of the timeline has no time after the one before it.`);
+    if (!EASINGS.includes(easing as Easing))
+      throw new Error(`Key ${number} of the timeline has an unknown easing.`);
+    const state = states.read(entry as Record<string, unknown>, keys.at(-1)?.state ?? null);
+    keys.push({ time, easing: easing as Easing, state });
+  }
+  return new Timeline(keys, content["loop"] === true);
+}
+
+function parsed(text: string): Record<string, unknown> {
+  let content: unknown;
+  try {
+    content = JSON.parse(text);
+  } catch {
+    throw new Error("This file is no JSON.");
+  }
+  if (typeof content !== "object" || content === null) throw new Error("This file is no timeline.");
+  return content as Record<string, unknown>;
+}

@@ -1,0 +1,247 @@
+import { download } from "./download.ts";
+import { enable, filePicker, h, mark, section, setText, toggle } from "./dom.ts";
+import type { Stage } from "./stage.ts";
+import { EASINGS, Timeline, type Easing } from "./timeline.ts";
+import { readTimeline, timelineFile, type States } from "./timeline_file.ts";
+import { drawAt } from "./picture.ts";
+
+/** What a timeline moves. */
+export interface Animated<State> {
+  readonly name: string;
+  readonly states: States<State>;
+  /** The present state. */
+  state(): State;
+  /** Asks for a state, which is solved for before the next picture. */
+  show(state: State): void;
+  /** After playing or a jump: the state stays, as after a drag. */
+  settle(): void;
+  /** Shows states as ghosts, for a timeline that is skinned like an onion; none for an empty list. */
+  ghosts(states: readonly State[]): void;
+  /** Hides what is no part of the shape; the result shows it again. */
+  bare(): () => void;
+}
+
+const PICTURE = { width: 96, height: 72 };
+/** Seconds between a key and the next new one, and the least time that the track shows. */
+const [GAP, LEAST] = [1, 3];
+const LONGEST_FRAME = 0.1; // seconds: after a pause of the browser the film continues where it was
+
+/** Keys of poses or blends with small pictures, played by solving every frame. */
+export class TimelinePanel<State> {
+  readonly element: HTMLElement;
+  readonly #stage: Stage;
+  readonly #animated: Animated<State>;
+  #timeline = new Timeline<State>();
+  #time = 0;
+  #isPlaying = false;
+  #onion = false;
+  readonly #pictures = new Map<State, string>();
+  readonly #play = toggle("Play", "Solves and shows every frame; P", false, (on) => this.play(on));
+  readonly #clock = h("output", {});
+  readonly #track = h("input", { type: "range", min: 0, step: "any", "aria-label": "Time" });
+  readonly #keys = h("div", { className: "keys", role: "group", "aria-label": "Keys" });
+  readonly #when = h("input", { type: "number", min: 0, step: 0.1, required: true });
+  readonly #easing = h("select", {}, ...EASINGS.map((easing) => h("option", { value: easing }, easing)));
+  readonly #remove = h("button", { type: "button", onclick: () => this.#delete() }, "Delete");
+  readonly #loop = toggle("Loop", "Plays again and again", false, (on) =>
+    this.#take(this.#timeline.looping(on)),
+  );
+  readonly #save = h("button", { type: "button", onclick: () => this.#give() }, "Save keys");
+  readonly #selected = h("div", { className: "row picture-size" });
+  readonly #fault = h("p", { className: "figures", role: "status" });
+
+  constructor(stage: Stage, animated: Animated<State>) {
+    [this.#stage, this.#animated] = [stage, animated];
+    this.#play.id = "play-keys";
+    const add = h(
+      "button",
+      { type: "button", title: "K", id: "add-key", onclick: () => this.add() },
+      "Add key",
+    );
+    const onion = toggle("Onion skin", "The keys before and after, pale", false, (on) => {
+      this.#onion = on;
+      this.#skin();
+    });
+    this.#when.setAttribute("aria-label", "Time of the key in seconds");
+    this.#easing.setAttribute("aria-label", "How the next key is approached");
+    this.#track.addEventListener("input", () => {
+      this.play(false);
+      this.#go(this.#track.valueAsNumber);
+    });
+    this.#track.addEventListener("change", () => animated.settle());
+    this.#when.addEventListener("change", () => this.#reschedule());
+    this.#easing.addEventListener("change", () => {
+      const key = this.#timeline.find(this.#time);
+      if (key >= 0) this.#take(this.#timeline.eased(key, this.#easing.value as Easing));
+    });
+    this.#selected.append(this.#when, h("span", {}, "s"), this.#easing, this.#remove);
+    this.element = section(
+      "Timeline",
+      h("div", { className: "row" }, this.#play, add),
+      h("label", { className: "slider" }, h("span", {}, "Time"), this.#clock, this.#track),
+      this.#keys,
+      this.#selected,
+      h("div", { className: "row" }, this.#loop, onion),
+      h(
+        "div",
+        { className: "row" },
+        this.#save,
+        filePicker("Open keys…", ".json", (file) => void this.#open(file)),
+      ),
+      this.#fault,
+    );
+    this.#show();
+  }
+
+  get isPlaying(): boolean {
+    return this.#isPlaying;
+  }
+
+  /** For scripts and tests. */
+  get timeline(): Timeline<State> {
+    return this.#timeline;
+  }
+
+  get time(): number {
+    return this.#time;
+  }
+
+  /** Starts, from the first key if the film was at its end, or stops. */
+  play(on: boolean): void {
+    if (on === this.#isPlaying || (on && this.#timeline.keys.length < 2)) {
+      mark(this.#play, "aria-pressed", this.#isPlaying);
+      return;
+    }
+    this.#isPlaying = on;
+    mark(this.#play, "aria-pressed", on);
+    if (on && this.#time >= this.#timeline.end) this.#time = this.#timeline.keys[0].time;
+    if (!on) this.#animated.settle();
+    this.#skin();
+    this.#stage.draw();
+  }
+
+  /** Before a picture: moves on in time. */
+  advance(seconds: number): void {
+    if (!this.#isPlaying) return;
+    const [first, end] = [this.#timeline.keys[0].time, this.#timeline.end];
+    let time = this.#time + Math.min(seconds, LONGEST_FRAME);
+    if (time >= end) time = this.#timeline.loop ? first + ((time - first) % (end - first)) : end;
+    this.#go(time);
+    if (time === end) this.play(false);
+  }
+
+  /** The present state becomes a key: in place of the one at this time, or a second after the last. */
+  add(): void {
+    this.play(false);
+    const { keys, end } = this.#timeline;
+    const isNew = keys.length > 0 && this.#timeline.find(this.#time) < 0 && this.#time > end;
+    const time = keys.length === 0 ? 0 : isNew || this.#time < end ? this.#time : end + GAP;
+    const state = this.#animated.state();
+    this.#pictures.set(state, this.#picture());
+    this.#time = time;
+    this.#take(this.#timeline.with(time, state));
+  }
+
+  #delete(): void {
+    const key = this.#timeline.find(this.#time);
+    if (key >= 0) this.#take(this.#timeline.without(key));
+  }
+
+  #reschedule(): void {
+    const key = this.#timeline.find(this.#time);
+    if (key < 0 || !this.#when.reportValidity()) return;
+    const moved = this.#timeline.moved(key, this.#when.valueAsNumber);
+    if (moved !== this.#timeline) this.#time = this.#when.valueAsNumber;
+    this.#take(moved);
+  }
+
+  #take(timeline: Timeline<State>): void {
+    this.#timeline = timeline;
+    this.#show();
+  }
+
+  /** Goes to a time; `isJump` as for a click on a key. */
+  #go(time: number, isJump = false): void {
+    this.#time = time;
+    const between = this.#timeline.at(time);
+    if (between) {
+      const { from, to, share } = between;
+      this.#animated.show(share === 0 ? from : this.#animated.states.between(from, to, share));
+    }
+    if (isJump) this.#animated.settle();
+    this.#showTime();
+    this.#skin();
+  }
+
+  /** Shows the keys next to the present time, where that is wanted. */
+  #skin(): void {
+    const { keys } = this.#timeline;
+    if (!this.#onion || this.#isPlaying || keys.length === 0) return this.#animated.ghosts([]);
+    const before = keys.findLast((key) => key.time < this.#time - 1e-3);
+    const after = keys.find((key) => key.time > this.#time + 1e-3);
+    this.#animated.ghosts([before, after].filter((key) => key !== undefined).map(({ state }) => state));
+  }
+
+  #picture(): string {
+    const show = this.#animated.bare();
+    try {
+      return drawAt(this.#stage, PICTURE, null, (canvas) => canvas.toDataURL());
+    } finally {
+      show();
+    }
+  }
+
+  #show(): void {
+    const { keys, loop, end } = this.#timeline;
+    this.#track.max = String(Math.max(end, LEAST));
+    mark(this.#loop, "aria-pressed", loop);
+    enable(this.#play, keys.length > 1);
+    enable(this.#save, keys.length > 0);
+    this.#keys.replaceChildren(
+      ...keys.map(({ time, state }) => {
+        const picture = this.#pictures.get(state);
+        const image = picture ? [h("img", { src: picture, alt: "", draggable: false })] : [];
+        const act = () => {
+          this.play(false);
+          this.#go(time, true);
+        };
+        return h("button", { type: "button", className: "key", onclick: act }, ...image, seconds(time));
+      }),
+    );
+    this.#showTime();
+    this.#skin();
+  }
+
+  #showTime(): void {
+    setText(this.#clock, seconds(this.#time));
+    this.#track.value = String(this.#time);
+    const at = this.#timeline.find(this.#time);
+    [...this.#keys.children].forEach((key, k) => mark(key as HTMLElement, "aria-current", k === at));
+    if (this.#selected.hidden !== at < 0) this.#selected.hidden = at < 0;
+    if (at < 0 || this.#isPlaying) return;
+    const { time, easing } = this.#timeline.keys[at];
+    this.#when.value = String(Number(time.toFixed(3)));
+    this.#easing.value = easing;
+  }
+
+  #give(): void {
+    const name = `${this.#animated.name || "snapspace"}.timeline.json`;
+    download(timelineFile(this.#timeline, this.#animated.states), name, "application/json");
+    this.#fault.textContent = `${name} is in your downloads; snapspace animate takes it.`;
+  }
+
+  async #open(file: File): Promise<void> {
+    try {
+      const timeline = readTimeline(await file.text(), this.#animated.states);
+      this.play(false);
+      this.#time = timeline.keys[0].time;
+      this.#take(timeline);
+      this.#go(this.#time, true);
+      this.#fault.textContent = `${timeline.keys.length} keys from ${file.name}.`;
+    } catch (error) {
+      this.#fault.textContent = (error as Error).message;
+    }
+  }
+}
+
+const seconds = (time: number) => `${time.toFixed(time >= 10 ? 1 : 2)} s`;
