@@ -10,8 +10,9 @@ import click
 import numpy as np
 
 from ..animation import write_animation
+from ..problem.json_entries import within
 from ..reduction import InterpolationModel, PosingModel
-from ..timeline import read_timeline
+from ..timeline import Timeline, read_timeline, timeline_of
 from .console import notice, print_facts, print_json
 from .frames import check_frames_output, format_option, is_film, notice_old_frames, rate_option
 from .glb import write_path
@@ -24,7 +25,7 @@ from .progress import spinner
 
 @click.command(short_help="Solve a timeline and write its frames.")
 @click.argument("model_file", type=FILE, metavar="M.snapspace")
-@click.argument("timeline_file", type=FILE, metavar="TIMELINE.json")
+@click.argument("timeline_file", type=FILE, metavar="[TIMELINE.json]", required=False)
 @click.option(
     "-o",
     "--output",
@@ -40,7 +41,7 @@ from .progress import spinner
 @json_option
 def animate(
     model_file: Path,
-    timeline_file: Path,
+    timeline_file: Path | None,
     output: Path | None,
     kind: str | None,
     frames_per_second: float | None,
@@ -51,7 +52,8 @@ def animate(
 ) -> None:
     """Solve a timeline, as the page saves it, and write its frames.
 
-    Every frame is solved; shapes are not interpolated. In a folder, --format vtu also writes
+    Without a file it is the timeline that was saved with the model. Every frame is solved; shapes
+    are not interpolated. In a folder, --format vtu also writes
     frames.vtu.series, which ParaView opens with the times.
 
     \b
@@ -59,13 +61,14 @@ def animate(
       snapspace animate creature.snapspace wave.json -o wave.glb
       snapspace animate creature.snapspace wave.json -o frames --format vtu
     """
-    timeline = read_timeline(timeline_file)
+    given = None if timeline_file is None else read_timeline(timeline_file)
     film = is_film(output)
     check_frames_output(output, kind=kind, frames_per_second=frames_per_second if film else None)
     loaded: Any = load_leading(model_file, dimension)
     model: PosingModel | InterpolationModel = with_surface(loaded, surface_file)
     check_own_output(loaded, output, kind, path=True)
     rate = frames_per_second or 30.0
+    timeline = _own_timeline(model, model_file) if given is None else given
     session = model.session()
     count = timeline.frame_count(rate)
     begin = time.perf_counter()
@@ -115,6 +118,14 @@ def animate(
                 "written": [str(file) for file in files],
             }
         )
+
+
+def _own_timeline(model: PosingModel | InterpolationModel, path: Path) -> Timeline:
+    content = model.provenance.get("timeline")
+    if content is None:
+        raise ValueError(f"{path}: the model has no timeline; name a file, as the page saves it")
+    with within(path):
+        return timeline_of(content)
 
 
 def _written(files: list[Path]) -> str:

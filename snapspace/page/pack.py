@@ -99,6 +99,8 @@ def packed(
         "coordinate_scale": model.coordinate_scale,
         "material": {"model": model.problem.material.kind},
     }
+    if "timeline" in model.provenance:  # the page saved it with the model
+        about["timeline"] = model.provenance["timeline"]
     header = {
         "format": FORMAT,
         "version": str(VERSION),

@@ -20,7 +20,7 @@ from .materials import chosen_material, shown_poisson
 from .models import Models
 from .parts import FloatArray, part_factors, with_factors
 from .reporter import Reporter
-from .saving import SavedFiles
+from .saving import SavedFiles, checked_timeline
 from .selection import (
     ANGLE,
     TRANSLATION_SHARE,
@@ -150,7 +150,7 @@ class BodySession:
     def save(self, order: messages.Save) -> messages.Saved:
         """Writes the problem with the handles and parts chosen last, and the newest model.
 
-        ValueError if there are no handles, and as for `SavedFiles.save`.
+        ValueError if there are no handles, for an invalid timeline, and as for `SavedFiles.save`.
         """
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
@@ -159,7 +159,10 @@ class BodySession:
         newest = self._models.newest
         model = None if newest is None else newest.model
         if model is not None:
-            record = {} if order.up is None else {"up": order.up}
+            record: dict[str, Any] = {} if order.up is None else {"up": order.up}
+            record |= (
+                {} if order.timeline is None else {"timeline": checked_timeline(order.timeline)}
+            )
             model = replace(model, provenance=model.provenance | record | self._record_of(model))
         return self._saved.save(
             self.body,

@@ -73,12 +73,13 @@ class Save:
     """Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
 
     name : name of the files, without folder or extension; null: the mesh's
-    up : axis that points up, saved with problem and model; null: the server's
+    up : axis that points up; null: the server's; timeline : content of a timeline file
     """
 
     request: int
     name: str | None = None
     up: str | None = None
+    timeline: str | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,11 +118,10 @@ class Polish:
     Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
     vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
 
-    model : number of the model
+    model : its number; iterations : the most that are taken
     handles : for posing models, the motions of all handles, in the model's order
     weights : for blending models, one per pose
     q : coordinates of the shape, all or the leading ones
-    iterations : largest number of iterations
     """
 
     request: int

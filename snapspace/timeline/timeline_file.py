@@ -41,7 +41,7 @@ def read_timeline(path: str | os.PathLike[str]) -> Timeline:
             content = json.loads(file.read_text(encoding="utf-8"))
         except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
             raise ValueError(f"this is no JSON: {error}") from None
-        return _timeline(content)
+        return timeline_of(content)
 
 
 def write_timeline(path: str | os.PathLike[str], timeline: Timeline) -> Path:
@@ -67,7 +67,8 @@ def write_timeline(path: str | os.PathLike[str], timeline: Timeline) -> Path:
     return target
 
 
-def _timeline(content: Any) -> Timeline:
+def timeline_of(content: Any) -> Timeline:
+    """The timeline of parsed JSON; ValueError as for `read_timeline`, without the file's name."""
     entries = as_object(content, "a timeline", known={"format", "version", "kind", "loop", "keys"})
     if entries.get("format") != FORMAT:
         raise ValueError(f"this is no timeline: its format must be '{FORMAT}'")

@@ -135,6 +135,7 @@ ALLOWED: dict[str, set[str]] = {
         "session",
         "snapshots",
         "stopping",
+        "timeline",
     },
     "accurate": {
         "calibration",

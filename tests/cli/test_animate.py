@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 from snapspace import Key, PosingModel, Timeline, write_timeline
@@ -30,6 +31,18 @@ def test_frames_and_an_animated_mesh_are_written(
     assert abs(vertices - wanted).max() < 1e-4
     run("animate", model, timeline, "-o", tmp_path / "nod.glb")
     assert (tmp_path / "nod.glb").read_bytes()[:4] == b"glTF"
+
+
+def test_the_timeline_of_the_model_is_taken_without_a_file(
+    run: Run, posing_model: PosingModel, tmp_path: Path
+) -> None:
+    path = tmp_path / "bar.snapspace"
+    posing_model.save(path)
+    assert "has no timeline" in run("animate", path).error
+    file = write_timeline(tmp_path / "a.json", Timeline("posing", (Key(0.0, {}), Key(1.0, NOD))))
+    record = {**posing_model.provenance, "timeline": json.loads(file.read_text())}
+    replace(posing_model, provenance=record).save(path)
+    assert run("animate", path, "--fps", 12, "--json").json["frames"] == 13
 
 
 def test_a_wrong_timeline_is_one_line(run: Run, posing_model: PosingModel, tmp_path: Path) -> None:

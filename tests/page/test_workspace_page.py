@@ -12,6 +12,7 @@ import pytest
 from snapspace import PosingModel, load, read_problem
 from snapspace.generators import bar
 from snapspace.mesh import write_tets
+from snapspace.timeline import timeline_of
 
 from .choosing_page import (
     BAR,
@@ -93,6 +94,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     content = Path(waiting.value.path()).read_text(encoding="utf-8")
     assert waiting.value.suggested_filename == "bar.html"
     assert '<script id="model"' in content and 'snapspace-server" content' not in content
+    press(page, "Add key")
     press(page, "Save")
     wait_for_text(page, "#panel", f"in {bar_folder}")
 
@@ -104,6 +106,8 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     model = load(file.with_suffix(".snapspace"))
     assert isinstance(model, PosingModel) and model.dimension > first
     assert model.provenance["accurate"]["target_error"] == pytest.approx(1e-4), "as was typed"
+    (key,) = timeline_of(model.provenance["timeline"]).keys
+    np.testing.assert_allclose(key.state["head"][1], page.motions()[1][1], atol=1e-6)
     press(page, "Polish")  # off: the live shape
     assert_shown(model, page)
 

@@ -23,6 +23,8 @@ interface ModelBase {
   readonly diagonal: number;
   /** Name of the material. The page knows no more of it: the core does. */
   readonly material: string;
+  /** Content of a timeline file, if one was saved with the model. */
+  readonly timeline?: unknown;
   /** Present in calibrated models. */
   readonly estimator: Estimator | null;
 }

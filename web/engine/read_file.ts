@@ -14,7 +14,7 @@ import {
   type Quartic,
 } from "./model.ts";
 import { fileMaterial, materialOfTets } from "./read_material.ts";
-import { paintedOwners, readRecord, upOf } from "./read_record.ts";
+import { paintedOwners, readRecord, timelineOf, upOf } from "./read_record.ts";
 import { registered } from "./registration.ts";
 import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
@@ -66,6 +66,7 @@ function readPosing(container: Container, name: string): Model {
     kind: "posing",
     name,
     ...upOf(record),
+    ...timelineOf(record),
     dimension,
     faces,
     space: quantised(embedded(rest), embedded(basis)),
@@ -123,6 +124,7 @@ function readInterpolation(container: Container, name: string): Model {
     kind: "interpolation",
     name,
     ...upOf(readRecord(container)),
+    ...timelineOf(readRecord(container)),
     dimension,
     faces,
     space: quantised(base, embedded(basis)),

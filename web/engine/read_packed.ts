@@ -30,6 +30,7 @@ export function readPacked(container: Container): Model {
     coordinateScale: Number(about.coordinate_scale),
     diagonal: Number(about.diagonal),
     material: String(about.material.model),
+    timeline: about.timeline as unknown,
   };
   if (container.header["kind"] === "posing") {
     const count = about.handles.length as number;

@@ -17,6 +17,11 @@ export function upOf({ up }: Record<string, unknown>): { up?: Axis } {
   return up === "x" || up === "y" || up === "z" ? { up } : {};
 }
 
+/** The timeline that was saved with the model; undefined if the record has none. */
+export function timelineOf({ timeline }: Record<string, unknown>): { timeline?: unknown } {
+  return timeline === undefined ? {} : { timeline };
+}
+
 /** The handle of each surface vertex as it was painted, -1 for none; null unless the record has all handles. */
 export function paintedOwners(
   { painted }: Record<string, unknown>,

@@ -8,7 +8,7 @@ import { blendHash, keepHashSoon } from "./address.ts";
 import { chooser, enable, h, toggle } from "./dom.ts";
 import { CLAY } from "./handle_colors.ts";
 import { ExportPanel } from "./export_panel.ts";
-import { Ghosts } from "./ghosts.ts";
+import { Ghosts, still } from "./ghosts.ts";
 import { Hud } from "./hud.ts";
 import { Jiggle } from "./jiggle.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
@@ -165,8 +165,7 @@ export async function blendingView(
       stage.draw();
     },
     settle: keep,
-    ghosts: (states) =>
-      ghosts.show(session.shapesAt(states).map((q) => ({ coefficients: q, carriedBy: null }))),
+    ghosts: (states) => ghosts.show(session.shapesAt(states).map(still)),
     bare: () => () => {},
   });
   const takeAway = new ExportPanel(stage, {
@@ -176,6 +175,7 @@ export async function blendingView(
     shape: () => elastic.shown(),
     bare: () => () => {},
   });
+  if (model.timeline !== undefined) timeline.load(model.timeline);
   stage.beforeFrame = (seconds) => {
     timeline.advance(seconds);
     if (path.playing) walk(seconds);

@@ -9,6 +9,9 @@ export interface Ghost {
   readonly carriedBy: RigidMap | null;
 }
 
+/** A shape that is where its coefficients put it. */
+export const still = (coefficients: ArrayLike<number>): Ghost => ({ coefficients, carriedBy: null });
+
 const OPACITY = 0.16;
 
 /** Pale shapes beside the present one. Surfaces are made when they are first needed. */

@@ -25,6 +25,8 @@ export interface PosingView extends View {
   replace(model: PosingModel): Promise<void>;
   /** Where the handles are, by name. */
   readonly motions: Motions;
+  /** The content of a timeline file; null without keys. */
+  readonly timeline: string | null;
 }
 
 /** Posing: handles on the stage, controls in the panel. */
@@ -198,6 +200,7 @@ export async function posingView(
     bare,
   });
   const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => surfaceOf(newest), bare);
+  if (model.timeline !== undefined) timeline.load(model.timeline);
   const panel = [
     section(
       "Handles",
@@ -223,6 +226,9 @@ export async function posingView(
     replace,
     get motions() {
       return motions();
+    },
+    get timeline() {
+      return timeline.content;
     },
     script: {
       kind: "posing",

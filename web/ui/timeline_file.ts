@@ -21,7 +21,13 @@ export function timelineFile<State>({ keys, loop }: Timeline<State>, states: Sta
 
 /** The timeline of a file; throws an Error with a text for the user. */
 export function readTimeline<State>(text: string, states: States<State>): Timeline<State> {
-  const content = parsed(text);
+  return timelineOf(parsed(text), states);
+}
+
+/** The timeline of parsed JSON; throws an Error with a text for the user. */
+export function timelineOf<State>(given: unknown, states: States<State>): Timeline<State> {
+  if (typeof given !== "object" || given === null) throw new Error("This file is no timeline.");
+  const content = given as Record<string, unknown>;
   if (content["format"] !== FORMAT || content["version"] !== VERSION)
     throw new Error("This file is no timeline of this version of Snapspace.");
   if (content["kind"] !== states.kind)
@@ -41,13 +47,10 @@ export function readTimeline<State>(text: string, states: States<State>): Timeli
   return new Timeline(keys, content["loop"] === true);
 }
 
-function parsed(text: string): Record<string, unknown> {
-  let content: unknown;
+function parsed(text: string): unknown {
   try {
-    content = JSON.parse(text);
+    return JSON.parse(text);
   } catch {
     throw new Error("This file is no JSON.");
   }
-  if (typeof content !== "object" || content === null) throw new Error("This file is no timeline.");
-  return content as Record<string, unknown>;
 }

@@ -2,7 +2,7 @@ import { download } from "./download.ts";
 import { enable, filePicker, h, mark, section, setText, toggle } from "./dom.ts";
 import type { Stage } from "./stage.ts";
 import { EASINGS, Timeline, type Easing } from "./timeline.ts";
-import { readTimeline, timelineFile, type States } from "./timeline_file.ts";
+import { readTimeline, timelineFile, timelineOf, type States } from "./timeline_file.ts";
 import { drawAt } from "./picture.ts";
 
 /** What a timeline moves. */
@@ -91,6 +91,20 @@ export class TimelinePanel<State> {
       this.#fault,
     );
     this.#show();
+  }
+
+  /** The content of a file; null without keys. */
+  get content(): string | null {
+    return this.#timeline.keys.length > 0 ? timelineFile(this.#timeline, this.#animated.states) : null;
+  }
+
+  /** Takes the timeline that a model came with; the shape stays. */
+  load(content: unknown): void {
+    try {
+      this.#take(timelineOf(content, this.#animated.states));
+    } catch (error) {
+      this.#fault.textContent = (error as Error).message;
+    }
   }
 
   get isPlaying(): boolean {

@@ -232,8 +232,8 @@ export class Workspace {
 
   async #save(): Promise<void> {
     if (this.#posing === null) await this.#sendChoice();
-    const order = { type: "save", name: null, up: this.#shell.stage.up } as const;
-    const { message } = await this.#server.ask(order, "saved");
+    const [up, timeline] = [this.#shell.stage.up, this.#posing?.timeline ?? null];
+    const { message } = await this.#server.ask({ type: "save", name: null, up, timeline }, "saved");
     this.#panel.saved(message, this.#given!.folder);
   }
 
