@@ -41,13 +41,19 @@ def cached_snapshots(
 def timed_training(
     problem: ss.PosingProblem | ss.InterpolationProblem, count: int
 ) -> tuple[ss.Snapshots, float]:
-    """`training` solved anew, and the seconds it took; the samples are kept for other programs.
+    """`training`, and the seconds that it took on this machine; both are kept for other programs.
 
     The seconds include what is made once for a problem, such as the mean shape of poses.
     """
     parameters = ss.sample(problem.domain, count, method="sobol")
+    path = _path(problem, parameters, None)
+    record = path.with_suffix(".seconds")
+    if path.is_file() and record.is_file():
+        return ss.load_snapshots(path, problem), float(record.read_text())
     solved, seconds = timed(lambda: ss.solve_snapshots(problem, parameters))
-    _save(solved, _path(problem, parameters, None))
+    _save(solved, path)
+    with atomic_file(record) as temporary:
+        temporary.write_text(f"{seconds}\n")
     return solved, seconds
 
 

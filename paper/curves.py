@@ -28,6 +28,7 @@ from .live import drag
 from .minimisers import projection_errors, relative_errors
 from .orderings import Rows
 from .result import Result
+from .rivals.vibration_modes import forget_factors
 
 Build = Callable[[ss.PosingProblem, int], ss.AffineSubspace]
 
@@ -74,6 +75,7 @@ def _add(result: Result, kind: str, setting: Setting, *, quick: bool) -> None:
     for name, build in (ours | RIVALS).items():
         known: set[int] = set()
         for d in setting.dimensions:
+            forget_factors()
             begin = time.perf_counter()
             subspace = build(problem, d)
             if subspace.dimension in known:

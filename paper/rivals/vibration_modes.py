@@ -104,6 +104,11 @@ def _solver(matrix: _Matrix) -> SparseSolver:
     return SparseSolver(matrix.content, per_vertex=3)
 
 
+def forget_factors() -> None:
+    """Lets the next subspace factor its body again, so that its time is the whole time."""
+    _solver.cache_clear()
+
+
 def vibration_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSubspace:
     """The `dimension` softest modes of the body at rest, its six rigid motions first.
 
