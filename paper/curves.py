@@ -21,7 +21,7 @@ from snapspace.pictures import Curve, chart, save_png
 from snapspace.validation import unseen_errors
 
 from . import rivals
-from .cached import timed_training, unseen
+from .cached import training_with_seconds, unseen
 from .cases import MATERIALS, read
 from .curves_orderings import curves_in_order
 from .live import drag
@@ -69,7 +69,7 @@ def _add(result: Result, kind: str, setting: Setting, *, quick: bool) -> None:
     case = read("dragon", kind, quick=quick)
     problem = case.problem
     assert isinstance(problem, ss.PosingProblem)
-    snapshots, sampling = timed_training(problem, setting.samples)
+    snapshots, sampling = training_with_seconds(problem, setting.samples)
     reference = unseen(problem, setting.unseen)
     ours = {"ours": _ours(snapshots), "ours, mass alone": _ours(snapshots, handle_weight=0.0)}
     for name, build in (ours | RIVALS).items():

@@ -11,6 +11,7 @@ export { vertexStrains, type Rests } from "./membrane_strain.ts";
 export type { BlendingModel, Model, PosingModel } from "./model.ts";
 export { eulerOfRotation, rotationOfEuler, type RigidMap } from "./motion.ts";
 export { PosingSession, type Motion } from "./posing_session.ts";
+export { placeOf, Pulls, type PulledPoint } from "./pulls.ts";
 export { readModel } from "./read_model.ts";
 export { ShapePicker, type Hit } from "./shape_picker.ts";
 export { reconstruct, type ShapeSpace } from "./shape_space.ts";

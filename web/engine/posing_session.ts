@@ -14,6 +14,7 @@ import {
   type Rotation,
   type Vector,
 } from "./motion.ts";
+import { Pulls, type PulledPoint } from "./pulls.ts";
 import { beyondBox } from "./sampled_box.ts";
 import { TimeSteps } from "./time_steps.ts";
 
@@ -167,6 +168,24 @@ export class PosingSession {
     return eulerOfRotation(this.#maps[handle].rotation);
   }
 
+  /** Offsets [R - I | t] of all handles, seen from the first. */
+  get #offsets(): number[] {
+    const offsets: number[] = [];
+    for (const { rotation: R, translation: t } of this.#relative)
+      offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
+    return offsets.fill(0, 0, 12); // exactly
+  }
+
+  /** Points that are pulled; this session's own shape stays. */
+  pulls(module: WebAssembly.Module, points: readonly PulledPoint[]): Promise<Pulls> {
+    return Pulls.create(module, this.model, points, this.#stop);
+  }
+
+  /** Solves for pulled points beside the present handles. */
+  solvePulled(pulls: Pulls): FrameReport {
+    return pulls.solve(this.#offsets, this.carriedBy);
+  }
+
   #mapsOf(motions: ReadonlyMap<number, Motion>): readonly RigidMap[] {
     return this.#maps.map((map, handle) => {
       const motion = motions.get(handle);
@@ -184,12 +203,8 @@ export class PosingSession {
         ? this.#relative[handle]
         : relativeMotion(maps[0], map, this.model.handles[handle].center),
     );
-    const offsets: number[] = [];
-    for (const { rotation: R, translation: t } of relative)
-      offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
-    offsets.fill(0, 0, 12); // exactly
-    this.#core.setOffsets(offsets);
     [this.#maps, this.#relative] = [maps, relative];
+    this.#core.setOffsets(this.#offsets);
     this.#outside = null;
   }
 }

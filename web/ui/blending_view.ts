@@ -24,7 +24,8 @@ import {
   type PoseChoice,
 } from "./pose_choice.ts";
 import { Readout } from "./readout.ts";
-import type { Stage } from "./stage.ts";
+import { BLENDING, shortcutSheet } from "./shortcuts.ts";
+import { VIEWS, type Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import { thumbnail } from "./thumbnail.ts";
 import { TimelinePanel } from "./timeline_panel.ts";
@@ -153,7 +154,9 @@ export async function blendingView(
     take(step.report);
     if (step.jump) hud.remark(jumpRemark(model.poses, step.jump));
   };
-  const look = lookSection(stage, [elastic, straight], model, options.up);
+  const stop = new AbortController();
+  const sheet = shortcutSheet(BLENDING, (view) => stage.look(compared ? 1.9 : 1, VIEWS[view]), stop.signal);
+  const look = lookSection(stage, [elastic, straight], model, options.up, sheet);
   const ghosts = new Ghosts(stage, () => make(model.space));
   const timeline = new TimelinePanel<readonly number[]>(stage, {
     name: model.name,
@@ -192,7 +195,6 @@ export async function blendingView(
   stage.afterFrame = () => {
     if (path.playing || jiggle.moves || timeline.isPlaying) stage.draw();
   };
-  const stop = new AbortController();
   listenToBlendingKeys(play, panel.search, stop.signal);
   stage.renderer.domElement.parentElement!.append(...names);
   showChoice();
@@ -238,9 +240,7 @@ export async function blendingView(
       stop.abort();
       takeAway.dispose();
       ghosts.clear();
-      stage.beforeFrame = () => {};
-      stage.afterFrame = () => {};
-      stage.restored = () => {};
+      stage.rest();
       look.legend.dispose();
       hud.dispose();
       readout.dispose();

@@ -1,7 +1,7 @@
 import type { Model } from "../engine/index.ts";
 import { choice, h, section, slider, toggle } from "./dom.ts";
 import { Legend } from "./legend.ts";
-import type { Axis, Stage } from "./stage.ts";
+import { VIEWS, type Axis, type Stage } from "./stage.ts";
 import type { Colors, Surface } from "./surface.ts";
 
 /** How many of the coordinates are solved for, and what else belongs to it. */
@@ -15,7 +15,13 @@ export function qualitySection(
 }
 
 /** Colours, wires, what is up, and the first view again. */
-export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up: Axis) {
+export function lookSection(
+  stage: Stage,
+  surfaces: Surface[],
+  model: Model,
+  up: Axis,
+  ...others: HTMLElement[]
+) {
   const each = (act: (surface: Surface) => void) => {
     surfaces.forEach(act);
     stage.draw();
@@ -52,6 +58,13 @@ export function lookSection(stage: Stage, surfaces: Surface[], model: Model, up:
     { type: "button", title: "F", id: "frame", onclick: () => stage.look() },
     "Reset view",
   );
-  const row = h("div", { className: "row" }, wires, frame);
-  return { element: section("Look", colors.element, legend.element, ups.element, row), legend };
+  const views = Object.entries(VIEWS).map(([name, from]) => {
+    const label = name.charAt(0).toUpperCase() + name.slice(1);
+    return h("button", { type: "button", onclick: () => stage.look(1, from) }, label);
+  });
+  const rows = [
+    h("div", { className: "row" }, ...views, frame),
+    h("div", { className: "row" }, wires, ...others),
+  ];
+  return { element: section("Look", colors.element, legend.element, ups.element, ...rows), legend };
 }

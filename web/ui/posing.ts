@@ -3,14 +3,14 @@ import { Color } from "three";
 import type { Dynamics, FrameReport, Motion, PosingSession } from "../engine/index.ts";
 import { CLAY, handleColor } from "./handle_colors.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
-import type { Ghost } from "./ghosts.ts";
 import { History } from "./history.ts";
 import { Jiggle } from "./jiggle.ts";
 import { approach } from "./motion_parts.ts";
+import type { Pulled } from "./pulling.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
 
-export type Mode = "move" | "turn";
+export type Mode = "move" | "turn" | "pull";
 
 const WHITE = new Color("#ffffff");
 
@@ -36,6 +36,9 @@ export class Posing {
   readonly #wishes = new Map<number, Motion>();
   /** Steps in time; static frames while it is off. */
   readonly jiggle: Jiggle;
+  /** What pulls on points of the surface. */
+  pulled: Pulled | null = null;
+  #isPulledAnew = false;
   #history: History<Motion[]>;
   /** Where the handles were when the present drag began. */
   #beforeDrag: readonly Motion[] | null = null;
@@ -84,7 +87,7 @@ export class Posing {
     this.onChange();
   }
 
-  /** Begins with the handles at motions, as they were left in another view. */
+  /** Begins with the handles at motions. */
   begin(motions: readonly Motion[]): void {
     this.#solved(approach(this.session, motions));
     this.#history = new History(this.motions);
@@ -140,14 +143,26 @@ export class Posing {
 
   /** Solves for what was asked since the last time. */
   solveWishes(): void {
-    if (this.#wishes.size === 0) return;
-    if (this.jiggle.isOn) {
+    if (this.#wishes.size === 0 && !this.#isPulledAnew) return;
+    if (this.jiggle.isOn && !this.pulled) {
       this.jiggle.wake();
       return;
     }
+    this.#isPulledAnew = false;
     const report = this.session.moveAll(this.#wishes);
     this.#wishes.clear();
     this.#solved(report);
+  }
+
+  /** Takes points that are pulled, in place of others. Without any, the shape goes back to that of the handles, or swings. */
+  pull(pulled: Pulled | null): void {
+    const before = this.pulled?.q;
+    [this.pulled, this.#isPulledAnew] = [pulled, true];
+    if (before && !pulled && this.jiggle.isOn) {
+      this.session.restore(this.motions, before);
+      this.jiggle.wake();
+    } else if (before && !pulled) this.#transition = new ShapeTransition(before, this.session.q);
+    this.stage.draw();
   }
 
   /** Before each picture: swings, and shows the next step of the transition from the model before. */
@@ -230,18 +245,6 @@ export class Posing {
     this.onChange();
   }
 
-  /** The shapes for motions of all handles; the present one stays. */
-  shapesAt(states: readonly (readonly Motion[])[]): Ghost[] {
-    if (states.length === 0) return [];
-    const [now, { q }] = [this.motions, this.session];
-    const found = states.map((motions) => {
-      this.session.moveAll(new Map(motions.entries()));
-      return { coefficients: this.session.q, carriedBy: this.session.carriedBy };
-    });
-    this.session.restore(now, q);
-    return found;
-  }
-
   set dimension(dimension: number) {
     this.session.dimension = dimension;
     this.#solved(this.session.solve());
@@ -262,7 +265,8 @@ export class Posing {
     this.onChange();
   }
 
-  #solved(report: FrameReport): void {
+  #solved(own: FrameReport): void {
+    const report = this.pulled?.solve() ?? own;
     this.#show();
     this.onSolved(report);
     this.stage.draw();
@@ -270,7 +274,7 @@ export class Posing {
 
   /** Coordinates of the shape that is shown. */
   get #shown(): Float64Array {
-    const { q } = this.session;
+    const q = this.pulled?.q ?? this.session.q;
     return this.#transition?.at(q) ?? q;
   }
 

@@ -55,7 +55,9 @@ export class HandleDrag {
     const toShape = surface.object.matrixWorld.clone().invert();
     const hit = surface.pick(this.#caster.ray.clone().applyMatrix4(toShape));
     if (hit) {
-      const owners = hit.corners.map((vertex) => session.model.handleOfVertex[vertex]);
+      // where any point can be pulled, the nearest corner decides; else all of a handle's triangles belong to it
+      const corners = this.#posing.mode === "pull" ? hit.corners.slice(0, 1) : hit.corners;
+      const owners = corners.map((vertex) => session.model.handleOfVertex[vertex]);
       const handle = owners.find((owner) => owner >= 0) ?? -1;
       if (handle >= 0)
         return { handle, point: new Vector3(...hit.point).applyMatrix4(surface.object.matrixWorld) };

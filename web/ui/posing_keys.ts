@@ -20,6 +20,7 @@ function handle(posing: Posing, event: KeyboardEvent): void {
   }
   const field = event.target;
   if (field instanceof HTMLInputElement && (field.type !== "range" || event.key.startsWith("Arrow"))) return;
+  if (event.code.startsWith("Numpad")) return; // views
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
     event.shiftKey ? posing.redo() : posing.undo();
   } else if (event.ctrlKey && event.key.toLowerCase() === "y") {

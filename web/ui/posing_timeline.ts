@@ -1,5 +1,5 @@
-import type { Motion } from "../engine/index.ts";
-import { Ghosts } from "./ghosts.ts";
+import type { Motion, PosingSession } from "../engine/index.ts";
+import { Ghosts, type Ghost } from "./ghosts.ts";
 import { handleStates } from "./key_states.ts";
 import type { Posing } from "./posing.ts";
 import type { Surface } from "./surface.ts";
@@ -22,8 +22,21 @@ export function posingTimeline(
     settle: () => {
       if (!posing.isDragging) posing.commit(); // else the end of the drag does
     },
-    ghosts: (states) => ghosts.show(posing.shapesAt(states)),
+    ghosts: (states) => ghosts.show(shapesAt(posing.session, states)),
     bare,
   });
   return { panel, ghosts };
+}
+
+/** The shapes for motions of all handles; the present one stays. */
+function shapesAt(session: PosingSession, states: readonly (readonly Motion[])[]): Ghost[] {
+  if (states.length === 0) return [];
+  const now = session.model.handles.map((_, handle) => session.motion(handle));
+  const { q } = session;
+  const found = states.map((motions) => {
+    session.moveAll(new Map(motions.entries()));
+    return { coefficients: session.q, carriedBy: session.carriedBy };
+  });
+  session.restore(now, q);
+  return found;
 }

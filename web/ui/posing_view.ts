@@ -7,14 +7,18 @@ import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import { Posing, type Mode } from "./posing.ts";
+import { MotionFields } from "./motion_fields.ts";
 import { Polishing } from "./polishing.ts";
 import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
 import { Marks } from "./posing_marks.ts";
 import { posingTimeline } from "./posing_timeline.ts";
+import { pullRow } from "./pull_row.ts";
+import { Pulling } from "./pulling.ts";
 import { Readout } from "./readout.ts";
-import type { Stage } from "./stage.ts";
+import { POSING, shortcutSheet } from "./shortcuts.ts";
+import { VIEWS, type Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import type { Motions, View, ViewOptions } from "./view.ts";
 
@@ -48,6 +52,8 @@ export async function posingView(
   const gizmo = new Gizmo(posing);
   let marks = new Marks(posing);
   const drag = new HandleDrag(posing, gizmo, stop.signal);
+  const pulling = new Pulling(posing, module, stop.signal);
+  const pulls = pullRow(pulling);
   const follow = () => {
     gizmo.update();
     marks.update();
@@ -74,6 +80,7 @@ export async function posingView(
     [
       ["move", "Move"],
       ["turn", "Turn"],
+      ["pull", "Pull"],
     ],
     "move",
     (mode) => posing.setMode(mode),
@@ -86,6 +93,10 @@ export async function posingView(
   );
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
   const figures = h("p", { className: "figures" });
+  const fields = new MotionFields(model.diagonal, (motion) => {
+    posing.wish(posing.selected, motion);
+    posing.commit();
+  });
 
   const polishing =
     options.polish &&
@@ -117,12 +128,17 @@ export async function posingView(
         enable(redo, posing.canRedo),
       ].includes(true),
     () => hud.warn(warningOf(posing.session)),
-    () => setText(figures, posing.selected < 0 ? HELP : described(posing.session, posing.selected)),
+    () => {
+      fields.show(posing.selected < 0 ? null : posing.session.motion(posing.selected));
+      if (figures.hidden !== posing.selected >= 0) figures.hidden = posing.selected >= 0;
+      return setText(figures, HELP);
+    },
     () => hud.update(),
   );
   posing.onChange = () => {
     follow();
     readout.now();
+    pulls.show(posing.mode === "pull");
     if (!posing.isDragging) keepHash(() => poseHash(motions()));
   };
   const start = model.handles.map(({ name }) => options.motions?.get(name));
@@ -168,6 +184,7 @@ export async function posingView(
     const session = await PosingSession.create(module, better);
     if (stop.signal.aborted) return; // the view was left meanwhile
     newest = better;
+    pulling.dispose();
     ghosts.clear();
     const [before] = surfaces;
     surfaces[0] = surfaceOf(better);
@@ -186,7 +203,8 @@ export async function posingView(
     stage.draw();
   };
 
-  const look = lookSection(stage, surfaces, model, options.up);
+  const sheet = shortcutSheet(POSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
+  const look = lookSection(stage, surfaces, model, options.up, sheet);
   const bare = () => {
     const { selected } = posing;
     posing.select(-1);
@@ -207,6 +225,8 @@ export async function posingView(
       h("div", { className: "list" }, ...list),
       modes.element,
       figures,
+      fields.element,
+      pulls.element,
       h("div", { className: "row" }, undo, redo, reset),
       ...chooser(options.choose),
     ),
@@ -245,12 +265,11 @@ export async function posingView(
     dispose: () => {
       stop.abort();
       takeAway.dispose();
+      pulling.dispose();
       ghosts.clear();
       polishing?.cancel();
       readout.dispose();
-      stage.beforeFrame = () => {};
-      stage.afterFrame = () => {};
-      stage.restored = () => {};
+      stage.rest();
       look.legend.dispose();
       hud.dispose();
       gizmo.dispose();
@@ -264,14 +283,6 @@ export async function posingView(
 function warningOf({ outside, model }: PosingSession): string {
   const parts = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);
   return parts.length === 0 ? "" : `Beyond what was sampled: ${parts.join("; ")}`;
-}
-
-function described(session: PosingSession, handle: number): string {
-  const { translation } = session.motion(handle);
-  const short = (x: number) =>
-    Math.abs(x) < 5e-4 * session.model.diagonal ? "0" : Number(x.toPrecision(2)).toString();
-  const degrees = session.euler(handle).map((angle) => `${Math.round((180 * angle) / Math.PI)}°`);
-  return `Moved ${translation.map(short).join(", ")}; turned ${degrees.join(", ")}`;
 }
 
 /** Positions after the first handle's motion. */

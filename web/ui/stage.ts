@@ -24,6 +24,12 @@ const MARGIN = 0.05;
 
 /** The direction from the middle to the camera. */
 const VIEW = new Vector3(0.62, 0.36, 0.8).normalize();
+/** Directions of named views; that from above is not quite vertical, so that the picture has an up. */
+export const VIEWS: Record<string, Vector3> = {
+  front: new Vector3(0, 0, 1),
+  side: new Vector3(1, 0, 0),
+  top: new Vector3(0, 1, 1e-3).normalize(),
+};
 
 /** Canvas, camera, studio light and ground. Models stand in `root`, which is about one unit large. */
 export class Stage {
@@ -91,6 +97,11 @@ export class Stage {
     });
   }
 
+  /** Forgets the view that was shown. */
+  rest(): void {
+    this.beforeFrame = this.afterFrame = this.restored = () => {};
+  }
+
   /** Puts the bounding box of a shape on the ground, its diagonal one unit long, with an axis up. */
   place(shape: Float32Array, up: Axis): void {
     this.up = up;
@@ -108,13 +119,14 @@ export class Stage {
     this.look();
   }
 
-  /** The first view: from the front, a little to the side and above. `width` is what must be seen across. */
-  look(width = 1): void {
+  /** The first view: from the front, a little to the side and above; or from another direction. `width` is what must be
+   * seen across. */
+  look(width = 1, from = VIEW): void {
     const target = new Vector3(0, 0.5 * this.#height, 0);
     const half = Math.tan((this.camera.fov * Math.PI) / 360);
     const distance = Math.max(0.5 / half, (0.5 * width) / half / this.camera.aspect);
     this.controls.target.copy(target);
-    this.camera.position.copy(VIEW).multiplyScalar(distance).add(target);
+    this.camera.position.copy(from).multiplyScalar(distance).add(target);
     this.controls.update();
     this.draw();
   }
