@@ -69,6 +69,7 @@ EXPORTS = {
         "Quartic",
         "ReducedModel",
         "reduce",
+        "with_handles",
     ),
     "registration": ("RigidMotion", "matched_scales", "registered", "rigid_registration"),
     "sampling": ("sample",),

@@ -69,6 +69,7 @@ from .reduction import (
     Quartic,
     ReducedModel,
     reduce,
+    with_handles,
 )
 from .registration import (
     RigidMotion,
@@ -227,6 +228,7 @@ __all__ = [
     "split_errors",
     "stuff_surface",
     "validate",
+    "with_handles",
     "write_animation",
     "write_glb",
     "write_surface",

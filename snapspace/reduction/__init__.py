@@ -29,6 +29,7 @@ from .quartic import (
 from .quartic_cost import LongWorkNotice, exact_seconds
 from .reduce import reduce
 from .reduced_model import ReducedModel
+from .with_handles import with_handles
 
 __all__ = [
     "ENERGIES",
@@ -58,4 +59,5 @@ __all__ = [
     "reduce",
     "reduced_quartic",
     "training_tolerance",
+    "with_handles",
 ]
