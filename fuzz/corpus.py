@@ -61,9 +61,12 @@ def models() -> Iterator[tuple[str, ss.ReducedModel]]:
         yield f"interpolation-{kind.kind}", ss.reduce(problem, subspace, snapshots=solved)
 
 
+KINDS = ("model", "page", "samples", "checkpoint", "problem", "surface", "tets", "timeline")
+
+
 def write_corpus(folder: Path) -> None:
     """Writes the files for all targets, each into the folder of its kind."""
-    for kind in ("model", "page", "samples", "checkpoint", "problem", "surface", "tets"):
+    for kind in KINDS:
         (folder / kind).mkdir(parents=True, exist_ok=True)
     for name, model in models():
         model.save(folder / "model" / f"{name}.snapspace")
@@ -81,7 +84,14 @@ def write_corpus(folder: Path) -> None:
         meshio.Mesh(mesh().vertices, cells).write(path, binary=binary)
     (folder / "surface" / "many.obj").write_text(_OBJ, encoding="ascii")
     (folder / "surface" / "text.ply").write_text(_PLY, encoding="ascii")
+    model = posing_model(energy="exact")
+    ss.write_glb(folder / "surface" / "bar.glb", model, ss.mode_targets(model))
     _write_tets(folder / "tets")
+    turn = ((0.1, 0.2, 0.3), (0.4, 0.5, 0.6))
+    keys = (ss.Key(0.0, {}), ss.Key(1.5, {"head": turn}, "hold"), ss.Key(2.0, {}, "linear"))
+    ss.write_timeline(folder / "timeline" / "posing.json", ss.Timeline("posing", keys, loop=True))
+    weights = (ss.Key(0.0, {"rest": 1.0}), ss.Key(1.0, {"rest": 0.25, "bent": 0.75}))
+    ss.write_timeline(folder / "timeline" / "weights.json", ss.Timeline("interpolation", weights))
 
 
 def posing_model(material: ss.Material | None = None, *, energy: str) -> ss.PosingModel:

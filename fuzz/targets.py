@@ -98,6 +98,12 @@ def _load_snapshots(path: Path) -> None:
     _need(bool(np.isfinite(loaded.parameters).all()), "finite parameters")
 
 
+def _read_timeline(path: Path) -> None:
+    timeline = ss.read_timeline(path)
+    shares = [share for _, share in timeline.shares(9)]
+    _need(all(0.0 <= share <= 1.0 for share in shares), "shares of the way")
+
+
 def _need(holds: bool, what: str) -> None:
     if not holds:
         raise FaultError(f"an object without {what}")
@@ -122,6 +128,7 @@ TARGETS = {
     "read_problem": Target("problem", _read_problem),
     "read_surface": Target("surface", _read_surface),
     "read_tets": Target("tets", _read_tets),
+    "read_timeline": Target("timeline", _read_timeline),
     "page_model": Target("model", _read_page, container=True),
     "page_export": Target("page", _read_page, container=True),
 }
