@@ -115,3 +115,9 @@ def wait_for_text(page: Page, selector: str, text: str) -> None:
     while text not in (found := page.text(selector)):
         assert time.monotonic() < end, f"no '{text}' in: {found}"
         page.page.wait_for_timeout(20)
+
+
+def widen(page: Page, degrees: float = 120.0) -> None:
+    """Lets handles turn far, so that a computation takes long: tests stop it in the middle."""
+    press(page, "Range")
+    page.page.get_by_label("Turn, plus or minus").first.fill(str(degrees))

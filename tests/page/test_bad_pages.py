@@ -72,7 +72,7 @@ def test_files_are_opened_and_bad_ones_refused(
     page = opened(posing_page.as_uri())
     bad = tmp_path / "teapot.snapspace"
     bad.write_bytes(b"this is no model at all")
-    chosen = page.page.locator("#panel input[type=file]")
+    chosen = page.page.locator("footer input[type=file]")
     chosen.set_input_files(bad)
     page.page.wait_for_selector("#message.error")
     assert "not a complete Snapspace model" in page.text("#message")

@@ -67,7 +67,7 @@ def test_a_path_plays_beside_the_straight_blend(
     page.page.get_by_role("button", name="Compare").click()
     page.settle()
     assert page.text(".tag >> nth=0") == "elastic" and page.text(".tag >> nth=1") == "straight"
-    play = page.page.get_by_role("button", name="Play")
+    play = page.page.get_by_role("button", name="Play", exact=True)
     play.click()
     seen = []
     for _ in range(6):

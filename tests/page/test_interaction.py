@@ -14,6 +14,11 @@ from .test_posing_page import assert_shown
 
 AXES = {"x": "#e8402f", "y": "#3fae3a", "z": "#2f74e8"}
 
+UNDO, REDO = (
+    f"[...document.querySelectorAll('button')].find((b) => b.textContent === '{name}')"
+    for name in ("Undo", "Redo")
+)
+
 
 def begin_drag(page: Page, dx: float, dy: float) -> None:
     x, y = page.run("snapspace.handle(1)")
@@ -45,7 +50,7 @@ def test_a_drag_is_cancelled_and_undo_waits_for_its_end(
     assert np.linalg.norm(dragged - first) > 0.02
     key(page, "Control+z", "r", "ArrowUp")
     assert np.array_equal(shift_of(page), dragged), "no key counts in a drag"
-    page.run("document.querySelector('.row button').click()")  # Undo, with another finger
+    page.run(f"{UNDO}.click()")  # with another finger
     assert np.array_equal(shift_of(page), dragged)
     key(page, "Escape")
     assert np.allclose(shift_of(page), first)
@@ -53,7 +58,7 @@ def test_a_drag_is_cancelled_and_undo_waits_for_its_end(
     page.settle()
     assert np.allclose(shift_of(page), first), "the drag is over, although the pointer moves"
     page.page.mouse.up()
-    assert page.run("document.querySelectorAll('.row button')[1].disabled"), "nothing to redo"
+    assert page.run(f"{REDO}.disabled"), "nothing to redo"
     page.drag(page.run("snapspace.handle(1)"), -30, 20)
     second = shift_of(page)
     key(page, "Control+z")
@@ -101,7 +106,7 @@ def test_a_drag_of_the_gizmo_is_cancelled(posing_page: Path, opened: OpenPage) -
     mouse.up()
     page.settle()
     assert np.allclose(shift_of(page), 0)
-    assert page.run("document.querySelector('.row button').disabled"), "nothing to undo"
+    assert page.run(f"{UNDO}.disabled"), "nothing to undo"
 
 
 def is_on_arrow(page: Page, x: float, y: float) -> bool:

@@ -155,7 +155,10 @@ def test_poses_are_searched_and_chosen_by_keys(page: Page) -> None:
     assert seen == ["arc-01", "arc-05", "twist_1", "twist_2", "arc-05", "arc-01", "look back"]
     page.page.keyboard.press("Space")
     assert "look back" in taking_part(page), "Space presses the button and does not play"
-    assert page.page.get_by_role("button", name="Play").get_attribute("aria-pressed") == "false"
+    assert (
+        page.page.get_by_role("button", name="Play", exact=True).get_attribute("aria-pressed")
+        == "false"
+    )
     page.page.keyboard.press("Tab")
     assert page.run("document.activeElement.closest('.poses')") is None, "one step leads out"
 
@@ -248,7 +251,7 @@ def test_a_jump_on_the_walk_is_reported_with_its_weight(
     page.page.get_by_role("slider", name="arc-05").fill("0.6")
     page.settle()
     page.run(LEAPING)
-    page.page.get_by_role("button", name="Play").click()
+    page.page.get_by_role("button", name="Play", exact=True).click()
     remark = "document.querySelector('.hud p[role=status]:not(.badge)').textContent"
     page.wait(remark)
     assert page.run(remark) == "The shape jumps on the way to arc-01, at a weight of 50.0 %."

@@ -96,7 +96,7 @@ def assert_saved_shows_the_surface(
         page.wait("snapspace.kind === 'choosing'")
         assert page.run("snapspace.choosing.mesh.shape.length") == vertices.size
         assert handles(page) == chosen, "as painted"
-        page.page.locator("#panel input[type=file]").set_input_files(folder / "bar.snapspace")
+        page.page.locator("footer input[type=file]").set_input_files(folder / "bar.snapspace")
         page.wait("snapspace.kind === 'posing'")
         assert page.run("snapspace.stage.up") == "y"
         owners = np.array(page.run("[...snapspace.session.model.handleOfVertex]"))

@@ -19,6 +19,7 @@ from .choosing_page import (
     set_number,
     tool,
     wait_for_text,
+    widen,
 )
 from .pages import OpenPage, Page
 from .serving import served
@@ -40,6 +41,7 @@ def test_handles_computation_and_pose_are_there_again(
     page.page.get_by_label("Poisson's ratio").fill("0.4")
     set_number(page, "Samples, at most", 640)
     set_number(page, "Error of unseen motions, %", 0.01)
+    widen(page)
     chosen, made = handles(page), parts(page)
     reload(page, "choosing")
     assert re.search(r"[?&]workspace=[\w-]+", page.page.url)
@@ -93,7 +95,7 @@ def test_handles_are_chosen_on_the_first_pose_of_a_blending_model(
 ) -> None:
     model, page = blending_model.save(tmp_path / "poses.snapspace"), opened(bar_server)
     page.wait("snapspace.kind === 'choosing'")
-    page.page.locator("#panel input[type=file]").set_input_files(model)
+    page.page.locator("footer input[type=file]").set_input_files(model)
     page.wait("snapspace.kind === 'interpolation'")
     press(page, "Choose handles")
     page.wait("snapspace.kind === 'choosing'")

@@ -44,7 +44,7 @@ def test_keys_are_played_by_solving_and_saved_for_python(
     page.page.locator(".key").first.click()
     page.settle()
     np.testing.assert_allclose(page.shown(), rest, atol=1e-4)
-    button(page, "Play").click()
+    button(page, "Play keys").click()
     page.wait(f"!{TIMELINE}.isPlaying")
     page.settle()
     np.testing.assert_allclose(page.shown(), posed, atol=1e-3 * np.abs(posed - rest).max())

@@ -24,6 +24,7 @@ from .choosing_page import (
     saved_file,
     set_number,
     wait_for_text,
+    widen,
 )
 from .pages import SECONDS, OpenPage, Page
 from .serving import served
@@ -121,6 +122,7 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
 
 
 def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
+    widen(page)
     compute(page, most_samples=20_000, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     cancel(page)
@@ -154,12 +156,13 @@ def test_two_pages_do_not_disturb_each_other(page: Page, bar_server: str, opened
     name.press("Enter")
     set_number(other, "Error of unseen motions, %", 50.0)
     set_number(other, "Samples, at most", 20)
+    widen(page)
     compute(page, most_samples=20_000, percent=0.01)
+    page.wait("snapspace.kind === 'posing'")  # the server computes for this page
     press(other, "Compute")
     wait_for_text(other, "#panel", "Waiting for another computation")
     assert other.text(".progress-words").strip() == "Waiting for another computation"
     assert not other.page.locator("#panel progress").get_attribute("value"), "it has no end yet"
-    page.wait("snapspace.kind === 'posing'")
     cancel(page)
     page.page.get_by_role("button", name="Cancel").wait_for(state="hidden")
     press(page, "Choose handles")

@@ -168,14 +168,6 @@ export class PosingSession {
     return eulerOfRotation(this.#maps[handle].rotation);
   }
 
-  /** Offsets [R - I | t] of all handles, seen from the first. */
-  get #offsets(): number[] {
-    const offsets: number[] = [];
-    for (const { rotation: R, translation: t } of this.#relative)
-      offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
-    return offsets.fill(0, 0, 12); // exactly
-  }
-
   /** Points that are pulled; this session's own shape stays. */
   pulls(module: WebAssembly.Module, points: readonly PulledPoint[]): Promise<Pulls> {
     return Pulls.create(module, this.model, points, this.#stop);
@@ -183,7 +175,7 @@ export class PosingSession {
 
   /** Solves for pulled points beside the present handles. */
   solvePulled(pulls: Pulls): FrameReport {
-    return pulls.solve(this.#offsets, this.carriedBy);
+    return pulls.solve(offsetsOf(this.#relative), this.carriedBy);
   }
 
   #mapsOf(motions: ReadonlyMap<number, Motion>): readonly RigidMap[] {
@@ -203,10 +195,18 @@ export class PosingSession {
         ? this.#relative[handle]
         : relativeMotion(maps[0], map, this.model.handles[handle].center),
     );
+    this.#core.setOffsets(offsetsOf(relative)); // throws for numbers that are not finite
     [this.#maps, this.#relative] = [maps, relative];
-    this.#core.setOffsets(this.#offsets);
     this.#outside = null;
   }
+}
+
+/** Offsets [R - I | t] of all handles, by their motions seen from the first. */
+function offsetsOf(relative: readonly Motion[]): number[] {
+  const offsets: number[] = [];
+  for (const { rotation: R, translation: t } of relative)
+    offsets.push(R[0] - 1, R[1], R[2], t[0], R[3], R[4] - 1, R[5], t[1], R[6], R[7], R[8] - 1, t[2]);
+  return offsets.fill(0, 0, 12); // exactly
 }
 
 /** A handle's motion as it is seen from the first one. */

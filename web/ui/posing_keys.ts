@@ -13,6 +13,7 @@ export function listenToKeys(posing: Posing, signal: AbortSignal): void {
 }
 
 function handle(posing: Posing, event: KeyboardEvent): void {
+  if (document.querySelector("dialog[open]")) return;
   if (posing.isDragging) {
     if (event.key === "Escape") posing.cancelDrag();
     event.preventDefault();

@@ -36,7 +36,7 @@ export class TimelinePanel<State> {
   #isPlaying = false;
   #onion = false;
   readonly #pictures = new Map<State, string>();
-  readonly #play = toggle("Play", "Solves and shows every frame; P", false, (on) => this.play(on));
+  readonly #play = toggle("Play keys", "Solves and shows every frame; P", false, (on) => this.play(on));
   readonly #clock = h("output", {});
   readonly #track = h("input", { type: "range", min: 0, step: "any", "aria-label": "Time" });
   readonly #keys = h("div", { className: "keys", role: "group", "aria-label": "Keys" });
