@@ -15,7 +15,7 @@ from .cases import meshes_folder
 from .result import FOLDER, PICTURES
 from .run import run_program
 
-#: Modules in the order in which they run; of those that run together the longest first.
+#: Modules in the order in which they run. Among those that run together, the longest come first.
 PROGRAMS = (
     "table1",
     "table2",
