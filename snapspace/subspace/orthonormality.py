@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..blas import single_threaded_blas
 from ..mesh import apply_mass
 from .affine_subspace import AffineSubspace
 
@@ -13,6 +14,7 @@ TOLERANCE = 1e-4
 _PROBES = 8
 
 
+@single_threaded_blas
 def check_orthonormal(subspace: AffineSubspace, *, who: str) -> None:
     """Raises a ValueError in the name of `who` unless U is (3n, d), finite and M-orthonormal.
 
