@@ -12,7 +12,10 @@ from numpy.typing import NDArray
 from .certificate import (
     ErrorEstimator,
     ResidualSample,
+    grown,
+    growth_exponent,
     residual_sample,
+    rest_size,
     scalar_diagonal,
 )
 from .mesh import mass_norm
@@ -92,12 +95,16 @@ def calibrate(
     mass = float(model.subspace.mass.sum())
     coordinates, measured = _measured(model, chosen, full, math.sqrt(mass), thorough=thorough)
     distances, residuals, movements = measured
+    sizes = np.linalg.norm(coordinates, axis=1) / math.sqrt(mass)
+    exponent = growth_exponent(residuals, distances, sizes)
+    indicators = grown(residuals, np.maximum(sizes, rest_size(coordinates, mass)), exponent)
     estimator = ErrorEstimator(
         mass=mass,
         sample=chosen,
         coordinates=coordinates,
-        residual_ratios=_ratios(distances, residuals),
+        residual_ratios=_ratios(distances, indicators),
         movement_ratios=_ratios(distances, movements) if thorough else None,
+        exponent=exponent,
     )
     return replace(model, error_estimator=estimator)
 

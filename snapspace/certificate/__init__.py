@@ -3,6 +3,7 @@
 from .certificate import Certificate
 from .error_estimator import ErrorEstimator
 from .local_ratios import LocalRatios
+from .residual_growth import grown, growth_exponent, rest_size
 from .residual_probe import BlendingProbe, PosingProbe, ResidualProbe
 from .residual_sample import (
     ResidualSample,
@@ -18,6 +19,9 @@ __all__ = [
     "PosingProbe",
     "ResidualProbe",
     "ResidualSample",
+    "grown",
+    "growth_exponent",
     "residual_sample",
+    "rest_size",
     "scalar_diagonal",
 ]

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .local_ratios import LocalRatios
+from .residual_growth import rest_size
 from .residual_sample import ResidualSample
 
 FloatArray = NDArray[np.float64]
@@ -23,14 +24,17 @@ class ErrorEstimator:
     mass : mass of the body at density 1, its volume
     sample : the vertices where residuals are read
     coordinates : (k, d), reduced coordinates of the k frames
-    residual_ratios : (k,), true distances over sampled residuals
+    residual_ratios : (k,), true distances over size (residual / size)^exponent, with the sampled
+        residual and the distance from tau of each frame, see `growth_exponent`
     movement_ratios : (k,), true distances over the distances that a polish moves, or None if these
         were not measured; then there are no thorough certificates
+    exponent : of the residual; 1 as in earlier calibrations, whose ratios are to the residual
 
     Raises
     ------
     ValueError
-        For fewer than two frames, numbers that are not finite or ratios that are not positive.
+        For fewer than two frames, numbers that are not finite, ratios that are not positive or an
+        exponent below 1.
     """
 
     mass: float
@@ -38,6 +42,7 @@ class ErrorEstimator:
     coordinates: FloatArray
     residual_ratios: FloatArray
     movement_ratios: FloatArray | None = None
+    exponent: float = 1.0
 
     def __post_init__(self) -> None:
         frames = self.coordinates.shape[:1]
@@ -46,10 +51,11 @@ class ErrorEstimator:
         for ratios in (ratios for ratios in measured if ratios is not None):
             fine = fine and ratios.shape == frames and bool(np.isfinite(ratios).all())
             fine = fine and bool((ratios > 0).all())
-        if not (fine and self.mass > 0):
+        if not (fine and self.mass > 0 and 1.0 <= self.exponent < np.inf):
             raise ValueError(
                 "ErrorEstimator: a calibration needs at least two frames, each with finite "
-                "coordinates and positive ratios; calibrate the model again"
+                "coordinates and positive ratios, and an exponent of 1 or more; calibrate the "
+                "model again"
             )
 
     @property
@@ -58,8 +64,13 @@ class ErrorEstimator:
         return int(self.coordinates.shape[1])
 
     @cached_property
+    def rest(self) -> float:
+        """The size below which frames count as at rest, in the mesh's length unit."""
+        return rest_size(self.coordinates, self.mass)
+
+    @cached_property
     def of_residual(self) -> LocalRatios:
-        """Ratios for sampled residuals."""
+        """Ratios for sampled residuals, see `grown`."""
         return LocalRatios(self.coordinates, self.residual_ratios)
 
     @cached_property

@@ -16,6 +16,9 @@ DTYPES: dict[str, type] = {
 }
 #: Only in estimators that give thorough certificates.
 MOVEMENT = "estimator_movement_ratios"
+#: Of the residual. Files of earlier calibrations have none, and it is 1.
+EXPONENT = "estimator_exponent"
+OPTIONAL: dict[str, type] = {MOVEMENT: np.float64, EXPONENT: np.float64}
 
 
 def estimator_arrays(estimator: ErrorEstimator | None) -> Arrays:
@@ -28,6 +31,7 @@ def estimator_arrays(estimator: ErrorEstimator | None) -> Arrays:
         "estimator_weights": estimator.sample.weights,
         "estimator_coordinates": estimator.coordinates,
         "estimator_residual_ratios": estimator.residual_ratios,
+        EXPONENT: np.array([estimator.exponent]),
     }
     if estimator.movement_ratios is not None:
         arrays[MOVEMENT] = estimator.movement_ratios
@@ -36,9 +40,9 @@ def estimator_arrays(estimator: ErrorEstimator | None) -> Arrays:
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
     """Types of the arrays that a file must have: all of an estimator's if it has any of them."""
-    if not any(name in arrays for name in (*DTYPES, MOVEMENT)):
+    if not any(name in arrays for name in DTYPES | OPTIONAL):
         return {}
-    return DTYPES | ({MOVEMENT: np.float64} if MOVEMENT in arrays else {})
+    return DTYPES | {name: kind for name, kind in OPTIONAL.items() if name in arrays}
 
 
 def estimator(arrays: Arrays) -> ErrorEstimator | None:
@@ -51,4 +55,5 @@ def estimator(arrays: Arrays) -> ErrorEstimator | None:
         coordinates=arrays["estimator_coordinates"],
         residual_ratios=arrays["estimator_residual_ratios"],
         movement_ratios=arrays.get(MOVEMENT),
+        exponent=float(arrays[EXPONENT].item()) if EXPONENT in arrays else 1.0,
     )

@@ -42,4 +42,5 @@ def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
         "estimator_weights": probe.weights,
         "estimator_coordinates": estimator.coordinates.astype(np.float32),
         "estimator_ratios": estimator.residual_ratios,
+        "estimator_exponent": np.array([estimator.exponent]),
     }

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..certificate import Certificate, ErrorEstimator
+from ..certificate import Certificate, ErrorEstimator, grown
 from .polish import relative
 
 if TYPE_CHECKING:
@@ -29,14 +29,15 @@ def certify(session: Session[Any], *, confidence: float, thorough: bool) -> Cert
             "first"
         )
     q, estimator = session.q, _estimator(session)
+    # the basis is M-orthonormal: the norm of q is the M-norm of the displacement
+    size = float(np.linalg.norm(q)) / math.sqrt(estimator.mass)
     if thorough:
         ratios = estimator.of_movement
         indicator = movement(session)
     else:
-        indicator, ratios = session.residual(estimator.sample), estimator.of_residual
+        residual, ratios = session.residual(estimator.sample), estimator.of_residual
+        indicator = grown(residual, max(size, estimator.rest), estimator.exponent)
     median, bound = ratios.at(q, confidence)
-    # the basis is M-orthonormal: the norm of q is the M-norm of the displacement
-    size = float(np.linalg.norm(q)) / math.sqrt(estimator.mass)
     return Certificate(
         distance=indicator * median,
         relative=relative(indicator * median, size),

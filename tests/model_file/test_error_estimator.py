@@ -47,6 +47,21 @@ def test_models_without_an_estimator_have_no_such_arrays(
     assert load(path).error_estimator is None
 
 
+def test_files_of_earlier_calibrations_have_the_exponent_one(
+    models: dict[str, PosingModel], tmp_path: Path
+) -> None:
+    """Their ratios are to the residual itself."""
+    model = models["posing"]
+    path = model.save(tmp_path / "model.snapspace")
+    before, after = model.error_estimator, load(path).error_estimator
+    assert before is not None and after is not None and after.exponent == before.exponent > 1.0
+    arrays, header = read_container(path)
+    del arrays["estimator_exponent"]
+    write_container(path, arrays, header)
+    earlier = load(path).error_estimator
+    assert earlier is not None and earlier.exponent == 1.0
+
+
 @pytest.mark.parametrize("name", DTYPES)
 def test_a_file_with_an_incomplete_estimator_is_refused(
     models: dict[str, PosingModel], name: str, tmp_path: Path
@@ -66,5 +81,5 @@ def test_a_damaged_estimator_is_refused(models: dict[str, PosingModel], tmp_path
     with pytest.raises(ValueError, match="one positive weight per vertex"):
         load(path)
     write_container(path, {**arrays, "estimator_residual_ratios": np.full(9, -1.0)}, header)
-    with pytest.raises(ValueError, match="positive ratios; calibrate"):
+    with pytest.raises(ValueError, match="positive ratios, .* calibrate"):
         load(path)

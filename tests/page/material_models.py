@@ -52,4 +52,5 @@ def some_estimator(model: PosingModel) -> ErrorEstimator:
         coordinates=model.coordinate_scale * rng.normal(size=(12, model.dimension)),
         residual_ratios=rng.uniform(0.5, 2.0, 12),
         movement_ratios=rng.uniform(0.5, 2.0, 12),
+        exponent=1.6,
     )

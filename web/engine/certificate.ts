@@ -23,6 +23,7 @@ export class Certifier {
   readonly #mass: number;
   readonly #rest: number;
   readonly #dimension: number;
+  readonly #exponent: number;
 
   /** Null for a model that was not calibrated. `core` solves it. */
   static of(model: Model, core: Core): Certifier | null {
@@ -34,6 +35,7 @@ export class Certifier {
     this.#ratios = new LocalRatios(estimator.coordinates, estimator.ratios);
     this.#mass = estimator.mass;
     this.#dimension = model.dimension;
+    this.#exponent = estimator.exponent;
     const squares = estimator.coordinates.reduce((sum, x) => sum + x * x, 0);
     this.#rest = REST * Math.sqrt(squares / (estimator.ratios.length * estimator.mass));
   }
@@ -48,9 +50,7 @@ export class Certifier {
     const residual = this.#core.residual();
     if (residual === null || !Number.isFinite(residual)) return null;
     const [middle, bound] = this.#ratios.at(q, CONFIDENCE);
-    return {
-      relative: (residual * middle) / size,
-      upper: bound === null ? null : (residual * bound) / size,
-    };
+    const indicator = (residual / size) ** this.#exponent; // over size
+    return { relative: indicator * middle, upper: bound === null ? null : indicator * bound };
   }
 }

@@ -19,9 +19,11 @@ export interface Estimator {
   readonly weights: Float64Array;
   /** Pinned vertices among these corners, of posing models. */
   readonly pins: Pins;
-  /** Frames that were solved in full, d numbers each, and their true distances over sampled residuals. */
+  /** Frames that were solved in full, d numbers each, and their true distances over size * (residual / size) ^ exponent. */
   readonly coordinates: Float64Array;
   readonly ratios: Float64Array;
+  /** 1 in earlier calibrations. */
+  readonly exponent: number;
 }
 
 export interface Pins {

@@ -60,7 +60,13 @@ export function estimatorOf(
     ),
     coordinates: container.doubles("estimator_coordinates", frames, dimension),
     ratios: container.doubles("estimator_residual_ratios", frames),
+    exponent: exponentOf(container),
   };
+}
+
+/** The exponent of residuals; files of earlier calibrations have none, and it is 1. */
+export function exponentOf(container: Container): number {
+  return container.has("estimator_exponent") ? container.doubles("estimator_exponent", 1)[0] : 1;
 }
 
 /** The sampled vertices that handles hold. */

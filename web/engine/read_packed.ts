@@ -1,6 +1,7 @@
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
+import { exponentOf } from "./read_estimator.ts";
 import { readMaterial } from "./read_material.ts";
 import {
   coefficientCount,
@@ -139,6 +140,7 @@ function readEstimator(
     pins: handles.length > 0 ? readPins(container, handles, rests) : NO_PINS,
     coordinates: container.doubles("estimator_coordinates", frames, dimension),
     ratios: container.doubles("estimator_ratios", frames),
+    exponent: exponentOf(container),
   };
 }
 
