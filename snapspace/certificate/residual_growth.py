@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 Numbers = TypeVar("Numbers", float, FloatArray)
 
-#: The exponent without calibration samples, and how much it counts beside them: as much as this
-#: spread, the sum of squares of the logarithms of their residuals.
-USUAL_EXPONENT, USUAL_SPREAD = 1.5, 4.0
-#: Limits of an exponent. In a linear problem it is 1.
+#: The exponent of a linear problem, and how much it counts beside the samples: as much as those
+#: whose logarithms of residuals have this sum of squares.
+LINEAR, LINEAR_SPREAD = 1.0, 6.0
+#: Limits of an exponent.
 EXPONENTS = (1.0, 3.0)
 #: Displacements below this share of those of the calibration count as rest.
 REST = 1e-3
@@ -24,8 +24,8 @@ def growth_exponent(residuals: FloatArray, distances: FloatArray, sizes: FloatAr
 
     Where a body is soft, for instance near buckling, the same forces move it farther, and the
     residual is larger as well. So frames with large residuals are farther off than in proportion to
-    them. The exponent is that of the least-squares line through the logarithms, drawn towards 1.5
-    (ridge regression: 16 samples alone would leave an error of 0.3 to 0.5).
+    them. The exponent is the slope of the least-squares line through the logarithms, drawn towards
+    1 (ridge regression), since 16 samples alone do not determine it.
 
     Parameters
     ----------
@@ -37,14 +37,14 @@ def growth_exponent(residuals: FloatArray, distances: FloatArray, sizes: FloatAr
     Returns
     -------
     float
-        Between 1 and 3; 1.5 without usable samples. It does not depend on the units.
+        Between 1 and 3; 1 without usable samples. It does not depend on the units.
     """
     moved = (residuals > 0) & (distances > 0) & (sizes > 0)
     if not moved.any():
-        return USUAL_EXPONENT
+        return LINEAR
     x, y = (np.log(some[moved] / sizes[moved]) for some in (residuals, distances))
     x, y = x - x.mean(), y - y.mean()
-    fitted = (x @ y + USUAL_SPREAD * USUAL_EXPONENT) / (x @ x + USUAL_SPREAD)
+    fitted = (x @ y + LINEAR_SPREAD * LINEAR) / (x @ x + LINEAR_SPREAD)
     return float(np.clip(fitted, *EXPONENTS))
 
 
@@ -59,4 +59,5 @@ def grown(residual: Numbers, size: Numbers, exponent: float) -> Numbers:
 
     The size is at least that of `rest_size`.
     """
-    return size * (residual / size) ** exponent
+    found: Numbers = size * (residual / size) ** exponent
+    return found

@@ -83,5 +83,5 @@ def test_confidence_needs_samples() -> None:
 
 @pytest.mark.parametrize("ratios", [[], [1.0], [1.0, np.nan], [0.0, 1.0], [1.0, 1.0, 1.0]])
 def test_ratios_that_no_calibration_gives_are_refused(ratios: list[float]) -> None:
-    with pytest.raises(ValueError, match="positive ratios, .* calibrate the model again"):
+    with pytest.raises(ValueError, match=r"positive ratios, .* calibrate the model again"):
         ErrorEstimator(1.0, SAMPLE, np.zeros((2, 3)), np.array(ratios), np.ones(2))

@@ -81,5 +81,5 @@ def test_a_damaged_estimator_is_refused(models: dict[str, PosingModel], tmp_path
     with pytest.raises(ValueError, match="one positive weight per vertex"):
         load(path)
     write_container(path, {**arrays, "estimator_residual_ratios": np.full(9, -1.0)}, header)
-    with pytest.raises(ValueError, match="positive ratios, .* calibrate"):
+    with pytest.raises(ValueError, match=r"positive ratios, .* calibrate"):
         load(path)
