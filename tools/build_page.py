@@ -35,7 +35,8 @@ MOST_BYTES = 1_000_000
 def sources() -> list[Path]:
     """All files from which the page is built."""
     top = ["index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"]
-    parts = [*(WEB / "engine").glob("*.ts"), *(WEB / "ui").glob("*.*")]
+    engine = [*(WEB / "engine").glob("*.ts"), *(WEB / "engine" / "files").glob("*.ts")]
+    parts = [*engine, *(WEB / "ui").glob("*.*")]
     return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])
 
 
