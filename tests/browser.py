@@ -15,8 +15,8 @@ OPTIONS = (
     # WebGL in software
     "--use-angle=swiftshader",
     "--enable-unsafe-swiftshader",
-    # The processor puts the page's layers together. WebGL in software would take three times as long
-    # for a picture, most of it for the blurred background of the panel.
+    # The processor puts the page's layers together. WebGL in software would take three times as
+    # long for a picture, most of it for the blurred background of the panel.
     "--disable-gpu-compositing",
     "--disable-background-networking",
     "--disable-component-update",
