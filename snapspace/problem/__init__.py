@@ -13,6 +13,7 @@ from .problem_file import problem_content, read_problem, read_problem_surface
 from .region import in_box, in_sphere
 from .simplex import Simplex
 from .solver_traits import Projection, SolverTraits
+from .surface_handles import handles_in_tets
 
 __all__ = [
     "CertainRange",
@@ -30,6 +31,7 @@ __all__ = [
     "certain_range",
     "euler_of_rotation",
     "handle_misses",
+    "handles_in_tets",
     "in_box",
     "in_sphere",
     "problem_content",

@@ -12,21 +12,16 @@ from numpy.typing import NDArray
 from ..mesh import EmbeddedSurface, TetMesh
 from ..mesh.closest_corners import closest_corners
 from ..problem import Handles
+from ..problem.surface_handles import SurfaceHandles
 from .messages import HandleChoice
 
 Indices = NDArray[np.int32]
-Owners = NDArray[np.intp]
-
-#: Fewer vertices cannot hold a part of a body in place.
-FEWEST = 3
 
 
 class SurfaceRegions:
     """Converts chosen surface vertices to tet vertices, and back.
 
-    A tet vertex of the boundary belongs to the closest surface vertex, so handles have no gaps
-    where the surface is coarser than the tets. The tet vertex that a chosen surface vertex follows
-    most belongs to it too, for places where the surface is finer.
+    See `handles_in_tets` for the vertices of handles.
 
     Parameters
     ----------
@@ -37,9 +32,8 @@ class SurfaceRegions:
 
     def __init__(self, mesh: TetMesh, surface: EmbeddedSurface) -> None:
         self._mesh, self._surface = mesh, surface
-        self._closest = closest_corners(
-            surface.vertices(mesh.vertices), surface.faces, mesh.vertices[mesh.surface_vertices]
-        )
+        self._handles = SurfaceHandles(mesh, surface)
+        self._closest = self._handles.closest
         self._known: dict[bytes, Indices] = {}  # tet vertices by the bytes of surface vertices
 
     @property
@@ -111,54 +105,10 @@ class SurfaceRegions:
         ValueError
             For an index out of range, or a handle too small for the tets.
         """
-        of_surface = self._owners_on_surface(handles)
-        of_tets = self._owners_in_tets(of_surface, len(handles))
         known = [self._known.get(handle.vertices.tobytes()) for handle in handles]
-        for one, region in enumerate(known):
-            if region is not None:
-                of_tets[of_tets == one] = -1
-        for one, region in enumerate(known):
-            if region is not None:
-                of_tets[region] = one
-        regions = []
-        for one, handle in enumerate(handles):
-            if np.count_nonzero(of_tets == one) < FEWEST:
-                _assign_free(of_tets, self._surface.corners[handle.vertices], one)
-            regions.append(np.flatnonzero(of_tets == one).astype(np.int32))
-            if regions[-1].size < FEWEST:
-                raise ValueError(
-                    f"handle '{handle.name}' has {len(handle.vertices)} of the surface's vertices, "
-                    f"but only {regions[-1].size} of the tets'; at least {FEWEST} are needed: "
-                    "choose a larger part, or fill the surface with smaller tets (--edge-length)"
-                )
+        found = self._handles.in_tets(handles, known=known)
         self._known = {
-            handle.vertices.tobytes(): region
-            for handle, region in zip(handles, regions, strict=True)
+            handle.vertices.tobytes(): own.vertices
+            for handle, own in zip(handles, found, strict=True)
         }
-        return Handles(regions, names=handles.names)
-
-    def _owners_on_surface(self, handles: Handles) -> Owners:
-        """The index of each surface vertex's handle, (s,), or -1."""
-        count = len(self._surface.corners)
-        owners = np.full(count, -1)
-        for one, handle in enumerate(handles):
-            if handle.vertices[-1] >= count:
-                raise ValueError(
-                    f"handle '{handle.name}' has vertex index {handle.vertices[-1]}, but the "
-                    f"surface has {count} vertices"
-                )
-            owners[handle.vertices] = one
-        return owners
-
-    def _owners_in_tets(self, of_surface: Owners, count: int) -> Owners:
-        """The index of each tet vertex's handle, (n,), or -1."""
-        owners = np.full(len(self._mesh.vertices), -1)
-        owners[self._mesh.surface_vertices] = of_surface[self._closest]
-        for one in range(count):
-            _assign_free(owners, self._surface.nearest[of_surface == one], one)
-        return owners
-
-
-def _assign_free(owners: Owners, vertices: Indices, one: int) -> None:
-    """Assigns an owner to those of the vertices that have none."""
-    owners[vertices[owners[vertices] < 0]] = one
+        return found
