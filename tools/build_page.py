@@ -26,7 +26,7 @@ LOCK = WEB / "package-lock.json"
 LOCK_STAMP = WEB / "node_modules" / ".snapspace-lock"
 
 PRETTIER = ["node_modules/prettier/bin/prettier.cjs", "--log-level=warn"]
-FORMATTED = ["engine/**/*.ts", "ui/*", "ui/tests/*", "vite.config.ts", "index.html"]
+FORMATTED = ["engine/**/*.ts", "ui/*", "ui/tests/*", "viewer/*", "vite.*.ts", "index.html"]
 
 #: Largest size of the page with the core, without a model.
 MOST_BYTES = 1_000_000
@@ -34,7 +34,8 @@ MOST_BYTES = 1_000_000
 
 def sources() -> list[Path]:
     """All files from which the page is built."""
-    top = ["index.html", "package.json", "package-lock.json", "tsconfig.json", "vite.config.ts"]
+    configs = ["package.json", "package-lock.json", "tsconfig.json"]
+    top = ["index.html", *configs, "vite.config.ts", "vite.core.ts"]
     engine = [*(WEB / "engine").glob("*.ts"), *(WEB / "engine" / "files").glob("*.ts")]
     parts = [*engine, *(WEB / "ui").glob("*.*")]
     return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])
@@ -68,14 +69,14 @@ def install() -> None:
         return
     npm = node.npm()
     assert npm is not None
-    _run([npm, "ci", "--no-fund", "--no-audit", "--loglevel=error"])
+    run([npm, "ci", "--no-fund", "--no-audit", "--loglevel=error"])
     LOCK_STAMP.write_text(lock)
 
 
 def build() -> None:
     """Builds the page; SystemExit with the output of the tools if they fail."""
     install()
-    _run(["node_modules/vite/bin/vite.js", "build"])
+    run(["node_modules/vite/bin/vite.js", "build"])
     page = BUILT.read_text(encoding="utf-8").rstrip() + "\n" + stamp()
     size = len(page.encode())
     if size > MOST_BYTES:
@@ -90,17 +91,18 @@ def build() -> None:
 def check() -> None:
     """Checks types and format; SystemExit with the faults, if any."""
     install()
-    _run(["node_modules/typescript/bin/tsc", "--noEmit"])
-    _run([*PRETTIER, "--check", *FORMATTED])
+    run(["node_modules/typescript/bin/tsc", "--noEmit"])
+    run([*PRETTIER, "--check", *FORMATTED])
 
 
 def reformat() -> None:
     """Formats the sources."""
     install()
-    _run([*PRETTIER, "--write", *FORMATTED])
+    run([*PRETTIER, "--write", *FORMATTED])
 
 
-def _run(arguments: list[str | Path]) -> None:
+def run(arguments: list[str | Path]) -> None:
+    """Runs node in web/; SystemExit with its output if it fails."""
     finished = node.run(arguments)
     if finished.returncode != 0:
         raise SystemExit(f"build_page: {arguments[0]}\n{finished.stdout}{finished.stderr}")

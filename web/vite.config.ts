@@ -1,19 +1,7 @@
-import { readFileSync } from "node:fs";
-
 import type { Plugin } from "vite";
 import { defineConfig } from "vite";
 
-/** The module "virtual:core": web/generated/core.wasm in base64. */
-function core(): Plugin {
-  return {
-    name: "core",
-    resolveId: (id) => (id === "virtual:core" ? `\0${id}` : undefined),
-    load: (id) =>
-      id === "\0virtual:core"
-        ? `export default "${readFileSync(new URL("generated/core.wasm", import.meta.url)).toString("base64")}"`
-        : undefined,
-  };
-}
+import { core } from "./vite.core.ts";
 
 /** Puts the script and the style into the page, so that it is one file that opens from a disk. */
 function oneFile(): Plugin {

@@ -145,7 +145,7 @@ def test_the_arrows_of_the_gizmo_move(posing: Page) -> None:
 def test_dragging_beside_the_shape_looks_around(posing: Page) -> None:
     page = posing
     before = page.run("snapspace.stage.camera.position.toArray()")
-    page.drag((40, 440), 120, -30)
+    page.drag((30, 300), 120, -30)
     assert page.run("snapspace.stage.camera.position.toArray()") != before
     assert not np.any([np.abs(motion).max() for motion in page.motions().values()])
 

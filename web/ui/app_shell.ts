@@ -1,5 +1,6 @@
 import { UnreadableModel } from "../engine/index.ts";
-import { coreBytes } from "./core_bytes.ts";
+import { AxisWidget } from "./axis_widget.ts";
+import { compiledCore } from "./core_bytes.ts";
 import { h } from "./dom.ts";
 import { Stage, type Axis } from "./stage.ts";
 import { followTheme } from "./theme.ts";
@@ -28,13 +29,16 @@ export class AppShell {
     if (!this.#stage) {
       this.#stage = newStage();
       this.#stage.dark = this.#isDark;
+      const axes = new AxisWidget(this.#stage);
+      this.#stage.drawn = () => axes.update();
+      this.#main.append(axes.element);
     }
     return this.#stage;
   }
 
   /** The core, compiled. */
   get module(): Promise<WebAssembly.Module> {
-    this.#module ??= WebAssembly.compile(coreBytes());
+    this.#module ??= compiledCore();
     return this.#module;
   }
 

@@ -9,6 +9,7 @@ export class MotionFields {
   readonly element: HTMLElement;
   readonly #shift: readonly HTMLInputElement[];
   readonly #turn: readonly HTMLInputElement[];
+  readonly #step: number;
 
   constructor(diagonal: number, act: (motion: Motion) => void) {
     const take = () => {
@@ -27,12 +28,13 @@ export class MotionFields {
           if (event.key !== "ArrowUp" && event.key !== "ArrowDown") return;
           event.preventDefault();
           const sign = event.key === "ArrowUp" ? 1 : -1;
-          field.value = short(field.valueAsNumber + sign * step * (event.shiftKey ? 10 : 1));
+          field.value = rounded(field.valueAsNumber + sign * step * (event.shiftKey ? 10 : 1), step / 100);
           take();
         });
         return field;
       });
-    this.#shift = row("Move", "in the unit of the mesh", 10 ** Math.floor(Math.log10(diagonal / 100)));
+    this.#step = 10 ** Math.floor(Math.log10(diagonal / 100));
+    this.#shift = row("Move", "in the unit of the mesh", this.#step);
     this.#turn = row("Turn", "degrees", 1);
     this.element = h(
       "div",
@@ -52,10 +54,12 @@ export class MotionFields {
     if (!motion) return;
     const turns = eulerOfRotation(motion.rotation).map((angle) => DEGREES * angle);
     [...this.#shift, ...this.#turn].forEach((field, k) => {
-      const text = short(k < 3 ? motion.translation[k] : turns[k - 3]);
+      const text = k < 3 ? rounded(motion.translation[k], this.#step / 100) : rounded(turns[k - 3], 0.01);
       if (field !== document.activeElement && field.value !== text) field.value = text;
     });
   }
 }
 
-const short = (x: number) => String(Number(x.toPrecision(4)) || 0);
+/** A multiple of a unit, without the digits of binary fractions. */
+const rounded = (x: number, unit: number) =>
+  String(Number((Math.round(x / unit) * unit).toPrecision(12)) || 0);

@@ -1,18 +1,15 @@
-import { Color } from "three";
-
 import type { Dynamics, FrameReport, Motion, PosingSession } from "../engine/index.ts";
-import { CLAY, handleColor } from "./handle_colors.ts";
+import { HandlePaint } from "./handle_paint.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
 import { History } from "./history.ts";
 import { Jiggle } from "./jiggle.ts";
 import { approach } from "./motion_parts.ts";
 import type { Pulled } from "./pulling.ts";
+import { Snapping } from "./snapping.ts";
 import type { Stage } from "./stage.ts";
 import type { Surface } from "./surface.ts";
 
 export type Mode = "move" | "turn" | "pull";
-
-const WHITE = new Color("#ffffff");
 
 /** The state of posing: the motions that are asked for, the selection, and the history.
  *
@@ -31,11 +28,14 @@ export class Posing {
   #session: PosingSession;
   #surface: Surface;
   #selected = -1;
-  /** Surface vertices of each handle. */
-  #vertices: number[][] = [];
+  #paint: HandlePaint;
   readonly #wishes = new Map<number, Motion>();
   /** Steps in time; static frames while it is off. */
   readonly jiggle: Jiggle;
+  /** Rounds what drags ask for. */
+  readonly snapping: Snapping;
+  /** Whether arrows and rings are along the handle's own axes, else along those of the model. */
+  isLocal = false;
   /** What pulls on points of the surface. */
   pulled: Pulled | null = null;
   #isPulledAnew = false;
@@ -50,7 +50,9 @@ export class Posing {
     this.stage = stage;
     this.#session = session;
     this.#surface = surface;
+    this.#paint = new HandlePaint(surface, session.model, -1);
     this.#history = new History(this.motions);
+    this.snapping = new Snapping(session.model.diagonal);
     const posing = this;
     this.jiggle = new Jiggle({
       step: (dt, dynamics) => this.#step(dt, dynamics),
@@ -59,7 +61,6 @@ export class Posing {
         return posing.session.speed;
       },
     });
-    this.#paint();
     this.#show();
   }
 
@@ -77,7 +78,7 @@ export class Posing {
   replace(session: PosingSession, surface: Surface): void {
     const [motions, shown, { fromBefore }] = [this.motions, this.#shown, session.model];
     [this.#session, this.#surface] = [session, surface];
-    this.#paint();
+    this.#paint = new HandlePaint(surface, session.model, this.#selected);
     this.#transition = null;
     this.#solved(approach(session, motions));
     if (fromBefore?.length === session.q.length * shown.length) {
@@ -107,8 +108,7 @@ export class Posing {
     if (handle === this.#selected) return;
     const before = this.#selected;
     this.#selected = handle;
-    for (const changed of [before, handle])
-      if (changed >= 0) this.#surface.paintSome(this.#vertices[changed], this.#colorOf(changed));
+    for (const changed of [before, handle]) if (changed >= 0) this.#paint.paint(changed, changed === handle);
     this.onChange();
     this.stage.draw();
   }
@@ -124,6 +124,11 @@ export class Posing {
     if (this.#isCancelled) return; // the pointer still moves, the drag is over
     this.#wishes.set(handle, motion);
     this.stage.draw();
+  }
+
+  /** What a drag from `start` asks for, rounded if that is switched on. */
+  snapped(start: Motion, asked: Motion): Motion {
+    return this.snapping.rounded(start, asked, this.isLocal);
   }
 
   /** The motion that is asked for, or the present one. */
@@ -281,19 +286,5 @@ export class Posing {
   #show(): void {
     this.surface.show(this.#shown);
     this.surface.carry(this.session.carriedBy);
-  }
-
-  /** Colours all of a new surface. */
-  #paint(): void {
-    const { handles, handleOfVertex } = this.session.model;
-    const colors = handles.map((_, handle) => this.#colorOf(handle));
-    this.#vertices = handles.map(() => []);
-    handleOfVertex.forEach((handle, vertex) => this.#vertices[handle]?.push(vertex));
-    this.surface.paint((vertex) => (handleOfVertex[vertex] < 0 ? CLAY : colors[handleOfVertex[vertex]]));
-  }
-
-  #colorOf(handle: number): Color {
-    const color = new Color(handleColor(handle));
-    return handle === this.#selected ? color.lerp(WHITE, 0.1) : color;
   }
 }

@@ -118,7 +118,8 @@ export class HandleDrag {
     const [dx, dy] = [event.clientX - drag.x, event.clientY - drag.y];
     if (!drag.moved && Math.hypot(dx, dy) < 2) return;
     drag.moved = true;
-    this.#posing.wish(drag.handle, drag.turn ? this.#turned(drag, dx, dy) : this.#shifted(drag, event));
+    const asked = drag.turn ? this.#turned(drag, dx, dy) : this.#shifted(drag, event);
+    this.#posing.wish(drag.handle, this.#posing.snapped(drag.start, asked));
   }
 
   #up(event: PointerEvent): void {

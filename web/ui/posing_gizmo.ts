@@ -1,11 +1,14 @@
 import { Matrix4, Mesh, Object3D, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 
+import type { Motion } from "../engine/index.ts";
+import { AXIS_COLORS } from "./axis_colors.ts";
 import type { Posing } from "./posing.ts";
 import type { Axis } from "./stage.ts";
 
-/** Colours of the model's axes: red, green, blue; and of the arrow that the pointer is on. */
-const [X, Y, Z, ACTIVE] = ["#e8402f", "#3fae3a", "#2f74e8", "#ffd23f"];
+const [X, Y, Z] = AXIS_COLORS;
+/** Of the arrow that the pointer is on. */
+const ACTIVE = "#ffd23f";
 
 /** Which colour the arrows along the stage's x, y (up) and z have, by the model's axis that points up. */
 const COLORS: Record<Axis, readonly [string, string, string]> = {
@@ -22,7 +25,8 @@ export class Gizmo {
   readonly #proxy = new Object3D();
   readonly #posing: Posing;
   readonly #canvas: HTMLCanvasElement;
-  #up: Axis | null = null;
+  #colored = "";
+  #start: Motion | null = null;
 
   constructor(posing: Posing) {
     const { stage } = posing;
@@ -36,6 +40,7 @@ export class Gizmo {
     this.#controls.addEventListener("objectChange", () => this.#wish());
     this.#controls.addEventListener("dragging-changed", (event) => {
       stage.controls.enabled = !event.value;
+      this.#start = posing.motion(posing.selected);
       if (event.value) posing.grab();
       else posing.commit();
     });
@@ -77,10 +82,12 @@ export class Gizmo {
 
   /** Colours arrows and rings as the model's axes that they are along; before each picture. */
   color(): void {
-    const { up } = this.#posing.stage;
-    if (up === this.#up) return;
-    this.#up = up;
-    this.#controls.setColors(...COLORS[up], ACTIVE);
+    const { stage, isLocal } = this.#posing;
+    const colored = `${stage.up} ${isLocal}`;
+    if (colored === this.#colored) return;
+    this.#colored = colored;
+    this.#controls.setSpace(isLocal ? "local" : "world");
+    this.#controls.setColors(...(isLocal ? AXIS_COLORS : COLORS[stage.up]), ACTIVE);
   }
 
   /** Follows the selected handle. */
@@ -106,8 +113,8 @@ export class Gizmo {
     const found: { direction: number[]; color: string }[] = [];
     this.#controls.getHelper().traverse((part) => {
       if (!(part instanceof Mesh) || !/^[XYZ]$/.test(part.name) || part.material.opacity < 0.9) return;
-      const direction = ["X", "Y", "Z"].map((axis) => (axis === part.name ? 1 : 0));
-      found.push({ direction, color: `#${part.material.color.getHexString()}` });
+      const along = new Vector3().setComponent("XYZ".indexOf(part.name), 1).applyQuaternion(part.quaternion);
+      found.push({ direction: along.toArray(), color: `#${part.material.color.getHexString()}` });
     });
     return found;
   };
@@ -124,9 +131,10 @@ export class Gizmo {
     const e = new Matrix4().makeRotationFromQuaternion(this.#proxy.quaternion).elements;
     const { center } = session.model.handles[selected];
     const { x, y, z } = this.#proxy.position;
-    this.#posing.wish(selected, {
+    const asked: Motion = {
       rotation: [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]],
       translation: [x - center[0], y - center[1], z - center[2]],
-    });
+    };
+    this.#posing.wish(selected, this.#posing.snapped(this.#start ?? asked, asked));
   }
 }

@@ -7,12 +7,14 @@ const STEP = 0.015; // of the diagonal
 const TURN = Math.PI / 36;
 
 /** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, T, R, F, W, J,
- * K, P, Escape. In a drag Escape takes it back, and no other key does anything. */
+ * K, P, L, S, Escape. In a drag Escape takes it back, and no other key does anything. */
 export function listenToKeys(posing: Posing, signal: AbortSignal): void {
-  document.addEventListener("keydown", (event) => handle(posing, event), { signal });
+  const press = (button: string) => document.getElementById(button)?.click();
+  document.addEventListener("keydown", (event) => actOn(event, posing, press), { signal });
 }
 
-function handle(posing: Posing, event: KeyboardEvent): void {
+/** Does what a key asks for; `press` presses the button with an id. */
+export function actOn(event: KeyboardEvent, posing: Posing, press: (button: string) => void): void {
   if (document.querySelector("dialog[open]")) return;
   if (posing.isDragging) {
     if (event.key === "Escape") posing.cancelDrag();
@@ -34,20 +36,26 @@ function handle(posing: Posing, event: KeyboardEvent): void {
     step(posing, event.key);
   } else if (event.key === "Escape") {
     posing.select(-1);
-  } else if (!letter(posing, event.key.toLowerCase())) {
+  } else if (!letter(posing, event.key.toLowerCase(), press)) {
     return;
   }
   event.preventDefault();
 }
 
-function letter(posing: Posing, key: string): boolean {
+const BUTTONS: Record<string, string> = {
+  f: "frame",
+  w: "wires",
+  j: "jiggle",
+  k: "add-key",
+  p: "play-keys",
+  l: "own-axes",
+  s: "snap",
+};
+
+function letter(posing: Posing, key: string, press: (button: string) => void): boolean {
   if (key === "t") posing.setMode(posing.mode === "move" ? "turn" : "move");
   else if (key === "r") posing.reset();
-  else if (key === "f") document.getElementById("frame")?.click();
-  else if (key === "w") document.getElementById("wires")?.click();
-  else if (key === "j") document.getElementById("jiggle")?.click();
-  else if (key === "k") document.getElementById("add-key")?.click();
-  else if (key === "p") document.getElementById("play-keys")?.click();
+  else if (BUTTONS[key]) press(BUTTONS[key]);
   else return false;
   return true;
 }

@@ -1,4 +1,4 @@
-import { PosingSession, type PosingModel } from "../engine/index.ts";
+import type { PosingModel, PosingSession } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleColor } from "./handle_colors.ts";
@@ -6,20 +6,17 @@ import { ExportPanel } from "./export_panel.ts";
 import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
-import { Posing, type Mode } from "./posing.ts";
+import type { Mode } from "./posing.ts";
 import { MotionFields } from "./motion_fields.ts";
 import { Polishing } from "./polishing.ts";
-import { HandleDrag } from "./posing_drag.ts";
-import { Gizmo } from "./posing_gizmo.ts";
 import { listenToKeys } from "./posing_keys.ts";
-import { Marks } from "./posing_marks.ts";
+import { PosingScene, shownShape } from "./posing_scene.ts";
 import { posingTimeline } from "./posing_timeline.ts";
 import { pullRow } from "./pull_row.ts";
 import { Pulling } from "./pulling.ts";
 import { Readout } from "./readout.ts";
 import { POSING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
-import { Surface } from "./surface.ts";
 import type { Motions, View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.";
@@ -40,28 +37,12 @@ export async function posingView(
   model: PosingModel,
   options: ViewOptions,
 ): Promise<PosingView> {
-  const surfaceOf = ({ space, faces, diagonal }: PosingModel) =>
-    new Surface(stage.renderer, space, faces, diagonal, options.forceCpu, [space.base]);
-  let newest = model;
-  const surfaces = [surfaceOf(model)];
-  stage.root.add(surfaces[0].object);
   if (!options.keepView) stage.place(model.space.base, options.up);
-  const session = await PosingSession.create(module, model);
-  const posing = new Posing(stage, session, surfaces[0]);
-  const stop = new AbortController();
-  const gizmo = new Gizmo(posing);
-  let marks = new Marks(posing);
-  const drag = new HandleDrag(posing, gizmo, stop.signal);
-  const pulling = new Pulling(posing, module, stop.signal);
+  const scene = await PosingScene.create(stage, module, model, options);
+  const { posing, gizmo, drag, surfaces } = scene;
+  const pulling = new Pulling(posing, module, scene.signal);
   const pulls = pullRow(pulling);
-  const follow = () => {
-    gizmo.update();
-    marks.update();
-  };
-  posing.warmUp(follow);
-  gizmo.warmUp();
-  drag.warmUp();
-  listenToKeys(posing, stop.signal);
+  listenToKeys(posing, scene.signal);
 
   const hud = new Hud(
     model.name,
@@ -85,6 +66,16 @@ export async function posingView(
     "move",
     (mode) => posing.setMode(mode),
   );
+  const local = toggle("Own axes", "Arrows and rings along the handle's own axes; L", false, (on) => {
+    posing.isLocal = on;
+    stage.draw();
+  });
+  local.id = "own-axes";
+  const { length, degrees } = posing.snapping;
+  const snap = toggle("Snap", `Drags move by ${length} and turn by ${degrees} degrees; S`, false, (on) => {
+    posing.snapping.isOn = on;
+  });
+  snap.id = "snap";
   const undo = h("button", { type: "button", title: "Ctrl+Z", onclick: () => posing.undo() }, "Undo");
   const redo = h(
     "button",
@@ -111,7 +102,7 @@ export async function posingView(
     hud.remark("");
     hud.solved(report);
     polishing?.cancel();
-    follow();
+    scene.follow();
     readout.ask();
   };
   posing.onReleased = () => {
@@ -136,7 +127,7 @@ export async function posingView(
     () => hud.update(),
   );
   posing.onChange = () => {
-    follow();
+    scene.follow();
     readout.now();
     pulls.show(posing.mode === "pull");
     if (!posing.isDragging) keepHash(() => poseHash(motions()));
@@ -181,21 +172,11 @@ export async function posingView(
     );
   let quality = qualityOf(model.dimension);
   const replace = async (better: PosingModel) => {
-    const session = await PosingSession.create(module, better);
-    if (stop.signal.aborted) return; // the view was left meanwhile
-    newest = better;
+    const session = await scene.sessionOf(better);
+    if (!session) return; // the view was left meanwhile
     pulling.dispose();
     ghosts.clear();
-    const [before] = surfaces;
-    surfaces[0] = surfaceOf(better);
-    surfaces[0].lookAs(before);
-    stage.root.add(surfaces[0].object);
-    marks.dispose();
-    posing.replace(session, surfaces[0]);
-    drag.warmUp();
-    marks = new Marks(posing);
-    before.object.removeFromParent();
-    before.dispose();
+    scene.replace(session);
     hud.dimension(better.dimension, better.dimension);
     const next = qualityOf(better.dimension);
     quality.replaceWith(next);
@@ -203,7 +184,7 @@ export async function posingView(
     stage.draw();
   };
 
-  const sheet = shortcutSheet(POSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
+  const sheet = shortcutSheet(POSING, (view) => stage.look(1, VIEWS[view]), scene.signal);
   const look = lookSection(stage, surfaces, model, options.up, sheet);
   const bare = () => {
     const { selected } = posing;
@@ -214,10 +195,10 @@ export async function posingView(
     name: model.name,
     faces: model.faces,
     page: options.page,
-    shape: () => carried(posing.surface.shown(), posing.session),
+    shape: () => shownShape(posing),
     bare,
   });
-  const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => surfaceOf(newest), bare);
+  const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => scene.anotherSurface(), bare);
   if (model.timeline !== undefined) timeline.load(model.timeline);
   const panel = [
     section(
@@ -227,6 +208,7 @@ export async function posingView(
       figures,
       fields.element,
       pulls.element,
+      h("div", { className: "row" }, local, snap),
       h("div", { className: "row" }, undo, redo, reset),
       ...chooser(options.choose),
     ),
@@ -255,7 +237,7 @@ export async function posingView(
       get session() {
         return posing.session;
       },
-      shown: () => carried(posing.surface.shown(), posing.session),
+      shown: () => shownShape(posing),
       strains: () => posing.surface.strains(),
       handle: (handle: number) => drag.screen(handle),
       onGpu: surfaces[0].onGpu,
@@ -263,7 +245,6 @@ export async function posingView(
       timeline,
     },
     dispose: () => {
-      stop.abort();
       takeAway.dispose();
       pulling.dispose();
       ghosts.clear();
@@ -272,10 +253,7 @@ export async function posingView(
       stage.rest();
       look.legend.dispose();
       hud.dispose();
-      gizmo.dispose();
-      marks.dispose();
-      surfaces[0].object.removeFromParent();
-      surfaces[0].dispose();
+      scene.dispose();
     },
   };
 }
@@ -283,14 +261,4 @@ export async function posingView(
 function warningOf({ outside, model }: PosingSession): string {
   const parts = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);
   return parts.length === 0 ? "" : `Beyond what was sampled: ${parts.join("; ")}`;
-}
-
-/** Positions after the first handle's motion. */
-function carried(shape: Float32Array<ArrayBuffer>, session: PosingSession): Float32Array<ArrayBuffer> {
-  const { rotation: R, shift: t } = session.carriedBy;
-  for (let i = 0; i < shape.length; i += 3) {
-    const [x, y, z] = shape.subarray(i, i + 3);
-    for (let a = 0; a < 3; a++) shape[i + a] = R[3 * a] * x + R[3 * a + 1] * y + R[3 * a + 2] * z + t[a];
-  }
-  return shape;
 }

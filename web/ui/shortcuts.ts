@@ -8,6 +8,7 @@ export const POSING: Shortcuts = [
   ["1 to 9", "select a handle"],
   ["Arrows", "move or turn the selected handle"],
   ["T", "move or turn"],
+  ["L, S", "the handle's own axes, snap"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["R", "reset"],
   ["J", "jiggle"],

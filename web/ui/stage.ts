@@ -1,9 +1,8 @@
 import {
   Box3,
+  type Camera,
   CircleGeometry,
-  DirectionalLight,
   Group,
-  HemisphereLight,
   Mesh,
   NeutralToneMapping,
   PCFShadowMap,
@@ -16,6 +15,8 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+import { keyLights, studioLight } from "./studio.ts";
 
 export type Axis = "x" | "y" | "z";
 
@@ -44,9 +45,13 @@ export class Stage {
   beforeFrame: (seconds: number) => void = () => {};
   /** Called after each picture: animations ask for the next one here. */
   afterFrame: () => void = () => {};
+  /** Called after each picture, whatever is shown. */
+  drawn: () => void = () => {};
   /** Called when lost graphics are back: what was computed there is gone. */
   restored: () => void = () => {};
   readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
+  readonly #lights = keyLights();
+  readonly #resized = new ResizeObserver(() => this.fit());
   #height = 0.5;
   readonly #before = new PerspectiveCamera(); // while another picture is taken
   #asked = false;
@@ -70,13 +75,14 @@ export class Stage {
     this.#ground = new Mesh(new CircleGeometry(6, 48), new ShadowMaterial({ opacity: 0.28 }));
     this.#ground.rotation.x = -Math.PI / 2;
     this.#ground.receiveShadow = true;
-    this.scene.add(this.root, this.#ground, ...studio());
+    this.scene.add(this.root, this.#ground, studioLight(), this.#lights);
+    this.scene.onBeforeRender = (_renderer, _scene, camera) => this.#follow(camera);
     // after the renderer, which listens as well
     canvas.addEventListener("webglcontextrestored", () => {
       this.restored();
       this.draw();
     });
-    new ResizeObserver(() => this.fit()).observe(canvas.parentElement!);
+    this.#resized.observe(canvas.parentElement!);
     this.fit();
   }
 
@@ -94,12 +100,30 @@ export class Stage {
       }
       this.renderer.render(this.scene, this.camera);
       this.afterFrame();
+      this.drawn();
     });
+  }
+
+  /** Turns the lights with a camera that goes around the shape. */
+  #follow(camera: Camera): void {
+    const { x, z } = camera.position;
+    const { x: tx, z: tz } = this.controls.target;
+    this.#lights.rotation.y = Math.atan2(x - tx, z - tz) - Math.atan2(VIEW.x, VIEW.z);
+    this.#lights.updateMatrixWorld(true);
   }
 
   /** Forgets the view that was shown. */
   rest(): void {
     this.beforeFrame = this.afterFrame = this.restored = () => {};
+  }
+
+  /** Gives the graphics back: browsers have few for a page. The canvas cannot be drawn on again. */
+  dispose(): void {
+    this.rest();
+    this.#resized.disconnect();
+    this.controls.dispose();
+    this.renderer.dispose();
+    this.renderer.forceContextLoss();
   }
 
   /** Puts the bounding box of a shape on the ground, its diagonal one unit long, with an axis up. */
@@ -195,23 +219,4 @@ export class Stage {
 
 function boxOf(shape: Float32Array): Box3 {
   return new Box3().setFromArray(shape);
-}
-
-/** A sky, a key light with a soft shadow, a cool fill, and a rim from behind. */
-function studio(): (HemisphereLight | DirectionalLight)[] {
-  const sky = new HemisphereLight(0xf4f7ff, 0xb9a893, 1.5);
-  const key = new DirectionalLight(0xfff1e0, 2.6);
-  key.position.set(1.4, 2.6, 1.2);
-  key.castShadow = true;
-  key.shadow.mapSize.set(1024, 1024);
-  key.shadow.radius = 2.5;
-  key.shadow.bias = -0.0004;
-  key.shadow.normalBias = 0.02;
-  const box = key.shadow.camera;
-  [box.left, box.right, box.bottom, box.top, box.near, box.far] = [-1.3, 1.3, -1.3, 1.3, 0.5, 6];
-  const fill = new DirectionalLight(0xbfd4ff, 0.55);
-  fill.position.set(-2, 0.8, 1);
-  const rim = new DirectionalLight(0xffffff, 1.3);
-  rim.position.set(-0.8, 1.4, -2);
-  return [sky, key, fill, rim];
 }
