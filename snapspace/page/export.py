@@ -89,3 +89,40 @@ def export_html(
     with atomic_file(path) as temporary:
         temporary.write_text(content, encoding="utf-8")
     return path
+
+
+def export_packed(
+    model: ReducedModel, path: str | Path, *, title: str | None = None, up: str | None = None
+) -> Path:
+    """Writes what a page needs of a model, for the web component <snapspace-viewer>.
+
+    The file has the surface only, modes as 16-bit integers and coefficients in single precision: it
+    is a fraction of the model's file. `load` does not read it.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    path : str or Path
+        Ends in .snapspace.
+    title : str, optional
+        Default: the file's name without its extension.
+    up : "x", "y" or "z", default the model's own
+        Axis that points up at first.
+
+    Returns
+    -------
+    Path
+        The file. If writing fails, no incomplete file is left behind.
+
+    Raises
+    ------
+    ValueError
+        For an unknown extension, or if the file cannot be written.
+    """
+    path = Path(path)
+    if path.suffix.lower() != ".snapspace":
+        raise ValueError(f"{path}: the name of a packed model must end in .snapspace")
+    content = packed(model, name=path.stem if title is None else title, up=up)
+    with atomic_file(path) as temporary:
+        temporary.write_bytes(content)
+    return path

@@ -1,0 +1,1 @@
+"""The web component <snapspace-viewer>, as its users see it."""

