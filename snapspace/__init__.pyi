@@ -19,7 +19,7 @@ from .fitting import (
     PoseFits,
     fit_poses,
 )
-from .gltf import MorphTargets, fitted_targets, mode_targets, write_glb
+from .gltf import MorphTargets, fitted_targets, mode_targets, write_blender, write_glb
 from .greedy import greedy_snapshots
 from .material import (
     ARAP,
@@ -47,7 +47,7 @@ from .mesh import (
     write_tets,
 )
 from .model_file import load, load_blending, load_posing, save_model
-from .page import export_html
+from .page import export_html, export_packed
 from .problem import (
     CertainRange,
     Handle,
@@ -57,6 +57,7 @@ from .problem import (
     Poses,
     PosingProblem,
     Simplex,
+    handles_in_tets,
     in_box,
     in_sphere,
     read_problem,
@@ -193,11 +194,13 @@ __all__ = [
     "embed_surface",
     "error_curve",
     "export_html",
+    "export_packed",
     "fill_surface",
     "fit_poses",
     "fitted_targets",
     "greedy_snapshots",
     "growing_models",
+    "handles_in_tets",
     "in_box",
     "in_sphere",
     "load",
@@ -230,6 +233,7 @@ __all__ = [
     "validate",
     "with_handles",
     "write_animation",
+    "write_blender",
     "write_glb",
     "write_surface",
     "write_tets",

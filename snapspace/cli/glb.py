@@ -1,4 +1,4 @@
-"""glTF files of the command line, with a line that says how far the morph targets are off."""
+"""glTF files and Blender scripts of the command line, with lines that say how far they are off."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..gltf import MorphTargets, fitted_targets, mode_targets, write_glb
+from ..gltf import MorphTargets, fitted_targets, mode_targets, write_blender, write_glb
 from ..reduction import ReducedModel
 from .console import notice
 from .units import in_bytes
@@ -40,7 +40,7 @@ def write_model(
     output: Path, model: ReducedModel, *, targets: int | None, name: str, up: str | None
 ) -> dict[str, Any]:
     """Writes a model with all modes, or with some targets fitted to its samples; the figures."""
-    morphs = mode_targets(model) if targets is None else _fitted_to_samples(model, targets)
+    morphs = _targets(model, targets)
     write_glb(output, model, morphs, name=name, up=up)
     notice(described(output, model, morphs))
     return {
@@ -51,12 +51,26 @@ def write_model(
     }
 
 
+def write_script(
+    output: Path, model: ReducedModel, *, targets: int | None, name: str, up: str | None
+) -> dict[str, Any]:
+    """Writes a script that makes the model's modes shape keys in Blender; the figures."""
+    morphs = _targets(model, targets)
+    write_blender(output, model, morphs, name=name, up=up)
+    notice(f"{described(output, model, morphs)}; run it in Blender's text editor")
+    return {"blender": str(output), "shape_keys": len(morphs.targets)}
+
+
 def described(output: Path, model: ReducedModel, morphs: MorphTargets) -> str:
     """A line for the user."""
     error = morphs.error / model.problem.mesh.diagonal
     off = f"at most {100 * error:.2g} % of the diagonal off" if error > 1e-6 else "exact"
     size = in_bytes(output.stat().st_size)
     return f"wrote {output}, {size}, {len(morphs.targets)} morph targets, {off}"
+
+
+def _targets(model: ReducedModel, count: int | None) -> MorphTargets:
+    return mode_targets(model) if count is None else _fitted_to_samples(model, count)
 
 
 def _fitted_to_samples(model: ReducedModel, count: int) -> MorphTargets:

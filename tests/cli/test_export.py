@@ -30,6 +30,9 @@ def test_mistakes_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
     assert "name of a page must end in .html" in result.error
     assert "no such model file" in run("export", "none.snapspace", "--html", "a.html").error
     assert "--html" in run("export", model).error
+    assert "must end in .snapspace" in run("export", model, "--packed", tmp_path / "a.bin").error
+    assert "this is the model itself" in run("export", model, "--packed", model).error
+    assert "must end in .py" in run("export", model, "--blender", tmp_path / "a.blend").error
     assert "cannot be written" in run("export", model, "--html", tmp_path / "no" / "a.html").error
 
 
@@ -47,5 +50,19 @@ def test_a_model_becomes_gltf(run: Run, model: Path, tmp_path: Path) -> None:
 def test_mistakes_with_gltf_give_one_line(run: Run, model: Path, tmp_path: Path) -> None:
     assert "must end in .glb" in run("export", model, "--glb", tmp_path / "a.obj").error
     page = tmp_path / "a.html"
-    assert "give --glb" in run("export", model, "--html", page, "--targets", 3).error
+    assert "give --glb or --blender" in run("export", model, "--html", page, "--targets", 3).error
     assert not page.exists()
+
+
+def test_the_packed_model_is_what_the_page_holds(run: Run, model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "small.snapspace"
+    figures = run("export", model, "--packed", out, "--title", "A bar", "--json").json
+    assert out.read_bytes() == packed(load(model), name="A bar")
+    assert figures["packed_bytes"] == out.stat().st_size
+
+
+def test_a_model_becomes_shape_keys_of_blender(run: Run, model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "bar.py"
+    figures = run("export", model, "--blender", out, "--targets", 3, "--json").json
+    assert figures["shape_keys"] == 3
+    compile(out.read_text(encoding="utf-8"), "bar.py", "exec")

@@ -1,0 +1,76 @@
+"""The models of a Blender file: where they are stored, and their sessions."""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import bpy
+
+import snapspace as ss
+
+#: Sessions by the model's file and its time of change.
+_sessions: dict[tuple[str, float], Any] = {}
+#: The newest model of an object whose computation is not over, by the object's session id.
+_growing: dict[int, Any] = {}
+
+
+def model_path(owner: bpy.types.Object) -> Path:
+    """Where the model of an object is stored: beside the .blend file, if that was saved."""
+    name = bpy.path.clean_name(owner.name)
+    if bpy.data.filepath:
+        return (
+            Path(bpy.data.filepath)
+            .with_suffix("")
+            .with_name(f"{Path(bpy.data.filepath).stem}-{name}.snapspace")
+        )
+    key = hashlib.sha256(owner.name.encode()).hexdigest()[:6]
+    return Path(tempfile.gettempdir()) / f"blender-{name}-{key}.snapspace"
+
+
+def store(owner: bpy.types.Object, model: ss.ReducedModel) -> Path:
+    """Saves a model as that of an object."""
+    path = model_path(owner)
+    model.save(path)
+    relative = bpy.path.relpath(str(path)) if bpy.data.filepath else str(path)
+    owner.snapspace.model = relative
+    _growing.pop(owner.session_uid, None)
+    return path
+
+
+def show(owner: bpy.types.Object, model: ss.ReducedModel) -> None:
+    """Takes a model that is not yet stored, until `store`."""
+    _growing[owner.session_uid] = model.session()
+
+
+def session(owner: bpy.types.Object) -> Any:
+    """The session of an object's model; None without a model.
+
+    ValueError if the model's file is missing or is for another mesh.
+    """
+    if owner.session_uid in _growing:
+        return _growing[owner.session_uid]
+    if not owner.snapspace.model:
+        return None
+    path = Path(bpy.path.abspath(owner.snapspace.model))
+    if not path.is_file():
+        raise ValueError(f"{path} is missing; compute the model again")
+    key = str(path), path.stat().st_mtime
+    if key not in _sessions:
+        _sessions[key] = ss.load(path).session()
+    found = _sessions[key]
+    count = len(found.model.surface.corners)
+    if count != len(owner.data.vertices):
+        raise ValueError(
+            f"the model has {count} vertices, but {owner.name} has {len(owner.data.vertices)}; "
+            "compute it again"
+        )
+    return found
+
+
+def forget() -> None:
+    """Forgets all sessions, as for another .blend file."""
+    _sessions.clear()
+    _growing.clear()
