@@ -87,6 +87,12 @@ def _read_surface(path: Path) -> None:
     vertices, faces = ss.read_surface(path)
     _need(bool(np.isfinite(vertices).all()), "finite vertices")
     _need(0 <= faces.min() and faces.max() < len(vertices), "indices in range")
+    file = ss.open_surface(path)
+    look = file.appearance
+    if look is not None:
+        polygons = look.material_of_polygon
+        _need(len(polygons) == len(file.starts) - 1, "a material for each polygon")
+        _need(0 <= polygons.min() and polygons.max() < len(look.materials), "materials in range")
 
 
 def _read_problem(path: Path) -> None:

@@ -17,7 +17,7 @@ from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
 from .shape_rows import shape_or_rows, shape_rows
 from .surface import boundary_faces, compact_surface, vertex_normals
-from .surface_file import SurfaceFile, open_surface
+from .surface_file import Appearance, SurfaceFile, SurfaceMaterial, open_surface
 from .tet_mesh import TetMesh
 from .write import SURFACE_OUTPUTS, TET_OUTPUTS, write_surface, write_tets
 
@@ -26,9 +26,11 @@ __all__ = [
     "SURFACE_SUFFIXES",
     "TET_OUTPUTS",
     "TET_SUFFIXES",
+    "Appearance",
     "EmbeddedSurface",
     "MeshNotice",
     "SurfaceFile",
+    "SurfaceMaterial",
     "TetMesh",
     "apply_mass",
     "boundary_faces",

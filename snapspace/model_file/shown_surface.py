@@ -17,13 +17,14 @@ DTYPES: dict[str, type] = {
 }
 #: The user's file, compressed, and its entry in the header.
 SOURCE = "surface_source"
-SOURCE_DTYPES: dict[str, type] = {SOURCE: np.uint8}
+#: The materials and textures that the file refers to, one after the other.
+BESIDE = "surface_beside"
 #: Files of more bytes are not kept; `snapspace pose --surface` takes them when it writes.
 LARGEST_SOURCE = 1 << 26
 
 
 def surface_arrays(surface: EmbeddedSurface) -> Arrays:
-    """The arrays of a surface; the names are those of DTYPES and SOURCE_DTYPES."""
+    """The arrays of a surface; the names are those of DTYPES, SOURCE and BESIDE."""
     arrays: Arrays = {
         "surface_faces": surface.faces,
         "surface_corners": surface.corners,
@@ -32,6 +33,9 @@ def surface_arrays(surface: EmbeddedSurface) -> Arrays:
     source = _kept(surface)
     if source is not None:
         arrays[SOURCE] = np.frombuffer(zlib.compress(source.data, 6), np.uint8)
+        beside = _kept_beside(source)
+        if beside:
+            arrays[BESIDE] = np.frombuffer(b"".join(beside.values()), np.uint8)
     return arrays
 
 
@@ -46,13 +50,17 @@ def surface_content(surface: EmbeddedSurface) -> dict[str, Any]:
     source = _kept(surface)
     if source is None:
         return {}
-    return {SOURCE: {"name": source.name, "used_only": source.used_only}}
+    content: dict[str, Any] = {SOURCE: {"name": source.name, "used_only": source.used_only}}
+    beside = _kept_beside(source)
+    if beside:
+        content[BESIDE] = [[name, len(data)] for name, data in beside.items()]
+    return content
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
     """Types of the arrays that a file must have: all of a surface's if it has any of them."""
     needed = DTYPES if any(name in arrays for name in (*DTYPES, SOURCE)) else {}
-    return needed | (SOURCE_DTYPES if SOURCE in arrays else {})
+    return needed | {name: np.uint8 for name in (SOURCE, BESIDE) if name in arrays}
 
 
 def surface(arrays: Arrays, content: dict[str, Any], mesh: TetMesh) -> EmbeddedSurface:
@@ -90,4 +98,31 @@ def _source(arrays: Arrays, content: dict[str, Any]) -> SurfaceFile | None:
         raise ValueError(f"'{SOURCE}' cannot be unpacked ({error})") from None
     if not unpacking.eof:
         raise ValueError(f"'{SOURCE}' is incomplete, or larger than {LARGEST_SOURCE} bytes")
-    return SurfaceFile(str(about["name"]), data, used_only=bool(about["used_only"]))
+    return SurfaceFile(
+        str(about["name"]),
+        data,
+        used_only=bool(about["used_only"]),
+        beside=_beside(arrays, content),
+    )
+
+
+def _kept_beside(source: SurfaceFile) -> dict[str, bytes]:
+    """What is beside the file, unless it is larger than what is kept."""
+    size = sum(map(len, source.beside.values()))
+    return dict(source.beside) if size <= LARGEST_SOURCE else {}
+
+
+def _beside(arrays: Arrays, content: dict[str, Any]) -> dict[str, bytes]:
+    """Materials and textures; ValueError if their sizes are not those of the array."""
+    if BESIDE not in arrays:
+        return {}
+    data = arrays[BESIDE].tobytes()
+    entries = [(str(name), int(size)) for name, size in content[BESIDE]]
+    total = sum(size for _, size in entries)
+    if any(size < 0 for _, size in entries) or total != len(data):
+        raise ValueError(f"'{BESIDE}' has {len(data)} bytes, but its files have {total}")
+    found, start = {}, 0
+    for name, size in entries:
+        found[name] = data[start : start + size]
+        start += size
+    return found

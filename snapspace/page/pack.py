@@ -24,6 +24,7 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import RigidFrames
+from .appearance import appearance_arrays
 from .estimator import estimator_arrays
 from .painted import handle_of_vertex
 from .shape_space import quantised
@@ -45,7 +46,8 @@ def packed(
 ) -> bytes:
     """The model as the page reads it.
 
-    It has the surface only, modes as 16-bit integers and coefficients in single precision.
+    It has the surface only, with the materials of its file, modes as 16-bit integers and
+    coefficients in single precision.
 
     Parameters
     ----------
@@ -91,6 +93,7 @@ def packed(
         }
     else:
         raise TypeError(f"packed: the page cannot show a {type(model).__name__}")
+    look, about["appearance"] = appearance_arrays(model.surface)
     about |= {
         "name": name,
         "up": up,
@@ -107,7 +110,7 @@ def packed(
         "kind": kind,
         "about": json.dumps(about, sort_keys=True),
     }
-    return safetensors_bytes(arrays | estimator_arrays(model), header)
+    return safetensors_bytes(arrays | look | estimator_arrays(model), header)
 
 
 def packed_name(content: bytes) -> str:

@@ -75,3 +75,30 @@ def test_an_altered_file_is_refused(
     path = with_file.save(tmp_path / "own.snapspace")
     rewrite(path, change)
     assert message in refused(path)
+
+
+def test_materials_and_textures_beside_it_come_along(
+    with_file: PosingModel, tmp_path: Path
+) -> None:
+    beside = {"own.mtl": b"newmtl skin", "skins/own.png": bytes(range(256)), "empty.mtl": b""}
+    source = replace(FILE, beside=beside)
+    model = replace(with_file, surface=replace(with_file.surface, source=source))
+    path = model.save(tmp_path / "own.snapspace")
+    found = load(path).surface.source
+    assert found is not None and dict(found.beside) == beside
+
+    def shorter(arrays: dict[str, Any], _: object) -> None:
+        arrays[shown_surface.BESIDE] = arrays[shown_surface.BESIDE][:-1].copy()
+
+    rewrite(path, shorter)
+    assert "'surface_beside' has 266 bytes, but its files have 267" in refused(path)
+
+
+def test_what_is_beside_it_is_not_kept_if_it_is_large(
+    with_file: PosingModel, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(shown_surface, "LARGEST_SOURCE", len(FILE.data))
+    source = replace(FILE, beside={"skin.png": bytes(len(FILE.data) + 1)})
+    model = replace(with_file, surface=replace(with_file.surface, source=source))
+    found = load(model.save(tmp_path / "own.snapspace")).surface.source
+    assert found is not None and found.data == FILE.data and not found.beside

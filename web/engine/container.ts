@@ -88,6 +88,12 @@ export class Container {
     return this.#view(this.#checked(name, shape, ["I16"]), Int16Array);
   }
 
+  /** Bytes of an array; without a shape it must have one axis. */
+  bytes(name: string, ...shape: number[]): Uint8Array<ArrayBuffer> {
+    const asked = shape.length > 0 ? shape : this.shape(name, 1);
+    return this.#view(this.#checked(name, asked, ["U8"]), Uint8Array);
+  }
+
   /** Indices, which must be at least `lowest` and below `count`. */
   indices(name: string, count: number, shape: number[], lowest = 0): Int32Array<ArrayBuffer> {
     const values = this.#view(this.#checked(name, shape, ["I32"]), Int32Array);

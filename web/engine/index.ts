@@ -1,3 +1,4 @@
+export type { Appearance, OwnMaterial } from "./appearance.ts";
 export { CONFIDENCE, type Certificate } from "./certificate.ts";
 export { BlendingSession } from "./blending_session.ts";
 export type { FrameReport } from "./core.ts";

@@ -1,3 +1,4 @@
+import { readAppearance } from "./appearance.ts";
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { armsOf, NO_PINS, type Estimator, type Pins } from "./estimator.ts";
@@ -32,6 +33,7 @@ export function readPacked(container: Container): Model {
     diagonal: Number(about.diagonal),
     material: String(about.material.model),
     timeline: about.timeline as unknown,
+    appearance: readAppearance(container, about.appearance, space.vertices),
   };
   if (container.header["kind"] === "posing") {
     const count = about.handles.length as number;

@@ -1,6 +1,6 @@
 import { Vector3 } from "three";
 
-import { BlendingSession, reconstruct, type BlendingModel, type FrameReport } from "../engine/index.ts";
+import { BlendingSession, type BlendingModel, type FrameReport } from "../engine/index.ts";
 import { blendPanel } from "./blend_panel.ts";
 import { BlendPath, type Jump } from "./blend_path.ts";
 import { listenToBlendingKeys } from "./blending_keys.ts";
@@ -23,6 +23,8 @@ import {
   withoutNegatives,
   type PoseChoice,
 } from "./pose_choice.ts";
+import { OwnLook } from "./own_look.ts";
+import { posesOf } from "./poses_of.ts";
 import { Readout } from "./readout.ts";
 import { BLENDING, shortcutSheet } from "./shortcuts.ts";
 import { VIEWS, type Stage } from "./stage.ts";
@@ -40,8 +42,9 @@ export async function blendingView(
 ): Promise<View> {
   const session = await BlendingSession.create(module, model);
   const rests = posesOf(model);
+  const own = model.appearance ? new OwnLook(model.appearance) : null;
   const make = (space: BlendingModel["space"]) =>
-    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, rests);
+    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, rests, own);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];
   for (const surface of [elastic, straight]) {
     surface.paint(() => CLAY);
@@ -249,21 +252,9 @@ export async function blendingView(
         surface.object.removeFromParent();
         surface.dispose();
       }
+      own?.dispose();
     },
   };
-}
-
-/** The poses' surfaces: a blend's strain is the mean of those relative to each, with its weights. */
-function posesOf({ poses, poseSpace }: BlendingModel): Float32Array[] {
-  return poses.map((_, pose) => {
-    const shape = new Float32Array(poseSpace.base.length);
-    reconstruct(
-      poseSpace,
-      poses.map((_, k) => (k === pose ? 1 : 0)),
-      shape,
-    );
-    return shape;
-  });
 }
 
 function jumpRemark(poses: readonly string[], { pose, weight }: Jump): string {

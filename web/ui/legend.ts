@@ -30,7 +30,7 @@ export class Legend {
 
   set colors(colors: Colors) {
     this.#colors = colors;
-    this.element.hidden = colors === "own";
+    this.element.hidden = colors === "own" || colors === "material";
     if (colors === "displacement")
       this.#show("Displacement, of the diagonal", [0, FARTHEST / 2, FARTHEST].map(percent));
     if (colors === "strain") this.#rescale();

@@ -2,6 +2,7 @@ import type { Model } from "../engine/index.ts";
 import { choice, h, section, slider, toggle } from "./dom.ts";
 import { Legend } from "./legend.ts";
 import { VIEWS, type Axis, type Stage } from "./stage.ts";
+import { showMaterial } from "./show_material.ts";
 import type { Colors, Surface } from "./surface.ts";
 
 /** How many of the coordinates are solved for, and what else belongs to it. */
@@ -28,9 +29,11 @@ export function lookSection(
   };
   const own = model.kind === "posing" ? "Handles" : "Clay";
   const legend = new Legend(stage, surfaces);
+  const look = surfaces[0].look;
   const colors = choice<Colors>(
     "Colours",
     [
+      ...(look ? ([["material", "Material"]] as const) : []),
       ["own", own],
       ["displacement", "Displaced"],
       ["strain", "Strain"],
@@ -41,6 +44,9 @@ export function lookSection(
       legend.colors = value;
     },
   );
+  void showMaterial(stage, surfaces).then((shown) => {
+    if (shown) colors.set("material");
+  });
   const wires = toggle("Wireframe", "W", false, (on) => each((surface) => (surface.wireframe = on)));
   wires.id = "wires";
   const ups = choice<Axis>(

@@ -1,4 +1,5 @@
 import { PosingSession, type PosingModel } from "../engine/index.ts";
+import { OwnLook } from "./own_look.ts";
 import { Posing } from "./posing.ts";
 import { HandleDrag } from "./posing_drag.ts";
 import { Gizmo } from "./posing_gizmo.ts";
@@ -17,6 +18,7 @@ export class PosingScene {
   #marks: Marks;
   readonly #module: WebAssembly.Module;
   readonly #forceCpu: boolean;
+  readonly #look: OwnLook | null;
   readonly #stop = new AbortController();
 
   static async create(
@@ -30,6 +32,8 @@ export class PosingScene {
 
   private constructor(stage: Stage, module: WebAssembly.Module, session: PosingSession, forceCpu: boolean) {
     [this.#module, this.#forceCpu, this.#model] = [module, forceCpu, session.model];
+    const { appearance } = session.model;
+    this.#look = appearance ? new OwnLook(appearance) : null;
     this.surfaces = [this.#surfaceOf(stage, session.model)];
     stage.root.add(this.surfaces[0].object);
     this.posing = new Posing(stage, session, this.surfaces[0]);
@@ -91,10 +95,11 @@ export class PosingScene {
     this.#marks.dispose();
     this.surfaces[0].object.removeFromParent();
     this.surfaces[0].dispose();
+    this.#look?.dispose();
   }
 
   #surfaceOf(stage: Stage, { space, faces, diagonal }: PosingModel): Surface {
-    return new Surface(stage.renderer, space, faces, diagonal, this.#forceCpu, [space.base]);
+    return new Surface(stage.renderer, space, faces, diagonal, this.#forceCpu, [space.base], this.#look);
   }
 }
 

@@ -26,11 +26,13 @@ import {
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
+import type { OwnLook } from "./own_look.ts";
+import { OwnSurface } from "./own_surface.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
 
-/** What its colours show. */
-export type Colors = "own" | "displacement" | "strain";
-const COLORS: readonly Colors[] = ["own", "displacement", "strain"];
+/** What its colours show: the paint of its vertices, the user's own materials, or a number on a ramp. */
+export type Colors = "own" | "displacement" | "strain" | "material";
+const COLORS: readonly Colors[] = ["own", "displacement", "strain", "material"];
 
 /** Displacements, over the diagonal, at which their colours end. */
 export const FARTHEST = 0.25;
@@ -42,11 +44,14 @@ export class Surface {
   readonly space: ShapeSpace;
   readonly faces: Uint32Array<ArrayBuffer>;
   readonly onGpu: boolean;
+  /** The user's own materials. */
+  readonly look: OwnLook | null;
   readonly #deformer: Deformer;
   readonly #geometry = new BufferGeometry();
   readonly #materials: Material[];
   readonly #solid: Mesh;
   readonly #wires: Mesh;
+  readonly #own: OwnSurface | null;
   readonly #uniforms: SurfaceUniforms;
   readonly #rests: Rests | null;
   #picker: ShapePicker | null = null;
@@ -56,7 +61,8 @@ export class Surface {
   #weights: readonly number[] = [1];
   #scale: StrainScale | null = null;
 
-  /** `forceCpu` computes as in browsers that cannot draw into float textures. */
+  /** `forceCpu` computes as in browsers that cannot draw into float textures; `look` is shown for the colours
+   * "material". */
   constructor(
     renderer: WebGLRenderer,
     space: ShapeSpace,
@@ -64,7 +70,9 @@ export class Surface {
     diagonal: number,
     forceCpu = false,
     rests: Rests | null = null,
+    look: OwnLook | null = null,
   ) {
+    this.look = look;
     this.space = space;
     this.faces = faces;
     this.onGpu = !forceCpu && GpuDeformer.supports(renderer, space);
@@ -113,7 +121,8 @@ export class Surface {
     this.#wires = new Mesh(this.#geometry, wires);
     this.#wires.visible = false;
     for (const mesh of [this.#solid, this.#wires]) mesh.frustumCulled = false;
-    this.object.add(this.#solid, this.#wires);
+    this.#own = look && new OwnSurface(look, space.base, this.#uniforms);
+    this.object.add(this.#solid, this.#wires, ...(this.#own ? [this.#own.mesh] : []));
     this.object.matrixAutoUpdate = false;
   }
 
@@ -179,7 +188,7 @@ export class Surface {
   fade(opacity: number): void {
     const [clay] = this.#materials;
     Object.assign(clay, { transparent: true, opacity, depthWrite: false });
-    this.#solid.castShadow = this.#solid.receiveShadow = false;
+    for (const mesh of this.#meshes) mesh.castShadow = mesh.receiveShadow = false;
   }
 
   /** Takes a rigid motion along. */
@@ -191,7 +200,7 @@ export class Surface {
 
   /** Whether shadows fall on it. */
   set shadowed(on: boolean) {
-    this.#solid.receiveShadow = on;
+    for (const mesh of this.#meshes) mesh.receiveShadow = on;
   }
 
   get colors(): Colors {
@@ -200,6 +209,8 @@ export class Surface {
 
   set colors(colors: Colors) {
     this.#uniforms.shownColors.value = COLORS.indexOf(colors);
+    if (this.#own) this.#own.mesh.visible = colors === "material";
+    this.#solid.visible = !this.#own?.mesh.visible;
     this.#deformer.weigh(colors === "strain" ? this.#weights : null);
     this.#deformer.update(this.#coefficients, this.#share);
     this.#uniforms.shownStrains.value = this.#deformer.strains ?? this.#deformer.normals;
@@ -260,8 +271,13 @@ export class Surface {
     return [array[3 * vertex], array[3 * vertex + 1], array[3 * vertex + 2]];
   }
 
+  get #meshes(): Mesh[] {
+    return this.#own ? [this.#solid, this.#own.mesh] : [this.#solid];
+  }
+
   dispose(): void {
     this.#deformer.dispose();
+    this.#own?.dispose();
     this.#geometry.dispose();
     this.#materials.forEach((material) => material.dispose());
   }

@@ -27,27 +27,73 @@ vec3 shownRamp(float x) {
   return t < 0.33 ? mix(a, b, t / 0.33) : t < 0.7 ? mix(b, c, (t - 0.33) / 0.37) : mix(c, d, (t - 0.7) / 0.3);
 }
 `;
-const CELL = "ivec2 shownCell = ivec2(gl_VertexID % shownWidth, gl_VertexID / shownWidth);";
+const CELL = `
+ivec2 shownCellOf(int vertex) { return ivec2(vertex % shownWidth, vertex / shownWidth); }
+vec3 shownPlace(int vertex) { return texelFetch(shownPositions, shownCellOf(vertex), 0).xyz; }
+`;
+/** Vertices of the surface are those that are drawn. */
+const SAME = `
+#define SHOWN_VERTEX gl_VertexID
+`;
+/** Several points that are drawn are the same vertex of the surface. */
+const POINTS = `
+attribute int ownVertex;
+#define SHOWN_VERTEX ownVertex
+`;
+/** The faces around a point on its side of an edge: where they start among the pairs, and how many there are. */
+const RING = `
+attribute ivec2 ownRing;
+uniform highp isampler2D ownPairs;
+`;
 const NORMAL = `
-vec3 shownNormal = texelFetch(shownNormals, ivec2(gl_VertexID % shownWidth, gl_VertexID / shownWidth), 0).xyz;
+vec3 shownNormal = texelFetch(shownNormals, shownCellOf(SHOWN_VERTEX), 0).xyz;
 vec3 objectNormal = shownNormal / max(length(shownNormal), 1e-30);`;
-const POSITION = `
-${CELL}
-vec3 transformed = texelFetch(shownPositions, shownCell, 0).xyz;
+const CREASED_NORMAL = `
+vec3 shownNormal = vec3(0.0), shownOwn = shownPlace(SHOWN_VERTEX);
+int shownPairsWidth = textureSize(ownPairs, 0).x;
+for (int i = ownRing.x; i < ownRing.x + ownRing.y; i++) {
+  ivec2 pair = texelFetch(ownPairs, ivec2(i % shownPairsWidth, i / shownPairsWidth), 0).xy;
+  shownNormal += cross(shownPlace(pair.x) - shownOwn, shownPlace(pair.y) - shownOwn);
+}
+vec3 objectNormal = shownNormal / max(length(shownNormal), 1e-30);`;
+const POSITION = "vec3 transformed = shownPlace(SHOWN_VERTEX);";
+const COLOR = `
 #if defined( USE_COLOR )
   if (shownColors == 1) vColor.rgb = shownRamp(length(transformed - position) / displacementEnd);
-  if (shownColors == 2) vColor.rgb = shownRamp(texelFetch(shownStrains, shownCell, 0).x / strainEnd);
+  if (shownColors == 2) vColor.rgb = shownRamp(texelFetch(shownStrains, shownCellOf(SHOWN_VERTEX), 0).x / strainEnd);
 #endif`;
 
 /** Makes a material of three.js take positions and normals from textures in place of attributes. */
 export function deformedBy(material: Material, uniforms: SurfaceUniforms): void {
+  replaced(material, uniforms, "deformed", SAME, NORMAL, POSITION + COLOR);
+}
+
+/** The same for points with an attribute `ownVertex`; with pairs of faces also `ownRing`, and normals on both sides of
+ * edges. */
+export function deformedPoints(material: Material, uniforms: SurfaceUniforms, pairs: Texture | null): void {
+  if (pairs) {
+    const all = { ...uniforms, ownPairs: { value: pairs } };
+    replaced(material, all, "creased points", POINTS + RING, CREASED_NORMAL, POSITION);
+  } else replaced(material, uniforms, "points", POINTS, NORMAL, POSITION);
+}
+
+function replaced(
+  material: Material,
+  uniforms: Record<string, IUniform>,
+  key: string,
+  declarations: string,
+  normal: string,
+  position: string,
+): void {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader =
       DECLARATIONS +
+      CELL +
+      declarations +
       shader.vertexShader
-        .replace("#include <beginnormal_vertex>", NORMAL)
-        .replace("#include <begin_vertex>", POSITION);
+        .replace("#include <beginnormal_vertex>", normal)
+        .replace("#include <begin_vertex>", position);
   };
-  material.customProgramCacheKey = () => "deformed";
+  material.customProgramCacheKey = () => key;
 }

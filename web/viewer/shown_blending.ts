@@ -3,6 +3,8 @@ import { withWeight } from "../ui/barycentric.ts";
 import { slider } from "../ui/dom.ts";
 import { CLAY } from "../ui/handle_colors.ts";
 import { weightStates } from "../ui/key_states.ts";
+import { OwnLook } from "../ui/own_look.ts";
+import { showMaterial } from "../ui/show_material.ts";
 import type { Stage } from "../ui/stage.ts";
 import { Surface } from "../ui/surface.ts";
 import { playButton } from "./play_button.ts";
@@ -20,7 +22,9 @@ export async function shownBlending(
 ): Promise<ShownModel> {
   const session = await BlendingSession.create(module, model);
   const { poses } = model;
-  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal);
+  const own = model.appearance ? new OwnLook(model.appearance) : null;
+  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, false, null, own);
+  void showMaterial(stage, [surface]);
   surface.paint(() => CLAY);
   stage.root.add(surface.object);
   const equal = poses.map(() => 1 / poses.length);
@@ -111,6 +115,7 @@ export async function shownBlending(
       stage.rest();
       surface.object.removeFromParent();
       surface.dispose();
+      own?.dispose();
     },
   };
   solve();

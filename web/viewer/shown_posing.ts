@@ -5,6 +5,7 @@ import { handleStates } from "../ui/key_states.ts";
 import type { Mode } from "../ui/posing.ts";
 import { actOn } from "../ui/posing_keys.ts";
 import { PosingScene, shownShape } from "../ui/posing_scene.ts";
+import { showMaterial } from "../ui/show_material.ts";
 import type { Stage } from "../ui/stage.ts";
 import { Playing } from "./playing.ts";
 import { playButton } from "./play_button.ts";
@@ -21,6 +22,7 @@ export async function shownPosing(
 ): Promise<ShownModel> {
   const scene = await PosingScene.create(stage, module, model);
   const { posing } = scene;
+  void showMaterial(stage, scene.surfaces);
   const names = model.handles.map(({ name }) => name);
   const playing = new Playing<readonly Motion[]>(model.timeline, handleStates(names), (motions) =>
     motions.forEach((motion, handle) => posing.wish(handle, motion)),

@@ -1,5 +1,6 @@
 """Surface files that are written back with new positions and nothing else changed."""
 
+from .appearance import Appearance, SurfaceMaterial
 from .surface_file import SurfaceFile, open_surface
 
-__all__ = ["SurfaceFile", "open_surface"]
+__all__ = ["Appearance", "SurfaceFile", "SurfaceMaterial", "open_surface"]

@@ -37,13 +37,13 @@ def _layout(data: bytes) -> Layout:
     corners: list[IntArray] = []
     uses: dict[str, list[IntArray]] = {name: [] for name in directions}
     for mesh, transform in mesh_transforms(file.json).items():
-        for primitive in _primitives(file, mesh):
+        for primitive in primitives_of(file, mesh):
             attributes = primitive["attributes"]
             known = points.has(attributes["POSITION"])
             begin, count = points.take(file, attributes["POSITION"])
             if not known:
                 transforms.append(np.broadcast_to(transform, (count, 3, 4)))
-            used = _triangles(file, primitive, count).ravel()
+            used = triangles_of(file, primitive, count).ravel()
             corners.append(begin + used)
             for name, block in directions.items():
                 first = -1
@@ -107,7 +107,7 @@ class _Block:
         return BinarySlots(file.data, places, (_SINGLE, _SINGLE, _SINGLE))
 
 
-def _primitives(file: GltfFile, mesh: int) -> list[dict[str, Any]]:
+def primitives_of(file: GltfFile, mesh: int) -> list[dict[str, Any]]:
     """The primitives of a mesh that have triangles."""
     try:
         primitives = file.json["meshes"][mesh]["primitives"]
@@ -126,7 +126,7 @@ def _primitives(file: GltfFile, mesh: int) -> list[dict[str, Any]]:
         raise ValueError(f"mesh {mesh} is incomplete") from None
 
 
-def _triangles(file: GltfFile, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
+def triangles_of(file: GltfFile, primitive: dict[str, Any], count: int) -> NDArray[np.int64]:
     """Triangles of a primitive as indices into its own points, (t, 3)."""
     index = np.arange(count)
     if "indices" in primitive:

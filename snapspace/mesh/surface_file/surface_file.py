@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -16,10 +17,15 @@ from ..arrays import FloatArray, IndexArray, as_indices, as_points
 from ..input_path import existing_file, writable_path
 from ..polygons import fan_corners
 from ..validation import check_indices, check_points
+from .appearance import Appearance
+from .beside import files_beside
 from .carried import carried
 from .content import READERS, layout_of, vertices_of
+from .gltf_appearance import gltf_appearance
 from .gltf_file import self_contained
 from .layout import Layout
+from .obj_appearance import obj_appearance
+from .ply_appearance import ply_appearance
 from .slots import Patch, patched
 
 # Vertices that move by less than this share of the largest coordinate stay as they are.
@@ -38,6 +44,8 @@ class SurfaceFile:
         The whole file.
     used_only : bool, default False
         Whether vertices without faces are left out of `vertices` (they stay in the file).
+    beside : mapping of str to bytes
+        Files that this one refers to, by name: materials (.mtl) and pictures.
 
     Raises
     ------
@@ -57,6 +65,7 @@ class SurfaceFile:
     name: str
     data: bytes
     used_only: bool = False
+    beside: Mapping[str, bytes] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         return f"SurfaceFile({self.name}, {len(self.data)} bytes)"
@@ -97,6 +106,23 @@ class SurfaceFile:
     def refers_to(self) -> tuple[str, ...]:
         """Names of other files that this one refers to, such as materials, relative to it."""
         return self._layout.refers_to
+
+    @cached_property
+    def appearance(self) -> Appearance | None:
+        """Texture coordinates, colours, materials and textures; None if the file has none.
+
+        ValueError if they are damaged. Textures are the base colours only.
+        """
+        try:
+            if self.suffix in (".glb", ".gltf"):
+                return gltf_appearance(self.data, self._layout)
+            if self.suffix == ".obj":
+                return obj_appearance(self._layout, self.beside)
+            if self.suffix == ".ply":
+                return ply_appearance(self._layout, self.beside)
+        except (LookupError, TypeError, AttributeError, OverflowError) as error:
+            raise ValueError(f"{self.name}: its materials are damaged ({error!s:.80})") from None
+        return None
 
     def compact(self) -> SurfaceFile:
         """The same file without its vertices that no face uses."""
@@ -192,7 +218,7 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
     Returns
     -------
     SurfaceFile
-        With the file's bytes in memory.
+        With the file's bytes in memory, and the materials and textures in its folder or below.
 
     Raises
     ------
@@ -211,7 +237,8 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
             data = self_contained(data, file.parent)
         surface = SurfaceFile(file.name, data)
         checked_surface(surface.vertices, surface.faces)
-    return surface
+        beside = files_beside(surface._layout, file.parent)
+    return replace(surface, beside=beside) if beside else surface
 
 
 def checked_surface(

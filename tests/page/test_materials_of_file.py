@@ -1,0 +1,183 @@
+"""The page shows a surface in the materials of the user's own file."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from snapspace import PosingModel, export_html
+from snapspace.mesh import MeshNotice, SurfaceFile, compact_surface
+from snapspace.page import appearance
+from snapspace.page.appearance import appearance_arrays
+
+from .pages import OpenPage, Page
+
+RED, BLUE = (220, 30, 30), (30, 40, 220)
+MATERIAL = "[...document.querySelectorAll('[role=radio]')].find((b) => b.innerText == 'Material')"
+GLOW = 25  # light changes colours, but not which part is the largest
+
+
+def picture(*halves: tuple[int, int, int]) -> bytes:
+    """A PNG whose upper half has one colour and whose lower half the other one."""
+    image = Image.new("RGB", (8, 8), halves[0])
+    image.paste(halves[1], (0, 4, 8, 8))
+    file = io.BytesIO()
+    image.save(file, "PNG")
+    return file.getvalue()
+
+
+def own_file(model: PosingModel, *, creases: bool = False) -> SurfaceFile:
+    """The surface as OBJ: the texture's red half over one half of the length, blue over the other.
+
+    The last faces have a green material.
+    """
+    mesh = model.problem.mesh
+    vertices, faces = compact_surface(mesh.vertices, mesh.surface)
+    along = vertices[:, 0] - vertices[:, 0].min()
+    lines = ["mtllib own.mtl", *(f"v {x!r} {y!r} {z!r}" for x, y, z in vertices.tolist())]
+    lines += [f"vt 0.5 {share:.4f}" for share in (along / along.max()).tolist()]
+    lines += [f"vn 0 0 {1 + number}" for number in range(len(faces))]
+    for number, face in enumerate((faces + 1).tolist()):
+        if number in (0, len(faces) - 4):
+            lines.append(f"usemtl {'skin' if number == 0 else 'cap'}")
+        end = f"/{number + 1}" if creases else ""
+        lines.append("f " + " ".join(f"{v}/{v}{end}" for v in face))
+    mtl = b"newmtl skin\nmap_Kd own.png\nnewmtl cap\nKd 0.08 0.63 0.24\n"
+    beside = {"own.mtl": mtl, "own.png": picture(RED, BLUE)}
+    return SurfaceFile("own.obj", "\n".join(lines).encode(), beside=beside)
+
+
+def with_file(model: PosingModel, file: SurfaceFile) -> PosingModel:
+    return replace(model, surface=replace(model.surface, source=file))
+
+
+def pixel(page: Page, x: float, y: float) -> np.ndarray:
+    """The colour at a place of the page."""
+    clip = {"x": x, "y": y, "width": 1, "height": 1}
+    shot = page.page.screenshot(clip=clip)
+    return np.array(Image.open(io.BytesIO(shot)).convert("RGB"))[0, 0].astype(int)
+
+
+def opened_with(model: PosingModel, file: SurfaceFile, folder: Path, opened: OpenPage) -> Page:
+    path = export_html(with_file(model, file), folder / "own.html")
+    page = opened(path.as_uri())
+    page.wait(f"{MATERIAL}.getAttribute('aria-checked') === 'true'")
+    page.settle()
+    return page
+
+
+def ends(page: Page) -> list[tuple[float, float]]:
+    """Places in the picture a third from both ends of the body."""
+    return [
+        page.run(
+            f"""(() => {{
+              const {{ stage }} = snapspace, shape = snapspace.shown();
+              let [low, high] = [Infinity, -Infinity];
+              for (let i = 0; i < shape.length; i += 3) {{
+                low = Math.min(low, shape[i]); high = Math.max(high, shape[i]);
+              }}
+              const middle = [0, 0, 0];
+              for (let i = 0; i < shape.length; i++) middle[i % 3] += 3 * shape[i] / shape.length;
+              middle[0] = low + {share} * (high - low);
+              const at = stage.camera.position.clone().set(...middle);
+              stage.root.localToWorld(at).project(stage.camera);
+              const {{ clientWidth: w, clientHeight: h }} = stage.renderer.domElement;
+              return [(at.x + 1) / 2 * w, (1 - at.y) / 2 * h];
+            }})()"""
+        )
+        for share in (0.3, 0.7)
+    ]
+
+
+def test_its_texture_moves_with_the_shape(
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    page = opened_with(posing_model, own_file(posing_model), tmp_path, opened)
+    for _ in range(2):
+        first, last = ends(page)
+        blue, red = pixel(page, *first), pixel(page, *last)
+        assert blue[2] > blue[0] + GLOW, blue  # v = 0 is the lower half of the picture
+        assert red[0] > red[2] + GLOW, red
+        page.drag(page.run("snapspace.handle(1)"), 30, -40)
+        page.rest()
+    page.page.get_by_role("radio", name="Handles").click()
+    page.settle()
+    clay = pixel(page, *ends(page)[0])
+    assert np.ptp(clay) < 90 and clay[0] >= clay[2], "clay, no longer the texture"
+
+
+def test_edges_in_the_file_are_sharp_in_the_page(
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    """With a normal per face a face has one shade; with none, shades run over faces."""
+    spread = []
+    for creases in (True, False):
+        file = own_file(posing_model, creases=creases)
+        page = opened_with(posing_model, file, tmp_path, opened)
+        spread.append(shades(page))
+    flat, smooth = spread
+    assert flat < 0.7 * smooth, spread
+
+
+def shades(page: Page) -> float:
+    """How much neighbouring pixels of the body differ, in the middle of the differences."""
+    clip = {"x": 300, "y": 250, "width": 200, "height": 200}
+    image = Image.open(io.BytesIO(page.page.screenshot(clip=clip))).convert("RGB")
+    pixels = np.array(image).astype(float)
+    body = np.ptp(pixels, axis=2) > 60
+    both = body[:, 1:] & body[:, :-1]
+    return float((np.abs(np.diff(pixels, axis=1)).sum(axis=2)[both] > 0).mean())
+
+
+def test_a_picture_that_is_none_leaves_the_material_white(
+    posing_model: PosingModel, tmp_path: Path, opened: OpenPage
+) -> None:
+    file = own_file(posing_model)
+    broken = replace(file, beside={**file.beside, "own.png": picture(RED, BLUE)[:60]})
+    page = opened_with(posing_model, broken, tmp_path, opened)
+    white = pixel(page, *ends(page)[0])
+    assert np.ptp(white) < 40, white
+
+
+def test_points_are_vertices_at_their_corners(posing_model: PosingModel) -> None:
+    file = own_file(posing_model, creases=True)
+    arrays, about = appearance_arrays(with_file(posing_model, file).surface)
+    assert about is not None
+    assert [one["triangles"] for one in about["materials"]] == [4, len(file.faces) - 4]
+    points, triangles = arrays["own_points"], arrays["own_triangles"]
+    assert np.array_equal(points[triangles], np.roll(file.faces, 4, axis=0)), "by material"
+    assert len(points) == 3 * len(file.faces), "each corner has its own normal"
+    look = file.appearance
+    assert look is not None and look.texture_coordinates is not None
+    at = np.roll(look.texture_coordinates.reshape(-1, 3, 2), 4, axis=0)
+    assert np.array_equal(arrays["own_coordinates"][triangles], at)
+    smooth, _ = appearance_arrays(with_file(posing_model, own_file(posing_model)).surface)
+    assert len(smooth["own_points"]) == len(file.vertices) and "own_creases" not in smooth
+
+
+def test_what_is_not_shown_is_told(
+    posing_model: PosingModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = own_file(posing_model)
+    alone = with_file(posing_model, replace(file, beside={})).surface
+    with pytest.warns(MeshNotice, match=r"own\.obj: not found beside it, .*: own\.mtl; the surf"):
+        assert appearance_arrays(alone) == ({}, None)
+    monkeypatch.setattr(appearance, "MOST_TEXTURE_BYTES", 10)
+    with pytest.warns(MeshNotice, match=r"its textures have 0 MB, and are not shown"):
+        arrays, about = appearance_arrays(with_file(posing_model, file).surface)
+    assert about is not None and about["materials"][1]["texture"] is None
+    assert not any(name.startswith("own_texture") for name in arrays)
+
+
+def test_a_file_without_materials_adds_nothing(posing_model: PosingModel) -> None:
+    plain = SurfaceFile("own.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert appearance_arrays(with_file(posing_model, plain).surface) == ({}, None)
+    assert appearance_arrays(posing_model.surface) == ({}, None)
