@@ -79,6 +79,9 @@ def _union(name: str, members: tuple[type, ...]) -> str:
     line = f"export type {name} = {' | '.join(names)};"
     if len(line) <= 110:
         return line + "\n"
+    second = f"  {' | '.join(names)};"
+    if len(second) <= 110:
+        return f"export type {name} =\n{second}\n"
     return "\n".join([f"export type {name} =", *(f"  | {each}" for each in names)]) + ";\n"
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -21,6 +23,7 @@ def fill_surface(
     edge_length: float = 0.02,
     tolerance: float = 5e-4,
     mend: bool = False,
+    progress: Callable[[int], None] | None = None,
 ) -> TetMesh:
     """Fills a closed triangle surface with tets.
 
@@ -42,6 +45,8 @@ def fill_surface(
         Accept any triangles, such as scans with holes and triangle soup. Points are merged, faces
         turned and flat or small holes closed, see `mend_surface`; where it stays open, inside is
         where the generalised winding number is above one half. A `MeshNotice` says what was done.
+    progress : callable, optional
+        Called with the number of fTetWild's passes over all tets so far.
 
     Returns
     -------
@@ -73,7 +78,11 @@ def fill_surface(
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")
     check_share(tolerance, "tolerance", largest=0.1, who="fill_surface")
     tet_vertices, tets = ftetwild(
-        surface.vertices, surface.faces, edge_length=edge_length, tolerance=tolerance
+        surface.vertices,
+        surface.faces,
+        edge_length=edge_length,
+        tolerance=tolerance,
+        progress=progress,
     )
     _check_one_solid(tet_vertices, tets)
     mesh, _ = repair_tets(tet_vertices * surface.diagonal + surface.center, tets)

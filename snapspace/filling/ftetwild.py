@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import threading
+from collections.abc import Callable
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +22,7 @@ from ..stopping import check_stop
 
 _PROGRAM = Path(__file__).with_name("ftetwild_process.py")
 _WATCH = Path(__file__).with_name("ftetwild_watch.py")
+_PASS = re.compile(r"/+ pass (\d+) /+")  # as it begins to improve all tets once more
 # Seconds to wait for the watch process to end before it is killed.
 _PATIENCE = 10.0
 
@@ -28,6 +33,7 @@ def ftetwild(
     *,
     edge_length: float,
     tolerance: float,
+    progress: Callable[[int], None] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Tetrahedralises a surface with fTetWild on one thread.
 
@@ -39,6 +45,8 @@ def ftetwild(
         Its triangles.
     edge_length, tolerance : float
         As shares of the diagonal of the bounding box.
+    progress : callable, optional
+        Called with the number of passes over all tets so far. How many it will need is not known.
 
     Returns
     -------
@@ -71,7 +79,7 @@ def ftetwild(
             edge_length=edge_length,
             tolerance=tolerance,
         )
-        status, output = _run(folder)
+        status, output = _run(folder, progress)
         result = folder / "tets.npz"
         if status or not result.is_file():
             lines = output.strip().splitlines() or ["it wrote nothing"]
@@ -83,7 +91,29 @@ def ftetwild(
             return arrays["vertices"], arrays["tets"]
 
 
-def _run(folder: Path) -> tuple[int, str]:
+class _Output:
+    """What a process writes, read as it comes."""
+
+    def __init__(self, stream: IO[str]) -> None:
+        self._lines: list[str] = []
+        self.passes = 0
+        self._thread = threading.Thread(target=self._read, args=(stream,), daemon=True)
+        self._thread.start()
+
+    def text(self) -> str:
+        """All of it, after the process has ended."""
+        self._thread.join()
+        return "".join(self._lines)
+
+    def _read(self, stream: IO[str]) -> None:
+        for line in stream:
+            self._lines.append(line)
+            found = _PASS.match(line)
+            if found:
+                self.passes = int(found[1]) + 1
+
+
+def _run(folder: Path, progress: Callable[[int], None] | None = None) -> tuple[int, str]:
     """Exit status and output of the program; ends its process if this one is asked to stop."""
     watched, alive = os.pipe()  # `alive` closes when this process ends in any way
     try:
@@ -102,12 +132,16 @@ def _run(folder: Path) -> tuple[int, str]:
             os.close(watched)
             watched = -1
             try:
+                assert process.stdout is not None
+                output, told = _Output(process.stdout), 0
                 while True:
                     try:
-                        output, _ = process.communicate(timeout=POLL_SECONDS)
-                        return process.returncode, output
+                        return process.wait(POLL_SECONDS), output.text()
                     except subprocess.TimeoutExpired:
                         check_stop()
+                    if progress is not None and output.passes > told:
+                        told = output.passes
+                        progress(told)
             except BaseException:
                 os.close(alive)
                 alive = -1

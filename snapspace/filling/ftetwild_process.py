@@ -24,7 +24,7 @@ def main(folder: Path) -> None:
             edge_length_fac=float(surface["edge_length"]),
             epsilon=float(surface["tolerance"]),
             num_threads=1,
-            quiet=True,
+            quiet=False,  # the passes that it prints are its progress
             vtk_ordering=True,  # positive volumes
         )
     np.savez(folder / "tets.npz", vertices=vertices, tets=tets)

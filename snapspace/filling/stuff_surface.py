@@ -10,7 +10,7 @@ from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
 from ..stopping import check_stop
-from ..stuffing import stuff
+from ..stuffing import Progress, stuff
 from .closed_input import check_share, closed_input
 
 # Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part.
@@ -20,7 +20,12 @@ _SCALES = (1.0, 0.8, 0.6)
 
 
 def stuff_surface(
-    vertices: ArrayLike, faces: ArrayLike, *, edge_length: float = 0.025, mend: bool = False
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    *,
+    edge_length: float = 0.025,
+    mend: bool = False,
+    progress: Progress | None = None,
 ) -> TetMesh:
     """Fills a closed triangle surface with well-shaped tets of one size.
 
@@ -36,6 +41,9 @@ def stuff_surface(
     mend : bool, default False
         Mend a surface that is not closed or not oriented alike, see `mend_surface`, with a
         `MeshNotice` that says what was done. A surface that stays open is refused.
+    progress : callable, optional
+        Called with "inside" and the numbers of points that are done and in all, then with
+        "boundary" and those of steps towards the surface; again where a shorter edge is tried.
 
     Returns
     -------
@@ -69,7 +77,7 @@ def stuff_surface(
     for scale in _SCALES:
         cell = scale * edge_length
         try:
-            mesh = stuff(implicit, low, high, cell)
+            mesh = stuff(implicit, low, high, cell, progress=progress)
         except ValueError as error:
             fault = str(error)
             continue

@@ -77,7 +77,7 @@ def problem_body(path: Path) -> Body:
 
 
 def mesh_body(
-    path: Path, *, stage: Callable[[str], None], filling: SurfaceFilling | None = None
+    path: Path, *, stage: Callable[..., None], filling: SurfaceFilling | None = None
 ) -> Body:
     """Tets from a file, or made inside the surface in a file.
 

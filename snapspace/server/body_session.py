@@ -76,6 +76,7 @@ class BodySession:
             poisson=shown_poisson(self._given),
             folder=str(self.body.folder),
             up=self.body.up or empty.up,
+            has_surface=self.body.surface is not None,
         )
         if problem is None:
             return known

@@ -61,3 +61,14 @@ class HandleMotion:
 
     rotation: Matrix
     translation: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
+class SurfaceFinding:
+    """Something about a surface that its user should know, see `doctor.Finding`."""
+
+    name: str
+    fault: bool
+    text: str
+    meaning: str
+    cure: str

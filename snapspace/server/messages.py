@@ -15,121 +15,28 @@ from .message_parts import (
     MaterialChoice,
     Matrix,
     PartChoice,
+    SurfaceFinding,
     Vector,
 )
+from .page_messages import Cancel, Check, Choose, Compute, Edit, Keep, Polish, Save
 
-__all__ = ["HandleChoice", "HandleMotion", "MaterialChoice", "Matrix", "PartChoice", "Vector"]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Choose:
-    """Page: choose these handles and parts. Answered by `Chosen`, or `Failed`.
-
-    request : any 32-bit integer, repeated in the answers
-    translation, angle : common bounds of the sampled motions, half widths per axis
-    parts : stiffer and softer parts; the rest has the material's moduli
-    """
-
-    request: int
-    handles: tuple[HandleChoice, ...]
-    translation: Vector
-    angle: Vector
-    parts: tuple[PartChoice, ...] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Compute:
-    """Page: compute models for the handles chosen last. A running computation is replaced.
-
-    Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
-
-    target_error, most_samples, seed : as for `growing_models`; null: the usual number of samples
-    stiffness : stiffness of the handles, as in a problem file
-    material : kind of the material; null: that of the problem file, or the default one
-    poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or that of lam = mu
-    """
-
-    request: int
-    target_error: float
-    most_samples: int | None = None
-    seed: int
-    stiffness: float
-    material: str | None = None
-    poisson: float | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Cancel:
-    """Page: stop filling or computing. Models and solved samples are kept.
-
-    Answered by `Cancelled`, even if nothing is running.
-    """
-
-    request: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class Save:
-    """Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
-
-    name : name of the files, without folder or extension; null: the mesh's
-    up : axis that points up; null: the server's; timeline : content of a timeline file
-    """
-
-    request: int
-    name: str | None = None
-    up: str | None = None
-    timeline: str | None = None
-
-
-@dataclass(frozen=True, kw_only=True)
-class Keep:
-    """Page: keep the choices made so far, even if they cannot be computed yet. Not answered.
-
-    The next `Workspace` of the same id returns them, for example after the page is reloaded.
-
-    Fields as in `Choose`, handles in any order, and as in `Compute`; up : axis that points up.
-    """
-
-    request: int
-    handles: tuple[HandleChoice, ...]
-    parts: tuple[PartChoice, ...]
-    translation: Vector
-    angle: Vector
-    target_error: float
-    most_samples: int | None
-    stiffness: float
-    material: str
-    poisson: float | None
-    up: str
-
-
-@dataclass(frozen=True, kw_only=True)
-class Edit:
-    """Page: choose other handles on the body of the server's model. Answered by `Workspace`."""
-
-    request: int
-
-
-@dataclass(frozen=True, kw_only=True)
-class Polish:
-    """Page: improve a shape in the full space. A running polish is replaced and not answered.
-
-    Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
-    vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
-
-    model : its number; iterations : the most that are taken
-    handles : for posing models, the motions of all handles, in the model's order
-    weights : for blending models, one per pose
-    q : coordinates of the shape, all or the leading ones
-    """
-
-    request: int
-    model: int
-    handles: tuple[HandleMotion, ...] = ()
-    weights: tuple[float, ...] = ()
-    q: tuple[float, ...]
-    iterations: int = 10
+__all__ = [
+    "Cancel",
+    "Check",
+    "Choose",
+    "Compute",
+    "Edit",
+    "HandleChoice",
+    "HandleMotion",
+    "Keep",
+    "MaterialChoice",
+    "Matrix",
+    "PartChoice",
+    "Polish",
+    "Save",
+    "SurfaceFinding",
+    "Vector",
+]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,6 +61,7 @@ class Workspace:
     own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
     job : request of the last `Compute` for this mesh; 0 if there was none
     is_running : whether that is still running
+    has_surface : whether the mesh came as a surface, so that `Check` examines it
     """
 
     id: str
@@ -178,6 +86,7 @@ class Workspace:
     own_poisson: float | None = None
     job: int = 0
     is_running: bool = False
+    has_surface: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -193,8 +102,10 @@ class Progress:
     """Server: progress of the work, at most ten times a second.
 
     request : that of the `Compute`; 0 while a mesh is read or filled
-    stage : waiting (for another computation), reading, filling, snapshots, subspace, energy
-    done, total : numbers of samples; 0 of 0 where nothing is counted
+    stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
+        filling exactly, snapshots, subspace, energy
+    done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
+        of 0 for passes of fTetWild, which do not know how many follow
     seconds : time since the work began
     eta : expected time until the stage ends; null if not known
     error : `error` of the newest model; null if not known yet
@@ -267,6 +178,23 @@ class Saved:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Checked:
+    """Server: what is wrong with the surface.
+
+    fine : whether nothing needed mending
+    findings : faults first
+    mended : what was mended before the surface was filled, a sentence each
+    invented : positions of the corners of faces that close holes, nine numbers per face
+    """
+
+    request: int
+    fine: bool
+    findings: tuple[SurfaceFinding, ...]
+    mended: tuple[str, ...]
+    invented: tuple[float, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Polished:
     """Server: a report on the shape in the preceding binary frame.
 
@@ -281,12 +209,14 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit)
-FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished)
-PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion)
+FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check)
+FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished, Checked)
+PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, SurfaceFinding)
 
-PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit
-ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished
+PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check
+ServerMessage = (
+    Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished | Checked
+)
 
 
 def type_name(message: type) -> str:

@@ -9,7 +9,8 @@ from ..interruptible import POLL_SECONDS
 from ..stopping import check_stop
 from .body import Body
 
-Stage = Callable[[str], None]
+#: Called with a stage, and where it is counted with what is done and all there is.
+Stage = Callable[..., None]
 
 
 class SharedBody:

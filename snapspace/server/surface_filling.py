@@ -23,20 +23,31 @@ class SurfaceFilling:
     edge_length: float | None = None
     exact: bool = False
 
-    def fill(
-        self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[[str], None]
-    ) -> TetMesh:
+    def fill(self, vertices: ArrayLike, faces: ArrayLike, *, stage: Callable[..., None]) -> TetMesh:
         """Tets inside a surface, which is mended if it is not closed.
 
-        `stage` is called with "filling", and with "filling exactly" before fTetWild, which takes
-        minutes. ValueError as for `fill_surface`.
+        `stage` is called with "filling", "filling inside" and "filling boundary" with what is done
+        and all there is, and "filling exactly" before fTetWild, which takes minutes, and with each of
+        its passes. ValueError as for `fill_surface`.
         """
         sized = {} if self.edge_length is None else {"edge_length": self.edge_length}
         if not self.exact:
             stage("filling")
             try:
-                return stuff_surface(vertices, faces, mend=True, **sized)
+                return stuff_surface(
+                    vertices,
+                    faces,
+                    mend=True,
+                    progress=lambda part, done, total: stage(f"filling {part}", done, total),
+                    **sized,
+                )
             except ValueError:  # the next stage shows on the page that the method has changed
                 pass
         stage("filling exactly")
-        return fill_surface(vertices, faces, mend=True, **sized)
+        return fill_surface(
+            vertices,
+            faces,
+            mend=True,
+            progress=lambda passes: stage("filling exactly", passes),
+            **sized,
+        )

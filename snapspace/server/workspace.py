@@ -10,8 +10,7 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
 
-from ..accurate import MOTIONS, Growth
-from ..material import DEFAULT_MATERIAL
+from ..accurate import Growth
 from ..model_file import SUFFIX, load
 from ..page import packed
 from ..reduction import PosingModel, ReducedModel
@@ -19,8 +18,8 @@ from ..stopping import check_stop
 from . import messages
 from .body import Body, mesh_body, model_body
 from .body_session import BodySession
+from .empty_workspace import empty_workspace
 from .job import Job
-from .materials import material_choices, shown_poisson
 from .mesh_pack import packed_mesh
 from .models import Models
 from .page_channel import PageChannel
@@ -29,6 +28,7 @@ from .reader_text import text_of
 from .reporter import Reporter
 from .settings import ServerSettings
 from .shared_body import Stage
+from .surface_check import surface_check
 
 #: How long to wait for stopped work to end: solvers check between the parts of an iteration.
 STOP_SECONDS = 0.4
@@ -50,6 +50,7 @@ class Workspace:
         self._settings, self._emit = settings, PageChannel(emit)
         self._lock = threading.Lock()  # for the calls; jobs do not take it
         self._work: Job | None = None
+        self._check: Job | None = None
         self._polishes = PolishJobs(self._emit, self._fail)
         self._session: BodySession | None = None
         self._meshes = 0  # number of meshes opened so far; the last one is current
@@ -140,13 +141,14 @@ class Workspace:
         """Stops all work, and drops its results."""
         with self._lock:
             self._closed = True
-            jobs = [job for job in (self._work, self._polishes.stop()) if job is not None]
+            all_jobs = (self._work, self._check, self._polishes.stop())
+            jobs = [job for job in all_jobs if job is not None]
             for job in jobs:
                 job.stop()
             for job in jobs:
                 job.wait(STOP_SECONDS)
             # explicitly: jobs refer to this, and the garbage collector does not see their size
-            self._work = self._session = None
+            self._work = self._check = self._session = None
             self._polishes = PolishJobs(self._emit, self._fail)
             self._models.clear()
 
@@ -164,6 +166,8 @@ class Workspace:
             self._draft = message
         elif isinstance(message, messages.Edit):
             self._edit()
+        elif isinstance(message, messages.Check):
+            self._check_surface(self._current_session().body, message.request)
         else:
             self._polishes.begin(message, self._model(message.model))
 
@@ -185,6 +189,15 @@ class Workspace:
         if model is None:
             raise ValueError("this server has no model of its own; choose handles on its mesh")
         self._open(lambda stage: model_body(model, name=title, folder=folder), title)
+
+    def _check_surface(self, body: Body, request: int) -> None:
+        """Examines a body's surface in the background, beside other work."""
+        if self._check is not None:
+            self._check.stop()
+        self._check = Job(
+            lambda: self._send(surface_check(body, request)),
+            failed=lambda error: self._fail(request, error),
+        )
 
     def _compute(self, order: messages.Compute) -> None:
         session, request = self._current_session(), order.request
@@ -279,22 +292,4 @@ class Workspace:
         return f"{what}/{self.id}/{number}?token={self._settings.token}"
 
     def _empty(self) -> messages.Workspace:
-        return messages.Workspace(
-            id=self.id,
-            kind="empty",
-            name=self._settings.title,
-            mesh=None,
-            up=self._up,
-            handles=(),
-            translation=(0.0, 0.0, 0.0),
-            angle=(0.0, 0.0, 0.0),
-            diagonal=0.0,
-            target_error=MOTIONS.target,
-            seed=0,
-            stiffness=1000.0,
-            materials=material_choices(),
-            material=DEFAULT_MATERIAL.kind,
-            poisson=shown_poisson(DEFAULT_MATERIAL()),
-            folder=str(self._settings.folder),
-            upload_limit=self._settings.upload_limit,
-        )
+        return empty_workspace(self._settings, name=self.id, up=self._up)

@@ -1,5 +1,5 @@
 """Isosurface stuffing: fills the inside of an implicit surface with tets."""
 
-from .isosurface_stuffing import stuff
+from .isosurface_stuffing import Progress, stuff
 
-__all__ = ["stuff"]
+__all__ = ["Progress", "stuff"]

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, zero_fractions
+from snapspace.stuffing.root_finding import (
+    Counter,
+    FloatArray,
+    ImplicitFunction,
+    zero_fractions,
+)
 
 # The edges of a tet, by local corners. In stencils the cut point on edge k is number 4 + k.
 TET_EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
@@ -44,8 +49,12 @@ def find_cut_points(
     points: FloatArray,
     values: FloatArray,
     tets: NDArray[np.int64],
+    counter: Counter | None = None,
 ) -> CutPoints:
-    """Locate the surface on all edges of the tets that have ends of opposite sign."""
+    """Locate the surface on all edges of the tets that have ends of opposite sign.
+
+    `counter` counts the steps of `zero_fractions`.
+    """
     node_count = np.int64(len(points))
     negative = values < 0.0
     positive = values > 0.0
@@ -57,5 +66,5 @@ def find_cut_points(
         keys.append(b[backward] * node_count + a[backward])
     inside, outside = np.divmod(np.unique(np.concatenate(keys)), node_count)
     start, end = points[inside], points[outside]
-    fractions = zero_fractions(implicit, start, end, values[inside], values[outside])
+    fractions = zero_fractions(implicit, start, end, values[inside], values[outside], counter)
     return CutPoints(inside, outside, fractions, start + fractions[:, None] * (end - start))

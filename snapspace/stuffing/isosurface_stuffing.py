@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -18,8 +21,18 @@ from snapspace.stuffing.stuffing_stencils import case_numbers, stencil_table
 
 _MOST_CELLS = 50_000_000
 
+#: Called with a part of the work, what is done of it, and all of it.
+Progress = Callable[[str, int, int], None]
 
-def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: float) -> TetMesh:
+
+def stuff(
+    implicit: ImplicitFunction,
+    lower: ArrayLike,
+    upper: ArrayLike,
+    cell: float,
+    *,
+    progress: Progress | None = None,
+) -> TetMesh:
     """Fill the inside of an implicit surface with well-shaped tetrahedra of uniform size.
 
     Isosurface stuffing (Labelle & Shewchuk 2007, "Isosurface Stuffing: Fast Tetrahedral Meshes
@@ -36,6 +49,9 @@ def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: 
     cell : float
         Edge length of the lattice cells. Tets in the interior have edges of about 0.9 to 1 times
         `cell` and a volume of cell^3 / 12. Parts thinner than about two cells may get lost.
+    progress : callable, optional
+        Called with "inside" and the numbers of nodes that are done and in all, then with
+        "boundary" and those of steps towards the surface.
 
     Returns
     -------
@@ -52,7 +68,7 @@ def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: 
         If an argument is invalid, if the shape leaves the box, if nothing is inside, or if
         features as small as the cells make a surface that is not a manifold.
     """
-    mesh = stuff_unchecked(implicit, lower, upper, cell)
+    mesh = stuff_unchecked(implicit, lower, upper, cell, progress=progress)
     if not is_closed_manifold(mesh.surface):
         raise ValueError(
             f"stuff: cell is {cell}, but parts of the shape, or gaps between them, are as small,"
@@ -62,7 +78,12 @@ def stuff(implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: 
 
 
 def stuff_unchecked(
-    implicit: ImplicitFunction, lower: ArrayLike, upper: ArrayLike, cell: float
+    implicit: ImplicitFunction,
+    lower: ArrayLike,
+    upper: ArrayLike,
+    cell: float,
+    *,
+    progress: Progress | None = None,
 ) -> TetMesh:
     """Like `stuff`, but the surface may touch itself where features are as small as the cells."""
     cell = require_positive("stuff", "cell", cell)
@@ -73,12 +94,14 @@ def stuff_unchecked(
             f" {_MOST_CELLS} are allowed; use a larger cell"
         )
     points = lattice.points()
-    values = evaluate(implicit, points)
+    inside_counter = None if progress is None else partial(progress, "inside")
+    values = evaluate(implicit, points, inside_counter)
     inside = values < 0.0
     _check_inside(inside, values <= 0.0, lattice)
 
     tets = lattice.tets_touching(inside)
-    cuts = find_cut_points(implicit, points, values, tets)
+    boundary_counter = None if progress is None else partial(progress, "boundary")
+    cuts = find_cut_points(implicit, points, values, tets, boundary_counter)
     points, signs, cuts = warp_nodes(
         implicit, points, values, cuts, corner_count=lattice.corner_count, cell=cell
     )

@@ -9,13 +9,20 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 ImplicitFunction = Callable[[FloatArray], FloatArray]
+#: Called with what is done and with all there is.
+Counter = Callable[[int, int], None]
 
 _CHUNK = 1 << 15  # points per call: keeps the temporaries of the implicit function in cache
 _STEPS = 12  # each step of the Illinois method multiplies the correct digits by about 1.44
 
 
-def evaluate(implicit: ImplicitFunction, points: FloatArray) -> FloatArray:
-    """Call `implicit` on points (k, 3) piece by piece; ValueError if the result is invalid."""
+def evaluate(
+    implicit: ImplicitFunction, points: FloatArray, counter: Counter | None = None
+) -> FloatArray:
+    """Call `implicit` on points (k, 3) piece by piece; ValueError if the result is invalid.
+
+    `counter` counts the points.
+    """
     values = np.empty(len(points))
     for start in range(0, len(points), _CHUNK):
         piece = points[start : start + _CHUNK]
@@ -26,6 +33,8 @@ def evaluate(implicit: ImplicitFunction, points: FloatArray) -> FloatArray:
                 f" but must return ({len(piece)},)"
             )
         values[start : start + _CHUNK] = answer
+        if counter is not None:
+            counter(start + len(piece), len(points))
     if not np.isfinite(values).all():
         bad = int(np.flatnonzero(~np.isfinite(values))[0])
         raise ValueError(
@@ -40,6 +49,7 @@ def zero_fractions(
     end: FloatArray,
     start_value: FloatArray,
     end_value: FloatArray,
+    counter: Counter | None = None,
 ) -> FloatArray:
     """Find t with implicit(start + t (end - start)) = 0 on segments whose ends differ in sign.
 
@@ -52,6 +62,8 @@ def zero_fractions(
     start, end : ndarray, (k, 3)
     start_value, end_value : ndarray, (k,)
         Values at the ends, of strictly opposite sign.
+    counter : callable, optional
+        Counts the steps.
 
     Returns
     -------
@@ -62,7 +74,7 @@ def zero_fractions(
     a, b = np.zeros(len(start)), np.ones(len(start))
     fa, fb = start_value.copy(), end_value.copy()
     best, best_value = np.full(len(start), 0.5), np.full(len(start), np.inf)
-    for _ in range(_STEPS):
+    for step in range(_STEPS):
         # fa and fb keep strictly opposite signs until fb is exactly zero: then t stays at b.
         t = b - fb * (b - a) / (fb - fa)
         ft = evaluate(implicit, start + t[:, None] * (end - start))
@@ -71,6 +83,8 @@ def zero_fractions(
         crossed = np.sign(ft) != np.sign(fb)
         a, fa = np.where(crossed, b, a), np.where(crossed, fb, 0.5 * fa)
         b, fb = t, ft
+        if counter is not None:
+            counter(step + 1, _STEPS)
         if not np.any(fb):
             break
     tiny = np.finfo(np.float64).eps

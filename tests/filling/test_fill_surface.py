@@ -35,6 +35,13 @@ def test_the_solid_is_that_of_the_surface(barrel: Surface, filled: TetMesh) -> N
     check_closed(filled.surface, who="test")
 
 
+def test_passes_are_told_while_it_works(barrel: Surface) -> None:
+    """Finer than in other tests: a pass must last longer than the pause between two looks."""
+    passes: list[int] = []
+    fill_surface(*barrel, edge_length=0.1, tolerance=1e-3, progress=passes.append)
+    assert passes and passes == sorted(set(passes))
+
+
 def test_the_tets_are_well_shaped(filled: TetMesh) -> None:
     assert filled.dihedral_angles.min() > 5.0
 

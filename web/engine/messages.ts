@@ -50,6 +50,15 @@ export interface HandleMotion {
   readonly translation: Vector;
 }
 
+/** Something about a surface that its user should know, see `doctor.Finding`. */
+export interface SurfaceFinding {
+  readonly name: string;
+  readonly fault: boolean;
+  readonly text: string;
+  readonly meaning: string;
+  readonly cure: string;
+}
+
 /** Page: choose these handles and parts. Answered by `Chosen`, or `Failed`.
  *
  * request : any 32-bit integer, repeated in the answers
@@ -154,6 +163,12 @@ export interface Edit {
   readonly request: number;
 }
 
+/** Page: examine the surface that was filled. Answered by `Checked`, or `Failed`. */
+export interface Check {
+  readonly type: "check";
+  readonly request: number;
+}
+
 /** Server: the workspace of the page. The first message, sent again after an upload.
  *
  * A page that reconnects gets its choices back; the newest `Model` and last `Progress` follow.
@@ -174,6 +189,7 @@ export interface Edit {
  * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
  * job : request of the last `Compute` for this mesh; 0 if there was none
  * is_running : whether that is still running
+ * has_surface : whether the mesh came as a surface, so that `Check` examines it
  */
 export interface Workspace {
   readonly type: "workspace";
@@ -199,6 +215,7 @@ export interface Workspace {
   readonly own_poisson?: number | null;
   readonly job?: number;
   readonly is_running?: boolean;
+  readonly has_surface?: boolean;
 }
 
 /** Server: the handles are accepted, in this order; the first one holds the shape. */
@@ -211,8 +228,10 @@ export interface Chosen {
 /** Server: progress of the work, at most ten times a second.
  *
  * request : that of the `Compute`; 0 while a mesh is read or filled
- * stage : waiting (for another computation), reading, filling, snapshots, subspace, energy
- * done, total : numbers of samples; 0 of 0 where nothing is counted
+ * stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
+ *     filling exactly, snapshots, subspace, energy
+ * done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
+ *     of 0 for passes of fTetWild, which do not know how many follow
  * seconds : time since the work began
  * eta : expected time until the stage ends; null if not known
  * error : `error` of the newest model; null if not known yet
@@ -295,6 +314,23 @@ export interface Polished {
   readonly seconds: number;
 }
 
-export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit;
+/** Server: what is wrong with the surface.
+ *
+ * fine : whether nothing needed mending
+ * findings : faults first
+ * mended : what was mended before the surface was filled, a sentence each
+ * invented : positions of the corners of faces that close holes, nine numbers per face
+ */
+export interface Checked {
+  readonly type: "checked";
+  readonly request: number;
+  readonly fine: boolean;
+  readonly findings: readonly SurfaceFinding[];
+  readonly mended: readonly string[];
+  readonly invented: readonly number[];
+}
 
-export type ServerMessage = Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished;
+export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check;
+
+export type ServerMessage =
+  Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished | Checked;

@@ -18,7 +18,7 @@ export interface ChoosingView extends View {
   readonly choosing: Choosing;
 }
 
-/** Choosing handles and parts: tools on the stage, their lists in the panel. `compute` stands below. `onOther` is called
+/** Choosing handles and parts: tools on the stage, their lists in the panel, with `below` under them. `onOther` is called
  * after changes outside the choice, such as the axis that points up. */
 export function choosingView(
   stage: Stage,
@@ -26,7 +26,7 @@ export function choosingView(
   start: Choice,
   sampling: Sampling,
   materials: Materials,
-  compute: HTMLElement,
+  below: readonly HTMLElement[],
   onChoice: (choice: Choice) => void,
   onOther: () => void,
   options: ViewOptions,
@@ -78,7 +78,7 @@ export function choosingView(
       materialPanel(sampling, materials, parts.element),
       samplingPanel(sampling, mesh.diagonal),
       lookPanel(stage, surface, mesh, options.up, onOther),
-      compute,
+      ...below,
     ],
     script: {
       kind: "choosing",

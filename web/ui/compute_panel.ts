@@ -5,6 +5,8 @@ const STAGES: Record<string, string> = {
   waiting: "Waiting for another computation",
   reading: "Reading the mesh",
   filling: "Filling the surface with tets",
+  "filling inside": "Finding the inside of the surface",
+  "filling boundary": "Fitting tets to the surface",
   "filling exactly": "Filling the surface exactly (some minutes)",
   snapshots: "Solving samples",
   subspace: "Finding the subspace",
@@ -95,6 +97,11 @@ export class ComputePanel {
     for (const text of [this.#model, this.#savedText, this.#fault]) text.hidden = true;
   }
 
+  /** Shows that a computation begins. */
+  begin(): void {
+    this.#bar.show({ stage: "snapshots", done: 0, total: 0, eta: null, error: null });
+  }
+
   progress(progress: Progress): void {
     this.#bar.show(progress);
   }
@@ -157,6 +164,7 @@ export class ProgressBar {
     if (this.#stage.textContent !== text) this.#stage.textContent = text;
     const parts = [];
     if (isWaiting && total > 1) parts.push(`${total.toLocaleString("en")} come first`);
+    if (total === 0 && done > 0) parts.push(`pass ${done}`);
     if (total > 0 && !isWaiting) parts.push(`${done.toLocaleString("en")} of ${total.toLocaleString("en")}`);
     if (eta !== null) parts.push(`${duration(eta)} left`);
     if (error !== null) parts.push(`error ${percent(error)}`);

@@ -1,8 +1,9 @@
 import { choiceOf, lacking, handleMessages, orderedHandleMessages, type Choice } from "../engine/choice.ts";
 import { partMessages } from "../engine/parts.ts";
-import { readModel, type PosingModel } from "../engine/index.ts";
+import type { PosingModel } from "../engine/index.ts";
 import type { Failed, Model, Progress, Workspace as Given } from "../engine/messages.ts";
 import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
+import { CheckPanel } from "./check_panel.ts";
 import { CHOOSING, keepHash, motionsOf } from "./address.ts";
 import { ConnectionNotice } from "./connection_notice.ts";
 import { exportPage } from "./export_page.ts";
@@ -13,6 +14,7 @@ import { polishAt } from "./polishing.ts";
 import { posingView, type PosingView } from "./posing_view.ts";
 import { readable, type AppShell } from "./app_shell.ts";
 import type { Motions } from "./view.ts";
+import { SentModels } from "./sent_models.ts";
 import { Refused, type Server } from "./server.ts";
 import { ReadingBox } from "./workspace_reading.ts";
 
@@ -22,12 +24,15 @@ export class Workspace {
   readonly #server: Server;
   readonly #panel: ComputePanel;
   readonly #reading: ReadingBox;
+  /** Of the present mesh; null if it came as tets. */
+  #check: CheckPanel | null = null;
   #given: Given | null = null;
   #mesh: RestMesh | null = null;
   #choice: Choice = choiceOf([]);
   #sampling: Sampling | null = null;
   /** The newest model of the computation that was started last. */
   #model: { sent: Model; content: PosingModel } | null = null;
+  readonly #models = new SentModels();
   #posing: PosingView | null = null;
   /** Where the handles were when posing was left. */
   #motions: Motions = new Map();
@@ -46,8 +51,7 @@ export class Workspace {
   #queue: Promise<void> = Promise.resolve();
 
   constructor(shell: AppShell, server: Server) {
-    this.#shell = shell;
-    this.#server = server;
+    [this.#shell, this.#server] = [shell, server];
     this.#reading = new ReadingBox(shell, server);
     this.#panel = new ComputePanel({
       compute: () => void this.#try(() => this.#compute()),
@@ -120,6 +124,8 @@ export class Workspace {
     [this.#model, this.#job, this.#isRunning] = [null, given.job ?? 0, given.is_running ?? false];
     this.#motions = motionsOf(location.hash); // after a reload
     this.#panel.clear();
+    this.#check?.dispose();
+    this.#check = given.has_surface ? new CheckPanel(this.#shell.stage, this.#server) : null;
     this.#choosing(true);
   }
 
@@ -133,18 +139,16 @@ export class Workspace {
 
   /** The view in which handles are chosen. */
   #choosing(isNew = false): void {
-    const { stage } = this.#shell;
-    const mesh = this.#mesh!;
+    const [stage, mesh] = [this.#shell.stage, this.#mesh!];
     this.#leave();
-    const { element } = this.#panel;
+    const below = [...(this.#check?.elements ?? []), this.#panel.element];
     const onChoice = (choice: Choice) => {
       if (choice.handles !== this.#choice.handles || choice.parts !== this.#choice.parts) this.#panel.clear();
       this.#choice = choice;
       this.#update();
       this.#keepSoon();
     };
-    const up = isNew ? this.#shell.options(mesh.up).up : stage.up;
-    const options = { up, forceCpu: true, keepView: !isNew };
+    const { up } = isNew ? this.#shell.options(mesh.up) : stage;
     this.#shell.show(
       choosingView(
         stage,
@@ -152,13 +156,14 @@ export class Workspace {
         this.#choice,
         this.#sampling!,
         this.#given!,
-        element,
+        below,
         onChoice,
         () => this.#keepSoon(),
-        options,
+        { up, forceCpu: true, keepView: !isNew },
       ),
       mesh.name,
     );
+    this.#check?.show();
     this.#update();
   }
 
@@ -199,6 +204,7 @@ export class Workspace {
   #leave(): void {
     if (this.#posing) this.#motions = this.#posing.motions;
     this.#posing = null;
+    this.#check?.hide();
     this.#shell.clear();
   }
 
@@ -207,14 +213,12 @@ export class Workspace {
     await this.#sendChoice();
     const { translation: _, angle: __, ...wanted } = this.#sampling!;
     this.#panel.clear();
-    this.#model = null;
+    [this.#model, this.#staysChoosing] = [null, false];
     this.#motions = new Map(); // they are of the handles before
-    this.#staysChoosing = false;
     keepHash(() => "");
     this.#keep();
-    this.#job = this.#server.send({ type: "compute", ...wanted });
-    this.#isRunning = true;
-    this.#panel.progress({ type: "progress", request: this.#job, stage: "snapshots", ...NOT_YET });
+    [this.#job, this.#isRunning] = [this.#server.send({ type: "compute", ...wanted }), true];
+    this.#panel.begin();
     this.#update();
   }
 
@@ -243,6 +247,7 @@ export class Workspace {
   }
 
   #take(sent: Model): void {
+    this.#models.announce(sent);
     this.#later(() => this.#show(sent));
   }
 
@@ -253,8 +258,8 @@ export class Workspace {
   /** Takes a better model, or the first one, which is posed at once. */
   async #show(sent: Model): Promise<void> {
     if (sent.request !== this.#job || sent.number === this.#model?.sent.number) return;
-    const content = readModel(await this.#server.fetched(sent.address), this.#mesh!.name) as PosingModel;
-    if (sent.request !== this.#job) return;
+    const content = await this.#models.read(sent, this.#server, this.#mesh!.name);
+    if (!content || sent.request !== this.#job) return;
     const isFirst = this.#model === null;
     // set after posing has the model, because polishing uses its number
     await this.#posing?.replace(content);
@@ -266,11 +271,8 @@ export class Workspace {
   }
 
   #failed({ request, message }: Failed): void {
-    if (request === 0) {
-      this.#reading.failed(message);
-      return;
-    }
-    if (request !== this.#job) return;
+    if (request === 0) this.#reading.failed(message);
+    if (request === 0 || request !== this.#job) return;
     this.#isRunning = false;
     this.#panel.fault(message);
     this.#update();
@@ -296,4 +298,3 @@ export class Workspace {
 }
 
 const KEEP_PAUSE = 150; // milliseconds: a brush changes the choice with every move
-const NOT_YET = { done: 0, total: 0, seconds: 0, eta: null, error: null };

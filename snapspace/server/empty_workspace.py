@@ -1,0 +1,32 @@
+"""The first message to a page that has no mesh yet."""
+
+from __future__ import annotations
+
+from ..accurate import MOTIONS
+from ..material import DEFAULT_MATERIAL
+from . import messages
+from .materials import material_choices, shown_poisson
+from .settings import ServerSettings
+
+
+def empty_workspace(settings: ServerSettings, *, name: str, up: str) -> messages.Workspace:
+    """A workspace without a mesh, with the usual choices; `name` is its id."""
+    return messages.Workspace(
+        id=name,
+        kind="empty",
+        name=settings.title,
+        mesh=None,
+        up=up,
+        handles=(),
+        translation=(0.0, 0.0, 0.0),
+        angle=(0.0, 0.0, 0.0),
+        diagonal=0.0,
+        target_error=MOTIONS.target,
+        seed=0,
+        stiffness=1000.0,
+        materials=material_choices(),
+        material=DEFAULT_MATERIAL.kind,
+        poisson=shown_poisson(DEFAULT_MATERIAL()),
+        folder=str(settings.folder),
+        upload_limit=settings.upload_limit,
+    )

@@ -1,0 +1,52 @@
+"""The page says what is wrong with a surface, and shows what was invented to fill it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from snapspace.mesh import write_surface
+
+from .choosing_page import BAR, ends_as_handles, press, wait_for_text
+from .pages import OpenPage
+from .serving import served
+
+#: Corners of the faces on the stage that close holes.
+INVENTED = """(() => {
+  const mesh = snapspace.stage.root.getObjectByName('invented');
+  return mesh ? [...mesh.geometry.getAttribute('position').array] : [];
+})()"""
+
+
+def test_holes_are_listed_and_what_closes_them_is_drawn(
+    tmp_path: Path, opened: OpenPage, chromium: object
+) -> None:
+    missing = BAR.vertices[BAR.surface[:1]]
+    write_surface(tmp_path / "scan.obj", BAR.vertices, BAR.surface[1:])
+    with served(tmp_path / "scan.obj", "--edge-length", "0.06", cwd=tmp_path) as address:
+        page = opened(address)
+        page.wait("snapspace.kind === 'choosing'")
+        assert page.run(INVENTED) == []
+        press(page, "Check surface")
+        wait_for_text(page, ".findings", "What to do:")
+        text = page.text(".findings")
+        assert "holes it is not closed: 1 holes" in text
+        assert "closed 1 holes with 1 faces" in text and "Your file is as it was" in text
+        corners = np.array(page.run(INVENTED)).reshape(-1, 3)
+        for corner in missing.reshape(-1, 3):
+            assert np.abs(corners - corner).max(axis=1).min() < 1e-6
+        ends_as_handles(page)
+        press(page, "Compute")
+        page.wait("snapspace.kind === 'posing'")
+        assert page.run(INVENTED) == [], "a posed shape is not that surface"
+        press(page, "Choose handles")
+        page.wait("snapspace.kind === 'choosing'")
+        assert len(page.run(INVENTED)) == 9
+        page.close()  # before its server, which it would miss
+
+
+def test_tets_have_nothing_to_check(bar_server: str, opened: OpenPage) -> None:
+    page = opened(bar_server)
+    page.wait("snapspace.kind === 'choosing'")
+    assert page.page.get_by_role("button", name="Check surface").count() == 0

@@ -1,0 +1,106 @@
+import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial } from "three";
+
+import type { Checked, SurfaceFinding } from "../engine/messages.ts";
+import { h, section } from "./dom.ts";
+import type { Server } from "./server.ts";
+import type { Stage } from "./stage.ts";
+
+const INVENTED = 0xe2593f;
+
+/** What is wrong with the surface that was opened, at the press of a button: a list, and on the stage the faces that
+ * close its holes. */
+export class CheckPanel {
+  readonly elements: readonly HTMLElement[];
+  readonly #stage: Stage;
+  readonly #server: Server;
+  readonly #button: HTMLButtonElement;
+  readonly #result = h("div", { className: "findings", role: "status" });
+  #invented: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
+
+  constructor(stage: Stage, server: Server) {
+    [this.#stage, this.#server] = [stage, server];
+    this.#button = h(
+      "button",
+      { type: "button", className: "wide", onclick: () => void this.#run() },
+      "Check surface",
+    );
+    this.#button.title = "Holes, flipped and crossing faces, thin parts, and what to do about them";
+    this.elements = [section("Surface", this.#button, this.#result)];
+  }
+
+  /** Puts what was invented on the stage, if there is any. */
+  show(): void {
+    if (this.#invented) this.#stage.root.add(this.#invented);
+  }
+
+  hide(): void {
+    this.#invented?.removeFromParent();
+  }
+
+  dispose(): void {
+    this.hide();
+    this.#invented?.geometry.dispose();
+    this.#invented?.material.dispose();
+    this.#invented = null;
+  }
+
+  async #run(): Promise<void> {
+    this.#button.disabled = true;
+    this.#result.replaceChildren(h("p", {}, "Checking…"));
+    try {
+      const { message: found } = await this.#server.ask({ type: "check" }, "checked");
+      this.#result.replaceChildren(...lines(found));
+      this.dispose();
+      if (found.invented.length > 0) this.#invented = invented(found.invented);
+      if (this.#result.isConnected) this.show();
+      this.#stage.draw();
+    } catch (error) {
+      this.#result.replaceChildren(h("p", { className: "fault" }, (error as Error).message));
+    } finally {
+      this.#button.disabled = false;
+    }
+  }
+}
+
+function lines({ fine, findings, mended, invented: positions }: Checked): HTMLElement[] {
+  const verdict = fine ? "Ready: nothing needs mending." : mendedText(mended);
+  const first = h("p", { className: fine ? "ready" : "mended" }, verdict);
+  const list = h("ul", {}, ...findings.map(item));
+  const legend =
+    positions.length > 0
+      ? [h("p", { className: "invented" }, "Red on the shape: faces that close holes.")]
+      : [];
+  return [first, ...legend, ...(findings.length > 0 ? [list] : [])];
+}
+
+function mendedText(mended: readonly string[]): string {
+  if (mended.length === 0) return "It has faults, which are left to the filling.";
+  return `Mended before it was filled: ${mended.join("; ")}. Your file is as it was.`;
+}
+
+function item({ name, fault, text, meaning, cure }: SurfaceFinding): HTMLElement {
+  return h(
+    "li",
+    { className: fault ? "faulty" : "" },
+    h("strong", {}, name),
+    ` ${text}`,
+    h("span", {}, `It means: ${meaning}.`),
+    h("span", {}, `What to do: ${cure}.`),
+  );
+}
+
+function invented(positions: readonly number[]): Mesh<BufferGeometry, MeshBasicMaterial> {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(positions), 3));
+  const material = new MeshBasicMaterial({
+    color: INVENTED,
+    side: DoubleSide,
+    transparent: true,
+    opacity: 0.75,
+    polygonOffset: true,
+    polygonOffsetFactor: -2,
+  });
+  const mesh = new Mesh(geometry, material);
+  mesh.name = "invented";
+  return mesh;
+}
