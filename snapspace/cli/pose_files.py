@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -190,7 +191,9 @@ def _tets_of(
         mesh = read_tets(options.tets, repair=options.repair)
         _check_size(mesh, vertices, options.tets)
         return mesh
-    size = {} if options.edge_length is None else {"edge_length": options.edge_length}
+    size: dict[str, Any] = (
+        {} if options.edge_length is None else {"edge_length": options.edge_length}
+    )
     known = cache.load_tets(vertices, faces, size)
     if known is not None:
         notice("resuming: the first pose was filled before")

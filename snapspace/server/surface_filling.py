@@ -27,8 +27,8 @@ class SurfaceFilling:
         """Tets inside a surface, which is mended if it is not closed.
 
         `stage` is called with "filling", "filling inside" and "filling boundary" with what is done
-        and all there is, and "filling exactly" before fTetWild, which takes minutes, and with each of
-        its passes. ValueError as for `fill_surface`.
+        and all there is, and "filling exactly" before fTetWild, which takes minutes, and
+        with each of its passes. ValueError as for `fill_surface`.
         """
         sized = {} if self.edge_length is None else {"edge_length": self.edge_length}
         if not self.exact:

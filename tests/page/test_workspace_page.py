@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -234,22 +232,3 @@ def test_the_end_of_the_server_is_told_and_posing_goes_on(
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02
     wait_for_text(page, ".hud", "Not polished: there is no connection to the server.")
-
-
-def test_a_slow_page_shows_the_newest_model(page: Page) -> None:
-    """The server keeps the last two models; a page that asks for older ones gets none."""
-    asked: list[int] = []
-
-    def slow(route: Any) -> None:
-        asked.append(int(re.search(r"/(\d+)\?", route.request.url)[1]))
-        page.page.wait_for_timeout(1500)
-        route.fallback()
-
-    page.page.route("**/model/**", slow)
-    page.loses_server = True  # an address may be gone when the page asks for it
-    compute(page, 200, 0.01)
-    page.wait("snapspace.kind === 'posing'")
-    wait_for_text(page, "#panel", "Done in")
-    page.page.unroute("**/model/**")
-    assert len(asked) < max(asked) - min(asked) + 1, "some are skipped"
-    assert page.run("document.querySelector('[role=alert]')?.offsetParent") is None

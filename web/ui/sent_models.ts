@@ -11,7 +11,7 @@ export class SentModels {
   }
 
   /** The content of a model; null if a newer one was announced. */
-  async read(sent: Model, server: Server, name: string): Promise<PosingModel | null> {
+  async read(sent: Model, server: Pick<Server, "fetched">, name: string): Promise<PosingModel | null> {
     if (sent !== this.#newest) return null;
     try {
       return readModel(await server.fetched(sent.address), name) as PosingModel;
