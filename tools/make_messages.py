@@ -1,6 +1,6 @@
-"""Writes web/engine/messages.ts, the messages of snapspace/server/messages.py for the page.
+"""Writes messages.ts and page_messages.ts in web/engine: the server's messages for the page.
 
-Run this after a change of the messages; a test compares the file with the output of this script.
+Run this after a change of the messages; a test compares the files with the output of this script.
 
     python tools/make_messages.py [--check]
 """
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import re
 import sys
 import types
 import typing
@@ -16,27 +17,34 @@ from pathlib import Path
 
 from snapspace.server import messages
 
-PATH = Path(__file__).parent.parent / "web" / "engine" / "messages.ts"
+FOLDER = Path(__file__).parent.parent / "web" / "engine"
 SIMPLE = {int: "number", float: "number", str: "string", bool: "boolean", type(None): "null"}
 ALIASES = {messages.Vector: "Vector", messages.Matrix: "Matrix"}
 
 NINE = ", ".join(["number"] * 9)
-HEAD = f"""\
-// Written by tools/make_messages.py from snapspace/server/messages.py.
-
+HEAD = "// Written by tools/make_messages.py from snapspace/server/messages.py.\n"
+ROWS = f"""\
 export type Vector = readonly [number, number, number];
 export type Matrix = readonly [{NINE}];
 """
+SHARED = [*ALIASES.values(), *(part.__name__ for part in messages.PARTS)]
 
 
-def messages_text() -> str:
-    """The TypeScript module."""
-    parts = [HEAD]
-    parts += [_interface(part, tagged=False) for part in messages.PARTS]
-    parts += [_interface(each, tagged=True) for each in messages.FROM_PAGE + messages.FROM_SERVER]
-    parts += [_union("PageMessage", messages.FROM_PAGE)]
-    parts += [_union("ServerMessage", messages.FROM_SERVER)]
-    return "\n".join(parts)
+def files() -> dict[Path, str]:
+    """The TypeScript modules: what the page sends with the parts of messages, and the others."""
+    parts = [_interface(part, tagged=False) for part in messages.PARTS]
+    sent = [_interface(each, tagged=True) for each in messages.FROM_PAGE]
+    page = [HEAD, ROWS, *parts, *sent, _union("PageMessage", messages.FROM_PAGE)]
+    received = [_interface(each, tagged=True) for each in messages.FROM_SERVER]
+    text = "\n".join(received)
+    used = ", ".join(name for name in SHARED if re.search(rf": (readonly )?{name}\b", text))
+    own = "./page_messages.ts"
+    links = f'import type {{ {used} }} from "{own}";\n\nexport type * from "{own}";\n'
+    server = [HEAD, links, *received, _union("ServerMessage", messages.FROM_SERVER)]
+    return {
+        FOLDER / "page_messages.ts": "\n".join(page),
+        FOLDER / "messages.ts": "\n".join(server),
+    }
 
 
 def _interface(message: type, *, tagged: bool) -> str:
@@ -86,15 +94,17 @@ def _union(name: str, members: tuple[type, ...]) -> str:
 
 
 def main() -> int:
-    """Writes the file; with --check only checks whether it is up to date."""
+    """Writes the files; with --check only checks whether they are up to date."""
+    found = files()
     if "--check" not in sys.argv[1:]:
-        PATH.write_text(messages_text(), encoding="utf-8")
-        print(f"wrote {PATH}")
+        for path, text in found.items():
+            path.write_text(text, encoding="utf-8")
+            print(f"wrote {path}")
         return 0
-    if PATH.read_text(encoding="utf-8") == messages_text():
-        return 0
-    print("make_messages: web/engine/messages.ts is not up to date; run tools/make_messages.py")
-    return 1
+    old = [path.name for path, text in found.items() if path.read_text(encoding="utf-8") != text]
+    if old:
+        print(f"make_messages: {', '.join(old)} are not up to date; run tools/make_messages.py")
+    return len(old) and 1
 
 
 if __name__ == "__main__":

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import os
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import click
 
 from ..accurate import MOTIONS, check_budget, check_target
-from ..mesh import EmbeddedSurface, TetMesh, read_tets
 from ..model_file import check_model_path, load
-from ..problem import PosingProblem, read_problem, read_problem_surface
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build_advice import build_advice
@@ -22,8 +18,10 @@ from .choices import MOTION_SAMPLINGS, Choices, choice_options
 from .console import print_json, print_next
 from .dask_cluster import dask_executor
 from .energy import EnergyChoice
+from .filling_options import filling_of, filling_options
 from .given_options import given_options
 from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
+from .problem_input import problem_input
 from .summary import print_summary
 
 DIMENSION = 40
@@ -73,6 +71,7 @@ DIMENSION = 40
     help="Number of tets of a cubature [default: 8 per mode, at most 1000].",
 )
 @click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
+@filling_options
 @threads_option
 @dask_option
 @json_option
@@ -83,6 +82,8 @@ def build(
     energy: Energy,
     tets: int | None,
     repair: bool,
+    edge_length: float | None,
+    exact: bool,
     target_error: float,
     budget: float | None,
     from_file: Path | None,
@@ -94,12 +95,14 @@ def build(
     """Build a model: solve the samples, find the subspace, precompute the reduced energy.
 
     Samples and dimension follow from the error of unseen motions, see --target-error, unless you
-    give them. MESH replaces the mesh that the problem file names. Ctrl-C keeps the finished samples
-    beside the model; the same command resumes from there.
+    give them. MESH, tets or a surface, replaces the mesh that the problem file names. A surface is
+    filled with tets. Ctrl-C keeps the finished samples beside the model; the same command resumes
+    from there.
 
     \b
     Examples:
       snapspace build --problem dragon.json -o dragon.snapspace
+      snapspace build --problem spot.json spot.obj -o spot.snapspace
       snapspace build --problem tail.json --from dragon.snapspace -o tail.snapspace
       snapspace build --problem dragon.json --samples 600 --dimension 60 -o dragon60.snapspace
       snapspace build --problem dragon.json --dimension 120 --energy cubature -o dragon120.snapspace
@@ -109,9 +112,16 @@ def build(
     check_output(output)
     check_target(target_error)
     check_budget(budget)
-    problem, surface, source = _read(problem_file, mesh, repair=repair)
-    exact = problem.material.exact_degree == 4
-    by_hand = decided_by_hand(exact=exact, others=("energy", "tets"))
+    given = problem_input(
+        problem_file,
+        mesh,
+        filling=filling_of(edge_length, exact=exact),
+        repair=repair,
+        tets_file=output.with_name(f"{output.stem}-tets.msh"),
+    )
+    problem, source = given.problem, given.source
+    quartic = problem.material.exact_degree == 4
+    by_hand = decided_by_hand(exact=quartic, others=("energy", "tets"))
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
     choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)
     choice.check(problem, choices.samples)
@@ -134,7 +144,7 @@ def build(
         start=None if from_file is None else _old_model(from_file),
         solver=choices.solver_options(),
     )
-    built = make(output, source=source, surface=surface, begin=begin, executor=executor)
+    built = make(output, source=source, surface=given.surface, begin=begin, executor=executor)
     print_summary(built, include_unconverged=choices.include_unconverged)
     folders = [file.parent for file in (problem_file, mesh) if file is not None]
     better = build_advice(built, folders=folders, threads=threads)
@@ -164,17 +174,3 @@ def _old_model(file: Path) -> PosingModel:
     if not isinstance(model, PosingModel):
         raise ValueError(f"{file}: this model blends poses; --from takes one with handles")
     return model
-
-
-def _read(
-    problem_file: Path, mesh_file: Path | None, *, repair: bool
-) -> tuple[PosingProblem, EmbeddedSurface | None, dict[str, Any]]:
-    """The problem, the surface that it names, and its source for the model's provenance."""
-    mesh: TetMesh | None = None if mesh_file is None else read_tets(mesh_file, repair=repair)
-    problem = read_problem(problem_file, mesh=mesh, repair=repair)
-    content = json.loads(problem_file.read_text(encoding="utf-8"))
-    if mesh_file is None:
-        mesh_file = Path(content["mesh"])
-    surface = read_problem_surface(problem_file, problem.mesh)
-    source = {"problem": problem_file.name, "mesh": mesh_file.name}
-    return problem, surface, source | {key: content[key] for key in ("up",) if key in content}

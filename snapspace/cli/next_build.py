@@ -58,7 +58,9 @@ def _inputs(record: dict[str, Any], folders: Sequence[Path]) -> list[str] | None
         if problem is None:
             return None
         words = ["build", "--problem", str(problem)]
-        if Path(json.loads(problem.read_text(encoding="utf-8"))["mesh"]).name == record.get("mesh"):
+        content = json.loads(problem.read_text(encoding="utf-8"))
+        named = content.get("mesh", content.get("surface"))
+        if isinstance(named, str) and Path(named).name == record.get("mesh"):
             return words
         mesh = _found(str(record.get("mesh")), folders)
         return None if mesh is None else [*words, str(mesh)]

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from ..extras import need_extra
+from ..filling import SurfaceFilling
 from ..mesh import TET_SUFFIXES
 from ..mesh.input_path import existing_file
 from ..model_file import SUFFIX
@@ -17,7 +18,6 @@ from ..server import (
     MESH_SUFFIXES,
     PROBLEM_SUFFIX,
     SharedBody,
-    SurfaceFilling,
     mesh_body,
     problem_body,
     serve,
@@ -25,6 +25,7 @@ from ..server import (
 from ..server.serve import HOST
 from ..server.settings import UPLOAD_LIMIT
 from .console import notice
+from .filling_options import filling_of, filling_options
 from .loading import load_leading
 from .options import FILE, leading_option, up_option
 
@@ -47,18 +48,7 @@ from .options import FILE, leading_option, up_option
     metavar="MB",
     help="Largest size of meshes that are dropped on the page.",
 )
-@click.option(
-    "--edge-length",
-    type=click.FloatRange(min=0, max=0.5, min_open=True),
-    metavar="SHARE",
-    help="Edge length of the tets that fill a surface, relative to its diagonal [default: 0.025, "
-    "with --exact 0.02].",
-)
-@click.option(
-    "--exact",
-    is_flag=True,
-    help="Fill surfaces with fTetWild, which keeps sharp edges but takes minutes, not seconds.",
-)
+@filling_options
 @leading_option
 @up_option
 def view(
@@ -90,10 +80,8 @@ def view(
       snapspace view bunny.obj
     """
     need_extra("view", who="snapspace view")
-    if exact:
-        need_extra("fill", who="--exact")
     model = body = None
-    filling = SurfaceFilling(edge_length=edge_length, exact=exact)
+    filling = filling_of(edge_length, exact=exact)
     if file is not None:
         existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
         if file.suffix.lower() == SUFFIX:
@@ -127,7 +115,7 @@ def _body(file: Path, filling: SurfaceFilling) -> SharedBody:
     """The body that the page starts with; a problem or tets are read now, to show errors here."""
     suffix = file.suffix.lower()
     if suffix == PROBLEM_SUFFIX:
-        body = problem_body(file)
+        body = problem_body(file, filling=filling)
     elif suffix in TET_SUFFIXES:
         body = mesh_body(file, stage=lambda stage: None)
     else:

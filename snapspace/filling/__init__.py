@@ -2,5 +2,6 @@
 
 from .fill_surface import fill_surface
 from .stuff_surface import stuff_surface
+from .surface_filling import SurfaceFilling
 
-__all__ = ["fill_surface", "stuff_surface"]
+__all__ = ["SurfaceFilling", "fill_surface", "stuff_surface"]

@@ -9,7 +9,7 @@ from .motion import affine_offset, euler_of_rotation, rigid_offset, rotation_mat
 from .poses import Poses
 from .posing_problem import PosingProblem
 from .problem import Problem, solutions_beyond_tau
-from .problem_file import problem_content, read_problem, read_problem_surface
+from .problem_file import problem_content, problem_surface_file, read_problem, read_problem_surface
 from .region import in_box, in_sphere
 from .simplex import Simplex
 from .solver_traits import Projection, SolverTraits
@@ -35,6 +35,7 @@ __all__ = [
     "in_box",
     "in_sphere",
     "problem_content",
+    "problem_surface_file",
     "read_problem",
     "read_problem_surface",
     "rigid_offset",

@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+from ..filling import SurfaceFilling
 from ..mesh import EmbeddedSurface, TetMesh, embed_file, open_surface, read_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
@@ -29,9 +30,10 @@ def read_problem(
     ----------
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
-        `read_problem_surface`, "up": axis that points up in pages and pictures, "material",
-        "stiffness", "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes",
-        "spheres", "vertices", "painted", "domain"}, ...]}.
+        `read_problem_surface`; without "mesh" it is filled with tets in seconds, see
+        `stuff_surface`, "up": axis that points up in pages and pictures, "material", "stiffness",
+        "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
+        "vertices", "painted", "domain"}, ...]}.
         A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
         [[x, y, z], radius] and vertices. "painted" lists the surface vertices that the user chose
         for it; only the page reads them. The first handle is the fixed one; any other may have its
@@ -139,7 +141,30 @@ def _entry(content: dict[str, Any], key: str) -> Any:
     return content[key]
 
 
+def problem_surface_file(path: str | Path) -> Path | None:
+    """The surface that a problem file names in place of tets; None if it names tets.
+
+    ValueError as for `read_problem`, and if it names neither.
+    """
+    path = Path(path)
+    content = _load(path)
+    with within(path):
+        return _surface_in_place_of_tets(path, content)
+
+
+def _surface_in_place_of_tets(path: Path, content: dict[str, Any]) -> Path | None:
+    if "mesh" in content:
+        return None
+    if "surface" not in content:
+        raise ValueError("the entries 'mesh' and 'surface' are missing; one is needed")
+    return path.parent / as_text(content["surface"], "surface")
+
+
 def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
+    surface = _surface_in_place_of_tets(path, content)
+    if surface is not None:
+        file = open_surface(surface).compact()
+        return SurfaceFilling().fill(file.vertices, file.faces, stage=lambda *_: None)
     return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
 
 

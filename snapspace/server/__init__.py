@@ -3,13 +3,11 @@
 from .body import MESH_SUFFIXES, PROBLEM_SUFFIX, mesh_body, problem_body
 from .serve import serve
 from .shared_body import SharedBody
-from .surface_filling import SurfaceFilling
 
 __all__ = [
     "MESH_SUFFIXES",
     "PROBLEM_SUFFIX",
     "SharedBody",
-    "SurfaceFilling",
     "mesh_body",
     "problem_body",
     "serve",

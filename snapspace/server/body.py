@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..filling import SurfaceFilling
 from ..mesh import (
     SURFACE_SUFFIXES,
     TET_SUFFIXES,
@@ -19,10 +20,14 @@ from ..mesh import (
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..page.painted import painted_vertices
-from ..problem import PosingProblem, read_problem, read_problem_surface
+from ..problem import (
+    PosingProblem,
+    problem_surface_file,
+    read_problem,
+    read_problem_surface,
+)
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
-from .surface_filling import SurfaceFilling
 
 PROBLEM_SUFFIX = ".json"
 MESH_SUFFIXES = (*TET_SUFFIXES, *SURFACE_SUFFIXES)
@@ -54,15 +59,23 @@ class Body:
     painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
 
-def problem_body(path: Path) -> Body:
-    """Mesh, handles and surface of a problem file; ValueError if one of them cannot be read."""
-    problem = read_problem(path)
+def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
+    """Mesh, handles and surface of a problem file; ValueError if one of them cannot be read.
+
+    A surface without tets is filled.
+    """
+    own = problem_surface_file(path)
+    if own is None:
+        problem = read_problem(path)
+    else:
+        tets = mesh_body(own, stage=lambda *_: None, filling=filling).mesh
+        problem = read_problem(path, mesh=tets)
     surface = read_problem_surface(path, problem.mesh)
     files = json.loads(path.read_text(encoding="utf-8"))
     return Body(
         name=path.stem,
         mesh=problem.mesh,
-        file=(path.parent / files["mesh"]).resolve(),
+        file=None if own is not None else (path.parent / files["mesh"]).resolve(),
         folder=path.resolve().parent,
         problem=problem,
         surface=surface,

@@ -11,12 +11,12 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..extras import need_extra
+from ..filling import SurfaceFilling
 from ..reduction import ReducedModel
 from .hosts import hosts_for, shown_host
 from .listener import listening
 from .settings import UPLOAD_LIMIT, ServerSettings
 from .shared_body import SharedBody
-from .surface_filling import SurfaceFilling
 
 HOST = "127.0.0.1"
 

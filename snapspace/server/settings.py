@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..filling import SurfaceFilling
 from ..reduction import ReducedModel
 from .computation_queue import ComputationQueue
 from .shared_body import SharedBody
-from .surface_filling import SurfaceFilling
 
 #: 256 MB.
 UPLOAD_LIMIT = 256 * 2**20

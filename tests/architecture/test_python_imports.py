@@ -35,6 +35,7 @@ ALLOWED: dict[str, set[str]] = {
     "problem": {
         "_core",
         "energy",
+        "filling",
         "input_error",
         "interruptible",
         "material",
@@ -122,6 +123,7 @@ ALLOWED: dict[str, set[str]] = {
     "server": {
         "accurate",
         "disk",
+        "doctor",
         "extras",
         "filling",
         "interruptible",

@@ -143,7 +143,7 @@ DELETE = object()
 HEAD = ("handles", 1)
 CORNER = [0.0, 0.0, 0.0]
 WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
-    (("mesh",), DELETE, "the entry 'mesh' is missing"),
+    (("mesh",), DELETE, "problem.json: the entries 'mesh' and 'surface' are missing; one"),
     (("mesh",), 5, "mesh must be a string, got 5"),
     (("mesh",), "missing.msh", "missing.msh"),
     (("stiffness",), "stiff", "stiffness must be a number, got 'stiff'"),

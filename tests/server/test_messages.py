@@ -14,9 +14,9 @@ from ..page.tools import tool
 
 
 def test_the_page_has_the_message_types_of_the_server() -> None:
-    maker = tool("make_messages")
-    written = maker.PATH.read_text(encoding="utf-8")
-    assert written == maker.messages_text(), "run python tools/make_messages.py"
+    files = tool("make_messages").files()
+    written = {path: path.read_text(encoding="utf-8") for path in files}
+    assert written == files, "run python tools/make_messages.py"
 
 
 CHOOSE = m.Choose(

@@ -1,4 +1,4 @@
-"""SurfaceFilling: how the server fills surfaces with tets."""
+"""SurfaceFilling: quick tets, or those of fTetWild."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from ..filling import fill_surface, stuff_surface
 from ..mesh import TetMesh
+from .fill_surface import fill_surface
+from .stuff_surface import stuff_surface
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from snapspace.filling import SurfaceFilling
 from snapspace.generators import bar
 from snapspace.mesh import MeshNotice, TetMesh, compact_surface
-from snapspace.server import SurfaceFilling
 
 ORDER = ["filling", "filling inside", "filling boundary"]
 

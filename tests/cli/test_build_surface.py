@@ -1,0 +1,101 @@
+"""`build` fills a surface by itself: one command from the surface to the model."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from snapspace import PosingModel, load, read_problem, read_surface, read_tets
+from snapspace.filling import surface_filling
+from snapspace.mesh import compact_surface, write_surface
+
+from .conftest import Run
+from .files import bar_mesh, problem_content
+
+SMALL = ("--samples", 12, "--dimension", 6)
+
+
+@pytest.fixture
+def surface(tmp_path: Path) -> Path:
+    """The surface of a bar."""
+    mesh = bar_mesh()
+    path = tmp_path / "bar.obj"
+    write_surface(path, *compact_surface(mesh.vertices, mesh.surface))
+    return path
+
+
+def problem(folder: Path, **changes: object) -> Path:
+    path = folder / "bar.json"
+    content = problem_content(**changes)
+    del content["mesh"]
+    path.write_text(json.dumps(content), encoding="utf-8")
+    return path
+
+
+def posing_model(path: Path) -> PosingModel:
+    model = load(path)
+    assert isinstance(model, PosingModel)
+    return model
+
+
+def test_a_surface_is_filled_shown_and_posed(run: Run, surface: Path, tmp_path: Path) -> None:
+    named = problem(tmp_path, surface=surface.name)
+    first, second = tmp_path / "first.snapspace", tmp_path / "second.snapspace"
+    told = run("build", "--problem", named, *SMALL, "-o", first)
+    assert told.code == 0 and "filled bar.obj with" in told.err
+    given = problem(tmp_path)  # names neither tets nor a surface
+    assert run("build", "--problem", given, surface, *SMALL, "-o", second).code == 0
+    one, other = posing_model(first), posing_model(second)
+    assert np.array_equal(one.subspace.basis, other.subspace.basis), "the same tets"
+    assert one.provenance["mesh"] == "bar.obj"
+    shown = one.surface.vertices(one.problem.mesh.vertices)
+    np.testing.assert_allclose(shown, read_surface(surface)[0], atol=1e-12)
+    assert one.surface.source is not None
+    # the same in Python
+    found = read_problem(problem(tmp_path, surface=surface.name)).mesh
+    assert np.array_equal(found.vertices, one.problem.mesh.vertices)
+
+
+def test_the_size_of_the_tets_can_be_chosen(run: Run, surface: Path, tmp_path: Path) -> None:
+    named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
+    counts = []
+    for length in (0.04, 0.08):
+        told = run("build", "--problem", named, *SMALL, "--edge-length", length, "-o", path)
+        assert told.code == 0
+        counts.append(len(posing_model(path).problem.mesh.tets))
+    assert counts[0] > 4 * counts[1]
+
+
+def test_tets_that_differ_in_each_run_are_kept(
+    run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """fTetWild takes its points in a random order; quick tets stand for it here."""
+    monkeypatch.setattr(
+        surface_filling, "fill_surface", lambda v, f, **_: surface_filling.stuff_surface(v, f)
+    )
+    named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
+    told = run("build", "--problem", named, "--exact", *SMALL, "-o", path)
+    assert told.code == 0
+    kept = tmp_path / "m-tets.msh"
+    assert f"wrote {kept}; give it in place of bar.obj" in told.err
+    assert np.array_equal(read_tets(kept).tets, posing_model(path).problem.mesh.tets)
+
+
+def test_a_problem_needs_tets_or_a_surface(run: Run, tmp_path: Path) -> None:
+    told = run("build", "--problem", problem(tmp_path), *SMALL, "-o", tmp_path / "m.snapspace")
+    assert told.code == 2
+    assert "the entries 'mesh' and 'surface' are missing; one is needed" in told.err
+    with pytest.raises(ValueError, match=r"bar\.json: the entries 'mesh' and 'surface'"):
+        read_problem(problem(tmp_path))
+
+
+def test_a_surface_that_cannot_be_filled_is_refused(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "flat.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    told = run(
+        "build", "--problem", problem(tmp_path), path, *SMALL, "-o", tmp_path / "m.snapspace"
+    )
+    assert told.code == 2 and "flat.obj: " in told.err and "Traceback" not in told.err

@@ -1,0 +1,172 @@
+// Written by tools/make_messages.py from snapspace/server/messages.py.
+
+export type Vector = readonly [number, number, number];
+export type Matrix = readonly [number, number, number, number, number, number, number, number, number];
+
+/** A handle that the page chose, or that a problem file has.
+ *
+ * name : unique among the handles
+ * vertices : indices among all vertices of the packed mesh, also those inside
+ * moving : whether it moves while sampling; at least one handle does not
+ * translation, angle : its own bounds of the sampled motions; null: the common ones
+ */
+export interface HandleChoice {
+  readonly name: string;
+  readonly vertices: readonly number[];
+  readonly moving?: boolean;
+  readonly translation?: Vector | null;
+  readonly angle?: Vector | null;
+}
+
+/** A part of the body that is stiffer or softer.
+ *
+ * name : unique among the parts
+ * vertices : as for a handle; tets with at least three corners among them are in the part
+ * factor : multiplies all moduli there, 0.0001 to 10000; where parts overlap, the later one counts
+ */
+export interface PartChoice {
+  readonly name: string;
+  readonly vertices: readonly number[];
+  readonly factor: number;
+}
+
+/** A material that can be computed with.
+ *
+ * kind, title : its name in files and messages, and its name for the reader
+ * has_poisson : whether Poisson's ratio changes anything
+ */
+export interface MaterialChoice {
+  readonly kind: string;
+  readonly title: string;
+  readonly has_poisson: boolean;
+}
+
+/** Where a handle is: a rigid motion about its centre at rest.
+ *
+ * rotation : matrix, row by row
+ */
+export interface HandleMotion {
+  readonly rotation: Matrix;
+  readonly translation: Vector;
+}
+
+/** Something about a surface that its user should know, see `doctor.Finding`. */
+export interface SurfaceFinding {
+  readonly name: string;
+  readonly fault: boolean;
+  readonly text: string;
+  readonly meaning: string;
+  readonly cure: string;
+}
+
+/** Page: choose these handles and parts. Answered by `Chosen`, or `Failed`.
+ *
+ * request : any 32-bit integer, repeated in the answers
+ * translation, angle : common bounds of the sampled motions, half widths per axis
+ * parts : stiffer and softer parts; the rest has the material's moduli
+ */
+export interface Choose {
+  readonly type: "choose";
+  readonly request: number;
+  readonly handles: readonly HandleChoice[];
+  readonly translation: Vector;
+  readonly angle: Vector;
+  readonly parts?: readonly PartChoice[];
+}
+
+/** Page: compute models for the handles chosen last. A running computation is replaced.
+ *
+ * Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
+ *
+ * target_error, most_samples, seed : as for `growing_models`; null: the usual number of samples
+ * stiffness : stiffness of the handles, as in a problem file
+ * material : kind of the material; null: that of the problem file, or the default one
+ * poisson : Poisson's ratio, 0 to 0.49; null: that of the problem file, or that of lam = mu
+ */
+export interface Compute {
+  readonly type: "compute";
+  readonly request: number;
+  readonly target_error: number;
+  readonly most_samples?: number | null;
+  readonly seed: number;
+  readonly stiffness: number;
+  readonly material?: string | null;
+  readonly poisson?: number | null;
+}
+
+/** Page: stop filling or computing. Models and solved samples are kept.
+ *
+ * Answered by `Cancelled`, even if nothing is running.
+ */
+export interface Cancel {
+  readonly type: "cancel";
+  readonly request: number;
+}
+
+/** Page: save problem, newest model, and a mesh that is in no file yet. Answered by `Saved`.
+ *
+ * name : name of the files, without folder or extension; null: the mesh's
+ * up : axis that points up; null: the server's; timeline : content of a timeline file
+ */
+export interface Save {
+  readonly type: "save";
+  readonly request: number;
+  readonly name?: string | null;
+  readonly up?: string | null;
+  readonly timeline?: string | null;
+}
+
+/** Page: improve a shape in the full space. A running polish is replaced and not answered.
+ *
+ * Answered by a binary frame with `request` as a 32-bit integer and the positions of the surface's
+ * vertices as 32-bit floats, all little endian, in the order of the packed model; then `Polished`.
+ *
+ * model : its number; iterations : the most that are taken
+ * handles : for posing models, the motions of all handles, in the model's order
+ * weights : for blending models, one per pose
+ * q : coordinates of the shape, all or the leading ones
+ */
+export interface Polish {
+  readonly type: "polish";
+  readonly request: number;
+  readonly model: number;
+  readonly handles?: readonly HandleMotion[];
+  readonly weights?: readonly number[];
+  readonly q: readonly number[];
+  readonly iterations?: number;
+}
+
+/** Page: keep the choices made so far, even if they cannot be computed yet. Not answered.
+ *
+ * The next `Workspace` of the same id returns them, for example after the page is reloaded.
+ *
+ * Fields as in `Choose`, handles in any order, and as in `Compute`; up : axis that points up.
+ */
+export interface Keep {
+  readonly type: "keep";
+  readonly request: number;
+  readonly handles: readonly HandleChoice[];
+  readonly parts: readonly PartChoice[];
+  readonly translation: Vector;
+  readonly angle: Vector;
+  readonly target_error: number;
+  readonly most_samples: number | null;
+  readonly stiffness: number;
+  readonly material: string;
+  readonly poisson: number | null;
+  readonly up: string;
+}
+
+/** Page: choose other handles on the body of the server's model. Answered by `Workspace`. */
+export interface Edit {
+  readonly type: "edit";
+  readonly request: number;
+}
+
+/** Page: examine the surface that was filled. Answered by `Checked`, or `Failed`. */
+export interface Check {
+  readonly type: "check";
+  readonly request: number;
+}
+
+export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check;
