@@ -10,7 +10,11 @@ import click
 from ..extras import need_extra
 from ..filling import SurfaceFilling
 from ..mesh import SurfaceFile, TetMesh
+from .console import notice
 from .progress import spinner
+
+#: The stage of `SurfaceFilling.fill` in which fTetWild works.
+EXACTLY = "filling exactly"
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -43,10 +47,21 @@ def filling_of(edge_length: float | None, *, exact: bool) -> SurfaceFilling:
     return SurfaceFilling(edge_length=edge_length, exact=exact)
 
 
-def filled(file: SurfaceFile, filling: SurfaceFilling) -> TetMesh:
-    """The tets inside a surface file, with a line on the screen while it is filled."""
+def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
+    """The tets inside a surface file, and whether they are fTetWild's, which differ in each run."""
+    stages: set[str] = set()
+
+    def stage(name: str, *_: int) -> None:
+        if name == EXACTLY and name not in stages and not filling.exact:
+            notice(
+                f"notice: {file.name} has parts or gaps too thin for quick tets of this size; "
+                "fTetWild fills it, in minutes (a shorter --edge-length may be faster)"
+            )
+        stages.add(name)
+
     with spinner(f"filling {file.name} with tets"):
         try:
-            return filling.fill(file.vertices, file.faces, stage=lambda *_: None)
+            tets = filling.fill(file.vertices, file.faces, stage=stage)
         except ValueError as error:
             raise ValueError(f"{file.name}: {error}") from None
+    return tets, EXACTLY in stages

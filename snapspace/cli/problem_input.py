@@ -80,9 +80,9 @@ def problem_input(
 
 
 def _tets(file: SurfaceFile, filling: SurfaceFilling, kept: Path) -> TetMesh:
-    tets = filled(file, filling)
+    tets, differ = filled(file, filling)
     notice(f"filled {file.name} with {len(tets.tets):,} tets")
-    if filling.exact:
+    if differ:
         write_tets(kept, tets)
         notice(f"wrote {kept}; give it in place of {file.name} to use the same tets again")
     return tets

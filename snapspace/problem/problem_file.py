@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from ..filling import SurfaceFilling
+from ..filling import stuff_surface
 from ..mesh import EmbeddedSurface, TetMesh, embed_file, open_surface, read_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
@@ -51,8 +51,8 @@ def read_problem(
     Raises
     ------
     ValueError
-        For a missing file, text that is not JSON, a missing, unknown or mistyped entry; the
-        message names the file and the entry.
+        For a missing file, text that is not JSON, a missing, unknown or mistyped entry, or a
+        surface that `stuff_surface` cannot fill; the message names the file and the entry.
     """
     path = Path(path)
     content = _load(path)
@@ -164,7 +164,8 @@ def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
     surface = _surface_in_place_of_tets(path, content)
     if surface is not None:
         file = open_surface(surface).compact()
-        return SurfaceFilling().fill(file.vertices, file.faces, stage=lambda *_: None)
+        with within(surface):
+            return stuff_surface(file.vertices, file.faces, mend=True)
     return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -82,6 +83,23 @@ def test_tets_that_differ_in_each_run_are_kept(
     kept = tmp_path / "m-tets.msh"
     assert f"wrote {kept}; give it in place of bar.obj" in told.err
     assert np.array_equal(read_tets(kept).tets, posing_model(path).problem.mesh.tets)
+
+
+def test_it_is_told_if_quick_tets_are_too_large(
+    run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    fine = surface_filling.stuff_surface
+    monkeypatch.setattr(surface_filling, "stuff_surface", refused)
+    monkeypatch.setattr(surface_filling, "fill_surface", lambda v, f, **_: fine(v, f))
+    named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
+    told = run("build", "--problem", named, *SMALL, "-o", path)
+    assert told.code == 0
+    assert "notice: bar.obj has parts or gaps too thin for quick tets" in told.err
+    assert (tmp_path / "m-tets.msh").is_file()
+
+
+def refused(*_: object, **__: object) -> NoReturn:
+    raise ValueError("too thin")
 
 
 def test_a_problem_needs_tets_or_a_surface(run: Run, tmp_path: Path) -> None:
