@@ -8,8 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import write_surface
-
 from .conftest import Run, no_such_option
 from .files import bar_mesh, contents, problem_content, write_problem, write_raw
 
@@ -30,9 +28,9 @@ def nan_in_the_mesh(folder: Path) -> list[object]:
     return build(folder, folder / "nan.mesh")
 
 
-def surface_as_mesh(folder: Path) -> list[object]:
-    write_surface(folder / "surface.obj", bar_mesh().vertices, bar_mesh().surface)
-    return build(folder, folder / "surface.obj")
+def picture_as_mesh(folder: Path) -> list[object]:
+    (folder / "picture.png").write_bytes(b"no mesh")
+    return build(folder, folder / "picture.png")
 
 
 def not_json(folder: Path) -> list[object]:
@@ -70,7 +68,7 @@ BUILDS: dict[str, tuple[Case, str]] = {
         lambda f: build(f, mesh="bar.xyz"),
         "bar.xyz: unknown extension '.xyz'; known are .mesh",
     ),
-    "surface as mesh": (surface_as_mesh, "surface.obj: unknown extension '.obj'"),
+    "picture as mesh": (picture_as_mesh, "picture.png: unknown extension '.png'"),
     "nan in the mesh": (nan_in_the_mesh, "nan.mesh: vertex 3 is not finite"),
     "unknown entry": (lambda f: build(f, colour="red"), "unknown entry 'colour'"),
     "unknown material": (

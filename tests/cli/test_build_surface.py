@@ -9,7 +9,14 @@ from typing import NoReturn
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, load, read_problem, read_surface, read_tets
+from snapspace import (
+    PosingModel,
+    load,
+    read_problem,
+    read_surface,
+    read_tets,
+    stuff_surface,
+)
 from snapspace.filling import surface_filling
 from snapspace.mesh import compact_surface, write_surface
 
@@ -17,6 +24,8 @@ from .conftest import Run
 from .files import bar_mesh, problem_content
 
 SMALL = ("--samples", 12, "--dimension", 6)
+#: Fewer tets than by default, which would take most of the time.
+LARGE_TETS = ("--edge-length", 0.08)
 
 
 @pytest.fixture
@@ -45,25 +54,28 @@ def posing_model(path: Path) -> PosingModel:
 def test_a_surface_is_filled_shown_and_posed(run: Run, surface: Path, tmp_path: Path) -> None:
     named = problem(tmp_path, surface=surface.name)
     first, second = tmp_path / "first.snapspace", tmp_path / "second.snapspace"
-    told = run("build", "--problem", named, *SMALL, "-o", first)
+    told = run("build", "--problem", named, *SMALL, *LARGE_TETS, "-o", first)
     assert told.code == 0 and "filled bar.obj with" in told.err
     given = problem(tmp_path)  # names neither tets nor a surface
-    assert run("build", "--problem", given, surface, *SMALL, "-o", second).code == 0
+    assert run("build", "--problem", given, surface, *SMALL, *LARGE_TETS, "-o", second).code == 0
     one, other = posing_model(first), posing_model(second)
     assert np.array_equal(one.subspace.basis, other.subspace.basis), "the same tets"
     assert one.provenance["mesh"] == "bar.obj"
     shown = one.surface.vertices(one.problem.mesh.vertices)
     np.testing.assert_allclose(shown, read_surface(surface)[0], atol=1e-12)
     assert one.surface.source is not None
-    # the same in Python
-    found = read_problem(problem(tmp_path, surface=surface.name)).mesh
-    assert np.array_equal(found.vertices, one.problem.mesh.vertices)
+
+
+def test_python_fills_the_same_tets(surface: Path, tmp_path: Path) -> None:
+    vertices, faces = read_surface(surface)
+    mesh = read_problem(problem(tmp_path, surface=surface.name)).mesh
+    assert np.array_equal(mesh.vertices, stuff_surface(vertices, faces).vertices)
 
 
 def test_the_size_of_the_tets_can_be_chosen(run: Run, surface: Path, tmp_path: Path) -> None:
     named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
     counts = []
-    for length in (0.04, 0.08):
+    for length in (0.06, 0.12):
         told = run("build", "--problem", named, *SMALL, "--edge-length", length, "-o", path)
         assert told.code == 0
         counts.append(len(posing_model(path).problem.mesh.tets))
@@ -74,11 +86,12 @@ def test_tets_that_differ_in_each_run_are_kept(
     run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """fTetWild takes its points in a random order; quick tets stand for it here."""
+    quick = surface_filling.stuff_surface
     monkeypatch.setattr(
-        surface_filling, "fill_surface", lambda v, f, **_: surface_filling.stuff_surface(v, f)
+        surface_filling, "fill_surface", lambda v, f, **o: quick(v, f, edge_length=o["edge_length"])
     )
     named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
-    told = run("build", "--problem", named, "--exact", *SMALL, "-o", path)
+    told = run("build", "--problem", named, "--exact", *SMALL, *LARGE_TETS, "-o", path)
     assert told.code == 0
     kept = tmp_path / "m-tets.msh"
     assert f"wrote {kept}; give it in place of bar.obj" in told.err
@@ -88,9 +101,11 @@ def test_tets_that_differ_in_each_run_are_kept(
 def test_it_is_told_if_quick_tets_are_too_large(
     run: Run, surface: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    fine = surface_filling.stuff_surface
+    quick = surface_filling.stuff_surface
     monkeypatch.setattr(surface_filling, "stuff_surface", refused)
-    monkeypatch.setattr(surface_filling, "fill_surface", lambda v, f, **_: fine(v, f))
+    monkeypatch.setattr(
+        surface_filling, "fill_surface", lambda v, f, **_: quick(v, f, edge_length=0.08)
+    )
     named, path = problem(tmp_path, surface=surface.name), tmp_path / "m.snapspace"
     told = run("build", "--problem", named, *SMALL, "-o", path)
     assert told.code == 0

@@ -8,6 +8,7 @@ import pytest
 from snapspace.filling import SurfaceFilling
 from snapspace.generators import bar
 from snapspace.mesh import MeshNotice, TetMesh, compact_surface
+from snapspace.stuffing import root_finding
 
 ORDER = ["filling", "filling inside", "filling boundary"]
 
@@ -25,11 +26,12 @@ def filled(mesh: TetMesh, how: SurfaceFilling) -> tuple[TetMesh, list[str]]:
     return tets, stages
 
 
-def test_work_is_counted_while_a_surface_is_filled() -> None:
+def test_work_is_counted_while_a_surface_is_filled(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(root_finding, "_CHUNK", 1 << 10)
     block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
     surface = compact_surface(block.vertices, block.surface)
     told: list[tuple[str, int, int]] = []
-    how = SurfaceFilling(edge_length=0.02)
+    how = SurfaceFilling(edge_length=0.06)
     how.fill(*surface, stage=lambda name, done=0, total=0: told.append((name, done, total)))
     assert told[0] == ("filling", 0, 0), "first the stage alone"
     for part in ("filling inside", "filling boundary"):
