@@ -33,19 +33,21 @@ def live_endpoint(workspaces: Workspaces) -> Callable[[WebSocket], Awaitable[Non
         outbox = Outbox(asyncio.get_running_loop())
 
         async def dismiss() -> None:
-            with suppress(RuntimeError, OSError):  # it is closed already
+            with suppress(WebSocketDisconnect, RuntimeError, OSError):  # it is closed already
                 await socket.close(TAKEN_OVER)
 
         sender = asyncio.create_task(_send(socket, outbox))
-        workspace = await workspaces.enter(
-            socket.query_params.get("workspace"), outbox.put, dismiss
-        )
         try:
-            await _receive(socket, workspace, outbox)
+            workspace = await workspaces.enter(
+                socket.query_params.get("workspace"), outbox.put, dismiss
+            )
+            try:
+                await _receive(socket, workspace, outbox)
+            finally:
+                await workspaces.leave(workspace, dismiss)
         finally:
             sender.cancel()
             await asyncio.gather(sender, return_exceptions=True)
-            await workspaces.leave(workspace, dismiss)
 
     return live
 

@@ -45,7 +45,7 @@ class Page:
         text = message.text
         is_lost = self.loses_server and text.startswith(("WebSocket connection", "Failed to load"))
         if message.type in ("error", "warning") and "GPU stall" not in text and not is_lost:
-            self.faults.append(f"console: {text}")
+            self.faults.append(f"console: {text} {message.location.get('url', '')}".rstrip())
 
     def _request(self, request: Any) -> None:
         own = self.address.split("?")[0].rsplit("/", 1)[0]
