@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any, cast
 
@@ -69,4 +70,6 @@ def test_however_the_old_connection_ended(tmp_path: Path, fault: Exception | Non
             task.cancel()
         await asyncio.gather(*left, return_exceptions=True)
 
-    asyncio.run(scenario())
+    # Playwright's loop may run in this thread
+    with ThreadPoolExecutor(1) as thread:
+        thread.submit(asyncio.run, scenario()).result()

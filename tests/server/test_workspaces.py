@@ -111,14 +111,14 @@ def test_a_page_that_stays_away_is_forgotten(address: str, monkeypatch: pytest.M
 
 
 def test_no_page_waits_long_for_a_closed_one(address: str) -> None:
-    with socket(address) as first:
-        page = Page(first)
-        page.workspace()
-        page.send("compute", request=1, **LONG)
-        page.take("progress")
     with socket(address) as second:
         page = Page(second)
         page.workspace()
+        with socket(address) as first:
+            other = Page(first)
+            other.workspace()
+            other.send("compute", request=1, **LONG)
+            other.take("progress")
         page.send("compute", request=1, **LONG)
         begin = time.monotonic()
         page.take("model", "failed")
