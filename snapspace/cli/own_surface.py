@@ -81,7 +81,8 @@ def check_own_output(model: Model, output: Path | None, kind: str | None, *, pat
         )
         return
     folder = output if path else output.parent
-    missing = [name for name in source.refers_to if not (folder / name).exists()]
+    names = [name for name in source.refers_to if name not in source.beside]
+    missing = [name for name in names if not (folder / name).exists()]
     if missing:
         notice(
             f"notice: {source.name} refers to {', '.join(missing)}; copy the file to {folder} too"

@@ -187,3 +187,18 @@ def test_only_files_in_the_folder_are_taken_along(tmp_path: Path) -> None:
     file = open_surface(folder / "cube.obj")
     assert set(file.beside) == {"cube.mtl", "skins\\own.png"}
     assert look_of(file).missing == ("../secret.png",)
+
+
+def test_materials_are_written_beside_a_posed_surface(tmp_path: Path) -> None:
+    beside = {"cube.mtl": MTL, "skins\\own.png": PNG, "../secret.png": PNG, "kept.png": PNG}
+    file = SurfaceFile("cube.obj", obj(""), beside=beside)
+    folder = tmp_path / "posed"
+    folder.mkdir()
+    (folder / "kept.png").write_bytes(b"the user's")
+    file.write(folder / "posed.obj", 2.0 * file.vertices)
+    assert (folder / "cube.mtl").read_bytes() == MTL
+    assert (folder / "skins" / "own.png").read_bytes() == PNG
+    assert (folder / "kept.png").read_bytes() == b"the user's"
+    assert [path.name for path in tmp_path.iterdir()] == ["posed"], "nothing outside"
+    again = open_surface(folder / "posed.obj")
+    assert look_of(again).colors is not None and again.beside["cube.mtl"] == MTL

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ...disk.atomic_file import atomic_file
 from .layout import Layout
 from .mtl import pictures
 
@@ -24,13 +25,35 @@ def files_beside(layout: Layout, folder: Path) -> dict[str, bytes]:
     return found
 
 
+def write_beside(files: Mapping[str, bytes], folder: Path) -> None:
+    """Writes files into a folder or below it; those that exist stay as they are.
+
+    Names that lead out of the folder are left out: they may come from a stranger's model.
+    """
+    for name, content in files.items():
+        path = _inside(folder, name)
+        if path is None or path.exists():
+            continue
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise ValueError(f"{path.parent}: cannot be created ({error.strerror})") from None
+        with atomic_file(path) as temporary:
+            temporary.write_bytes(content)
+
+
+def _inside(folder: Path, name: str) -> Path | None:
+    """The path of a name, None if it is not in the folder or below it."""
+    path = (folder / name.replace("\\", "/")).resolve()
+    return path if path.is_relative_to(folder.resolve()) else None
+
+
 def _read(names: Iterable[str], folder: Path) -> dict[str, bytes]:
     found = {}
     for name in dict.fromkeys(names):
         try:
-            path = (folder / name.replace("\\", "/")).resolve()
-            inside = path.is_relative_to(folder.resolve())
-            if inside and path.is_file() and path.stat().st_size <= LARGEST:
+            path = _inside(folder, name)
+            if path is not None and path.is_file() and path.stat().st_size <= LARGEST:
                 found[name] = path.read_bytes()
         except (OSError, ValueError):
             continue

@@ -18,7 +18,7 @@ from ..input_path import existing_file, writable_path
 from ..polygons import fan_corners
 from ..validation import check_indices, check_points
 from .appearance import Appearance
-from .beside import files_beside
+from .beside import files_beside, write_beside
 from .carried import carried
 from .content import READERS, layout_of, vertices_of
 from .gltf_appearance import gltf_appearance
@@ -171,6 +171,7 @@ class SurfaceFile:
     def write(self, path: str | os.PathLike[str], vertices: ArrayLike) -> None:
         """Writes the file with other positions, see `with_vertices`.
 
+        Materials and textures of `beside` that are not in its folder are written there too.
         ValueError also for a path with another extension, or one that cannot be written; an
         existing file then stays as it was.
         """
@@ -179,6 +180,7 @@ class SurfaceFile:
             content = self.with_vertices(vertices)
         with atomic_file(file) as temporary:
             temporary.write_bytes(content)
+        write_beside(self.beside, file.parent)
 
     def _carried(self, old: FloatArray, new: FloatArray) -> list[Patch]:
         """Patches of normals and tangents."""
