@@ -18,7 +18,10 @@ import sys
 import zipfile
 from pathlib import Path
 
-ROOT = Path(__file__).parent.parent
+sys.path.insert(0, str(Path(__file__).parent))
+
+from project import ROOT, version
+
 SOURCE = ROOT / "blender"
 BUILD = ROOT / "build" / "blender"
 #: Python of Blender 4.2 to 5.0.
@@ -78,10 +81,7 @@ def download(folder: Path, platform: str) -> None:
 def manifest(platform: str, wheels: list[Path]) -> str:
     """The manifest with platform, wheels, and the version of the Python package."""
     text = (SOURCE / "blender_manifest.toml").read_text(encoding="utf-8")
-    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
-    found = re.search(r'^version = "([^"]+)"', project, re.MULTILINE)
-    assert found is not None, "pyproject.toml has no version"
-    text = re.sub(r'^version = ".*"', f'version = "{found[1]}"', text, flags=re.MULTILINE)
+    text = re.sub(r'^version = ".*"', f'version = "{version()}"', text, flags=re.MULTILINE)
     listed = "".join(f'  "./wheels/{wheel.name}",\n' for wheel in wheels)
     head = text[: text.index("# tools/build_blender.py")]
     return f'{head}platforms = ["{platform}"]\nwheels = [\n{listed}]\n'

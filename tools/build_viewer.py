@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import gzip
 import json
-import re
 import shutil
 import sys
 from pathlib import Path
@@ -17,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import build_page
 import node
+from project import version
 
 SOURCE = node.WEB / "viewer"
 PACKAGE = node.WEB.parent / "build" / "viewer"
@@ -29,14 +29,6 @@ export declare const SnapspaceViewer: {
   prototype: SnapspaceViewerElement;
 };
 """
-
-
-def version() -> str:
-    """That of the Python package."""
-    text = (node.WEB.parent / "pyproject.toml").read_text(encoding="utf-8")
-    found = re.search(r'^version = "([^"]+)"', text, re.MULTILINE)
-    assert found is not None, "pyproject.toml has no version"
-    return found[1]
 
 
 def build(package: Path) -> dict[str, int]:
