@@ -1,6 +1,5 @@
-import { Matrix4, Quaternion } from "three";
-
 import { eulerOfRotation, rotationOfEuler, type Motion } from "../engine/index.ts";
+import { quaternionOf, rotationOf } from "./rotations.ts";
 import type { States } from "./timeline_file.ts";
 
 const DEGREES = 180 / Math.PI;
@@ -53,15 +52,9 @@ export function weightStates(names: readonly string[]): States<readonly number[]
 
 function betweenMotions(from: Motion, to: Motion, share: number): Motion {
   if (share === 0) return from;
-  const turn = quaternion(from).slerp(quaternion(to), share);
-  const m = new Matrix4().makeRotationFromQuaternion(turn).elements; // column by column
+  const turn = quaternionOf(from.rotation).slerp(quaternionOf(to.rotation), share);
   const [x, y, z] = from.translation.map((t, axis) => t + share * (to.translation[axis] - t));
-  return { rotation: [m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]], translation: [x, y, z] };
-}
-
-function quaternion({ rotation: R }: Motion): Quaternion {
-  const matrix = new Matrix4().set(R[0], R[1], R[2], 0, R[3], R[4], R[5], 0, R[6], R[7], R[8], 0, 0, 0, 0, 1);
-  return new Quaternion().setFromRotationMatrix(matrix);
+  return { rotation: rotationOf(turn), translation: [x, y, z] };
 }
 
 function entriesOf(value: unknown, names: readonly string[], what: string): Map<string, unknown> {

@@ -10,21 +10,12 @@ export class OwnLook {
   /** One per picture; empty until it is decoded. */
   readonly textures: readonly Texture[];
   /** Resolves when all pictures are decoded. A picture that cannot be is left white. */
-  readonly ready: Promise<void>;
-  #isReady = false;
+  readonly ready: Promise<unknown>;
 
   constructor(appearance: Appearance) {
     this.appearance = appearance;
     this.textures = appearance.textures.map(() => emptyTexture());
-    this.ready = Promise.all(appearance.textures.map((bytes, k) => decode(bytes, this.textures[k]))).then(
-      () => {
-        this.#isReady = true;
-      },
-    );
-  }
-
-  get isReady(): boolean {
-    return this.#isReady;
+    this.ready = Promise.all(appearance.textures.map((bytes, k) => decode(bytes, this.textures[k])));
   }
 
   dispose(): void {

@@ -1,9 +1,10 @@
-import { Matrix4, Mesh, Object3D, Vector3 } from "three";
+import { Mesh, Object3D, Vector3 } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 
 import type { Motion } from "../engine/index.ts";
 import { AXIS_COLORS } from "./axis_colors.ts";
 import type { Posing } from "./posing.ts";
+import { quaternionOf, rotationOf } from "./rotations.ts";
 import type { Axis } from "./stage.ts";
 
 const [X, Y, Z] = AXIS_COLORS;
@@ -100,11 +101,8 @@ export class Gizmo {
     if (this.#controls.object !== this.#proxy) this.#controls.attach(this.#proxy);
     this.#controls.setMode(mode === "move" ? "translate" : "rotate");
     if (this.#controls.dragging) return;
-    const { rotation: R } = session.motion(selected);
     this.#proxy.position.set(...session.place(selected));
-    this.#proxy.quaternion.setFromRotationMatrix(
-      new Matrix4().set(R[0], R[1], R[2], 0, R[3], R[4], R[5], 0, R[6], R[7], R[8], 0, 0, 0, 0, 1),
-    );
+    this.#proxy.quaternion.copy(quaternionOf(session.motion(selected).rotation));
     this.#proxy.updateMatrixWorld(true);
   }
 
@@ -128,11 +126,10 @@ export class Gizmo {
 
   #wish(): void {
     const { selected, session } = this.#posing;
-    const e = new Matrix4().makeRotationFromQuaternion(this.#proxy.quaternion).elements;
     const { center } = session.model.handles[selected];
     const { x, y, z } = this.#proxy.position;
     const asked: Motion = {
-      rotation: [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]],
+      rotation: rotationOf(this.#proxy.quaternion),
       translation: [x - center[0], y - center[1], z - center[2]],
     };
     this.#posing.wish(selected, this.#posing.snapped(this.#start ?? asked, asked));

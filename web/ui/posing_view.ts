@@ -1,7 +1,7 @@
 import type { PosingModel, PosingSession } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
-import { handleColor } from "./handle_colors.ts";
+import { handleButtons } from "./handle_buttons.ts";
 import { ExportPanel } from "./export_panel.ts";
 import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
@@ -50,12 +50,7 @@ export async function posingView(
     () => posing.session,
   );
   hud.dimension(model.dimension, model.dimension);
-  const list = model.handles.map(({ name }, handle) => {
-    const swatch = h("i", { className: "swatch", "aria-hidden": true });
-    swatch.style.background = handleColor(handle);
-    const act = () => posing.select(posing.selected === handle ? -1 : handle);
-    return h("button", { type: "button", "aria-pressed": false, onclick: act }, swatch, name);
-  });
+  const list = handleButtons(posing);
   const modes = choice<Mode>(
     "What a drag does",
     [

@@ -1,6 +1,7 @@
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Quaternion, Vector3 } from "three";
 
 import type { Motion } from "../engine/index.ts";
+import { quaternionOf, rotationOf } from "./rotations.ts";
 
 /** Degrees of a step, and the share of the diagonal that a step of length has at most. */
 const [DEGREES, SHARE] = [5, 1 / 40];
@@ -27,22 +28,19 @@ export class Snapping {
   }
 
   #turned(start: Motion, asked: Motion): Motion["rotation"] {
-    const before = quaternionOf(start);
-    const turn = quaternionOf(asked).multiply(before.clone().invert());
+    const before = quaternionOf(start.rotation);
+    const turn = quaternionOf(asked.rotation).multiply(before.clone().invert());
     if (turn.w < 0) turn.set(-turn.x, -turn.y, -turn.z, -turn.w);
     const axis = new Vector3(turn.x, turn.y, turn.z);
     const size = axis.length();
     if (size < 1e-9) return start.rotation;
     const step = (DEGREES * Math.PI) / 180;
     const angle = step * Math.round((2 * Math.atan2(size, turn.w)) / step);
-    const e = new Matrix4().makeRotationFromQuaternion(
-      new Quaternion().setFromAxisAngle(axis.divideScalar(size), angle).multiply(before),
-    ).elements;
-    return [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]];
+    return rotationOf(new Quaternion().setFromAxisAngle(axis.divideScalar(size), angle).multiply(before));
   }
 
   #alongOwnAxes(start: Motion, asked: Motion): Motion["translation"] {
-    const own = quaternionOf(start);
+    const own = quaternionOf(start.rotation);
     const from = new Vector3(...start.translation);
     const way = new Vector3(...asked.translation).sub(from).applyQuaternion(own.clone().invert());
     const rounded = new Vector3(this.#round(way.x), this.#round(way.y), this.#round(way.z));
@@ -66,9 +64,4 @@ export function roundStep(length: number): number {
   const power = 10 ** Math.floor(Math.log10(length));
   const factor = [5, 2, 1].find((one) => one * power <= length * (1 + 1e-9)) ?? 1;
   return Number((factor * power).toPrecision(1));
-}
-
-function quaternionOf({ rotation: R }: Motion): Quaternion {
-  const matrix = new Matrix4().set(R[0], R[1], R[2], 0, R[3], R[4], R[5], 0, R[6], R[7], R[8], 0, 0, 0, 0, 1);
-  return new Quaternion().setFromRotationMatrix(matrix);
 }

@@ -271,8 +271,8 @@ export class Workspace {
   }
 
   #failed({ request, message }: Failed): void {
-    if (request === 0) this.#reading.failed(message);
-    if (request === 0 || request !== this.#job) return;
+    if (request === 0) return this.#reading.failed(message);
+    if (request !== this.#job) return;
     this.#isRunning = false;
     this.#panel.fault(message);
     this.#update();

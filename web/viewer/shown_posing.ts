@@ -1,6 +1,6 @@
 import { eulerOfRotation, rotationOfEuler, type Motion, type PosingModel } from "../engine/index.ts";
 import { choice, h, mark } from "../ui/dom.ts";
-import { handleColor } from "../ui/handle_colors.ts";
+import { handleButtons } from "../ui/handle_buttons.ts";
 import { handleStates } from "../ui/key_states.ts";
 import type { Mode } from "../ui/posing.ts";
 import { actOn } from "../ui/posing_keys.ts";
@@ -36,12 +36,7 @@ export async function shownPosing(
     vertices: model.space.vertices,
   };
   const bar = () => {
-    const buttons = names.map((name, handle) => {
-      const swatch = h("i", { className: "swatch", "aria-hidden": true });
-      swatch.style.background = handleColor(handle);
-      const act = () => posing.select(posing.selected === handle ? -1 : handle);
-      return h("button", { type: "button", "aria-pressed": false, onclick: act }, swatch, name);
-    });
+    const buttons = handleButtons(posing);
     const modes = choice<Mode>(
       "What a drag does",
       [
