@@ -21,11 +21,8 @@ def model_path(owner: bpy.types.Object) -> Path:
     """Where the model of an object is stored: beside the .blend file, if that was saved."""
     name = bpy.path.clean_name(owner.name)
     if bpy.data.filepath:
-        return (
-            Path(bpy.data.filepath)
-            .with_suffix("")
-            .with_name(f"{Path(bpy.data.filepath).stem}-{name}.snapspace")
-        )
+        file = Path(bpy.data.filepath)
+        return file.with_name(f"{file.stem}-{name}.snapspace")
     key = hashlib.sha256(owner.name.encode()).hexdigest()[:6]
     return Path(tempfile.gettempdir()) / f"blender-{name}-{key}.snapspace"
 

@@ -9,12 +9,10 @@ import click
 
 from ..extras import need_extra
 from ..filling import SurfaceFilling
+from ..filling.surface_filling import EXACTLY
 from ..mesh import SurfaceFile, TetMesh
 from .console import notice
 from .progress import spinner
-
-#: The stage of `SurfaceFilling.fill` in which fTetWild works.
-EXACTLY = "filling exactly"
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 

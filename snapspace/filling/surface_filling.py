@@ -11,6 +11,9 @@ from ..mesh import TetMesh
 from .fill_surface import fill_surface
 from .stuff_surface import stuff_surface
 
+#: The stage of `SurfaceFilling.fill` in which fTetWild works.
+EXACTLY = "filling exactly"
+
 
 @dataclass(frozen=True, kw_only=True)
 class SurfaceFilling:
@@ -44,11 +47,11 @@ class SurfaceFilling:
                 )
             except ValueError:  # the next stage shows on the page that the method has changed
                 pass
-        stage("filling exactly")
+        stage(EXACTLY)
         return fill_surface(
             vertices,
             faces,
             mend=True,
-            progress=lambda passes: stage("filling exactly", passes),
+            progress=lambda passes: stage(EXACTLY, passes),
             **sized,
         )

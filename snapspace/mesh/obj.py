@@ -33,7 +33,7 @@ def read_obj(data: bytes) -> FileContent:
         elif words[0] == "f":
             polygon = [_corner(word, len(coordinates), number) for word in words[1:]]
             corners += polygon
-            normals += [_normal(word, normals_so_far) for word in words[1:]]
+            normals += [corner_attribute(word, 2, normals_so_far) for word in words[1:]]
             sizes.append(len(polygon))
         elif words[0] == "vn":
             normals_so_far += 1
@@ -65,10 +65,14 @@ def _corner(word: str, vertices_so_far: int, line: int) -> int:
     return index - 1 if index > 0 else vertices_so_far + index
 
 
-def _normal(word: str, normals_so_far: int) -> int:
-    """The normal of a corner `i/t/n` or `i//n`, -1 for none or one that is no number."""
+def corner_attribute(word: str, place: int, so_far: int) -> int:
+    """An index in a corner `i/t/n`: place 1 is its texture coordinate, place 2 its normal.
+
+    `so_far` is the number of these lines up to there, for relative indices. -1 for none, or one
+    that is no number.
+    """
     parts = word.split("/", 2)
-    if len(parts) < 3 or not parts[2].lstrip("-").isdecimal() or len(parts[2]) > 18:
+    if len(parts) <= place or not parts[place].lstrip("-").isdecimal() or len(parts[place]) > 18:
         return -1
-    index = int(parts[2])
-    return index - 1 if index > 0 else normals_so_far + index
+    index = int(parts[place])
+    return index - 1 if index > 0 else so_far + index

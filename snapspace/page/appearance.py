@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..mesh import Appearance, EmbeddedSurface, MeshNotice, SurfaceFile
 from ..mesh.polygons import fan_corners
+from ..mesh.surface_file.weld import in_order
 from ..model_file.container import Arrays
 
 #: Textures of more bytes in all stay out of the page, which is read as a whole.
@@ -127,10 +128,7 @@ def _distinct(columns: list[IntArray]) -> tuple[IntArray, IntArray]:
         span = int(column.max(initial=0)) - low + 1
         _, number = np.unique(number * span + (column.astype(np.int64) - low), return_inverse=True)
     _, first, number = np.unique(number, return_index=True, return_inverse=True)
-    order = np.argsort(first)
-    rank = np.empty(len(order), np.int64)
-    rank[order] = np.arange(len(order))
-    return first[order], rank[number]
+    return in_order(first, number)
 
 
 def _materials(look: Appearance, counts: list[int], arrays: Arrays) -> list[dict[str, Any]]:

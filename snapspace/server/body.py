@@ -67,10 +67,10 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
     own = problem_surface_file(path)
     if own is None:
         problem = read_problem(path)
+        surface = read_problem_surface(path, problem.mesh)
     else:
-        tets = mesh_body(own, stage=lambda *_: None, filling=filling).mesh
-        problem = read_problem(path, mesh=tets)
-    surface = read_problem_surface(path, problem.mesh)
+        mesh, surface = _filled(own, stage=lambda *_: None, filling=filling)
+        problem = read_problem(path, mesh=mesh)
     files = json.loads(path.read_text(encoding="utf-8"))
     return Body(
         name=path.stem,
@@ -113,13 +113,7 @@ def mesh_body(
     stage("reading")
     if path.suffix.lower() in TET_SUFFIXES:
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
-    source = open_surface(path).compact()
-    check_stop()
-    try:
-        mesh = (filling or SurfaceFilling()).fill(source.vertices, source.faces, stage=stage)
-        surface = embed_file(source, mesh, farthest=WHOLE_DIAGONAL)
-    except ValueError as error:
-        raise ValueError(f"{path}: {error}") from None
+    mesh, surface = _filled(path, stage=stage, filling=filling)
     return Body(
         name=path.stem,
         mesh=mesh,
@@ -128,6 +122,20 @@ def mesh_body(
         surface=surface,
         surface_file=path.resolve(),
     )
+
+
+def _filled(
+    path: Path, *, stage: Callable[..., None], filling: SurfaceFilling | None
+) -> tuple[TetMesh, EmbeddedSurface]:
+    """The tets inside the surface in a file, and the surface in them."""
+    source = open_surface(path).compact()
+    check_stop()
+    try:
+        mesh = (filling or SurfaceFilling()).fill(source.vertices, source.faces, stage=stage)
+        surface = embed_file(source, mesh, farthest=WHOLE_DIAGONAL)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+    return mesh, surface
 
 
 def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:

@@ -15,13 +15,8 @@ from .layout import IntArray
 Coordinates = NDArray[np.float32]
 Colors = NDArray[np.uint8]
 
-#: How the first bytes tell pictures that browsers draw.
-_MAGIC = {
-    b"\x89PNG\r\n\x1a\n": "image/png",
-    b"\xff\xd8\xff": "image/jpeg",
-    b"GIF8": "image/gif",
-    b"BM": "image/bmp",
-}
+#: The first bytes of PNG, JPEG, GIF and BMP files.
+_MAGIC = (b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"GIF8", b"BM")
 
 
 @dataclass(frozen=True)
@@ -76,21 +71,18 @@ class Textures:
     def add(self, name: str, data: bytes | None) -> int | None:
         """The number of a picture, or None if there is none that browsers draw."""
         if name not in self._numbers:
-            known = data is not None and picture_type(data) is not None
-            self._numbers[name] = len(self.files) if known else None
-            if known:
-                assert data is not None
+            if data is not None and _is_picture(data):
+                self._numbers[name] = len(self.files)
                 self.files.append(data)
             else:
+                self._numbers[name] = None
                 self.missing.append(name)
         return self._numbers[name]
 
 
-def picture_type(data: bytes) -> str | None:
-    """The media type of a picture that browsers draw, or None."""
-    if data[:4] == b"RIFF" and data[8:12] == b"WEBP":
-        return "image/webp"
-    return next((kind for magic, kind in _MAGIC.items() if data.startswith(magic)), None)
+def _is_picture(data: bytes) -> bool:
+    """Whether browsers draw a file."""
+    return data.startswith(_MAGIC) or (data[:4] == b"RIFF" and data[8:12] == b"WEBP")
 
 
 def as_colors(values: NDArray[Any], *, linear: bool = False) -> Colors:

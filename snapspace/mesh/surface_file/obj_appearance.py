@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..obj import corner_attribute
 from .appearance import Appearance, SurfaceMaterial, Textures, as_colors, as_normals
 from .layout import IntArray, Layout
 from .mtl import read_mtl
@@ -63,7 +64,7 @@ class _Lines:
                 case "vt":
                     rows.append([*words[1:3], "0", "0"][:2])
                 case "f":
-                    corners += [_coordinate(word, len(rows)) for word in words[1:]]
+                    corners += [corner_attribute(word, 1, len(rows)) for word in words[1:]]
                     self.materials.append(material)
                 case "usemtl":
                     material = line.partition("#")[0].strip()[len("usemtl") :].strip()
@@ -95,12 +96,3 @@ def _at_corners(rows: list[list[str]], corners: IntArray) -> np.ndarray | None:
     found[exists] = points[corners[exists]]
     found[:, 1] = 1.0 - found[:, 1]  # OBJ counts from the lower left corner
     return np.nan_to_num(found)
-
-
-def _coordinate(word: str, so_far: int) -> int:
-    """The texture coordinate of a corner `i/t` or `i/t/n`; -1 for none."""
-    parts = word.split("/", 2)
-    if len(parts) < 2 or not parts[1].lstrip("-").isdecimal() or len(parts[1]) > 18:
-        return -1
-    index = int(parts[1])
-    return index - 1 if index > 0 else so_far + index

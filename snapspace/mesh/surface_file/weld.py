@@ -38,7 +38,7 @@ def equal_points(points: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]
     if not np.array_equal(positive[first][group], positive, equal_nan=True):
         _, first, group = np.unique(positive, axis=0, return_index=True, return_inverse=True)
         group = group.reshape(-1)
-    return _in_order(first, group)
+    return in_order(first, group)
 
 
 def close_points(points: FloatArray, distance: float) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -52,13 +52,13 @@ def close_points(points: FloatArray, distance: float) -> tuple[NDArray[np.intp],
     )
     _, labels = connected_components(edges, directed=False)
     _, first, group = np.unique(labels, return_index=True, return_inverse=True)
-    return _in_order(first, group.reshape(-1))
+    return in_order(first, group.reshape(-1))
 
 
-def _in_order(
+def in_order(
     first: NDArray[np.intp], group: NDArray[np.intp]
 ) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Groups numbered by their first members."""
+    """The first members of groups, ascending, and each member's group, numbered in this order."""
     order = np.argsort(first, kind="stable")
     rank = np.empty(len(order), np.intp)
     rank[order] = np.arange(len(order))
