@@ -13,7 +13,7 @@ COMMANDS = {
     "build": "Make a model from a problem.",
     "check": "Say what is wrong with a surface or mesh, and mend it.",
     "demo": "Build and paint a model of a generated creature.",
-    "export": "Write a model as one HTML page, or as glTF.",
+    "export": "Write a model as one HTML page, as glTF, or for Blender.",
     "info": "Show what a file contains.",
     "interpolate": "Make a model that blends poses.",
     "pose": "Move handles and write the shape.",

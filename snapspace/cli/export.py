@@ -15,7 +15,7 @@ from .options import FILE, json_option, leading_option, up_option
 from .units import in_bytes
 
 
-@click.command(short_help="Write a model as one HTML page, or as glTF.")
+@click.command(short_help="Write a model as one HTML page, as glTF, or for Blender.")
 @click.argument("model", type=FILE)
 @click.option(
     "--html",
@@ -65,17 +65,18 @@ def export(
     up: str | None,
     as_json: bool,
 ) -> None:
-    """Write a model as one HTML page, to be posed or blended in any browser, or as a glTF file.
+    """Write a model as one HTML page, to be posed or blended in any browser, or for other programs.
 
     The page needs no network and no server: mail it, or publish it with a paper. --dimension makes
     it smaller. --packed writes the model alone, for the web component <snapspace-viewer> in your
-    own page. The shapes of a glTF file are sums of its morph targets; `snapspace pose --path N -o
-    FILE.glb` writes an animation.
+    own page. The shapes of a glTF file are sums of its morph targets, and --blender makes the same
+    ones shape keys; `snapspace pose --path N -o FILE.glb` writes an animation.
 
     \b
     Examples:
       snapspace export dragon.snapspace --html dragon.html
       snapspace export dragon.snapspace --glb dragon.glb --targets 8
+      snapspace export dragon.snapspace --blender dragon.py
     """
     if html is None and glb is None and blender is None and packed is None:
         raise ValueError("export: nothing to write; give --html, --glb, --blender or --packed FILE")
