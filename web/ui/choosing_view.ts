@@ -10,6 +10,7 @@ import { samplingPanel, type Sampling } from "./choosing_sampling.ts";
 import { selectPanel } from "./choosing_select_panel.ts";
 import { ChoosingTools } from "./choosing_tools.ts";
 import { choice, h, section, toggle } from "./dom.ts";
+import { occlusionToggle } from "./look_panel.ts";
 import type { Axis, Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import type { View, ViewOptions } from "./view.ts";
@@ -127,5 +128,9 @@ function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis, onU
   wires.id = "wires";
   const reset = { type: "button", title: "F", id: "frame", onclick: () => stage.look() };
   const frame = h("button", reset, "Reset view");
-  return section("Look", ups.element, h("div", { className: "row" }, wires, frame));
+  return section(
+    "Look",
+    ups.element,
+    h("div", { className: "row" }, wires, occlusionToggle(stage, [surface]), frame),
+  );
 }

@@ -93,6 +93,7 @@ export class Pass {
   draw(): void {
     const { state } = this.#renderer;
     this.#use();
+    this.#renderer.setRenderTarget(this.target); // binds textures when it makes the target
     for (let i = 0; i < this.#textures.length; i++) {
       const texture = this.#textures[i][1];
       if (this.#versions[i] !== texture.version) this.#renderer.initTexture(texture);
@@ -100,7 +101,6 @@ export class Pass {
       const kind = "isDataArrayTexture" in texture ? this.#gl.TEXTURE_2D_ARRAY : this.#gl.TEXTURE_2D;
       state.bindTexture(kind, this.#handleOf(texture), this.#gl.TEXTURE0 + FIRST_UNIT + i);
     }
-    this.#renderer.setRenderTarget(this.target);
     this.#gl.drawArrays(this.#gl.TRIANGLES, 0, 3);
   }
 

@@ -1,6 +1,7 @@
 import type { Model } from "../engine/index.ts";
 import { choice, h, section, slider, toggle } from "./dom.ts";
 import { Legend } from "./legend.ts";
+import { Occlusion } from "./occlusion.ts";
 import { VIEWS, type Axis, type Stage } from "./stage.ts";
 import { showMaterial } from "./show_material.ts";
 import type { Colors, Surface } from "./surface.ts";
@@ -13,6 +14,23 @@ export function qualitySection(
 ): HTMLElement {
   const range = { min: Math.min(4, dimension), max: dimension, step: 1, value: dimension };
   return section("Quality", slider("Dimensions", range, String, act).element, ...others);
+}
+
+/** The switch of ambient occlusion, which is on at first. */
+export function occlusionToggle(stage: Stage, surfaces: readonly Surface[]): HTMLElement {
+  const isPossible = Occlusion.supports(stage.renderer);
+  const show = (on: boolean) => {
+    for (const surface of surfaces) surface.occluded = on;
+    stage.draw();
+  };
+  const title = isPossible
+    ? "Ambient occlusion: less of the light from all sides reaches creases"
+    : "This browser cannot draw into float textures";
+  const button = toggle("Occlusion", title, isPossible, show);
+  button.id = "occlusion";
+  button.disabled = !isPossible;
+  if (isPossible) show(true);
+  return button;
 }
 
 /** Colours, wires, what is up, and the first view again. */
@@ -70,7 +88,7 @@ export function lookSection(
   });
   const rows = [
     h("div", { className: "row" }, ...views, frame),
-    h("div", { className: "row" }, wires, ...others),
+    h("div", { className: "row" }, wires, occlusionToggle(stage, surfaces), ...others),
   ];
   return { element: section("Look", colors.element, legend.element, ups.element, ...rows), legend };
 }

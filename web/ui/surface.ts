@@ -1,13 +1,8 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  DoubleSide,
   Group,
   Mesh,
-  MeshBasicMaterial,
-  MeshDepthMaterial,
-  MeshStandardMaterial,
-  RGBADepthPacking,
   type Color,
   type Material,
   type Ray,
@@ -26,8 +21,10 @@ import {
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
+import { Occlusion } from "./occlusion.ts";
 import type { OwnLook } from "./own_look.ts";
 import { OwnSurface } from "./own_surface.ts";
+import { clay, depths, wires } from "./surface_materials.ts";
 import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
 
 /** What its colours show: the paint of its vertices, the user's own materials, or a number on a ramp. */
@@ -46,9 +43,10 @@ export class Surface {
   readonly onGpu: boolean;
   /** The user's own materials. */
   readonly look: OwnLook | null;
+  readonly #renderer: WebGLRenderer;
   readonly #deformer: Deformer;
   readonly #geometry = new BufferGeometry();
-  readonly #materials: Material[];
+  readonly #materials: readonly Material[];
   readonly #solid: Mesh;
   readonly #wires: Mesh;
   readonly #own: OwnSurface | null;
@@ -60,6 +58,7 @@ export class Surface {
   #share = 0;
   #weights: readonly number[] = [1];
   #scale: StrainScale | null = null;
+  #occlusion: Occlusion | null = null;
 
   /** `forceCpu` computes as in browsers that cannot draw into float textures; `look` is shown for the colours
    * "material". */
@@ -72,6 +71,7 @@ export class Surface {
     rests: Rests | null = null,
     look: OwnLook | null = null,
   ) {
+    this.#renderer = renderer;
     this.look = look;
     this.space = space;
     this.faces = faces;
@@ -96,29 +96,16 @@ export class Surface {
       shownColors: { value: 0 },
       displacementEnd: { value: FARTHEST * diagonal },
       strainEnd: { value: 1 },
+      shownOcclusion: { value: this.#deformer.normals },
+      isOccluded: { value: false },
     };
-    const clay = new MeshStandardMaterial({
-      vertexColors: true,
-      roughness: 0.58,
-      metalness: 0,
-      side: DoubleSide,
-    });
-    const depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side: DoubleSide });
-    const wires = new MeshBasicMaterial({
-      wireframe: true,
-      color: 0x10141c,
-      transparent: true,
-      opacity: 0.22,
-    });
-    wires.polygonOffset = true;
-    wires.polygonOffsetFactor = -1;
-    this.#materials = [clay, depth, wires];
+    const [solid, depth, edges] = (this.#materials = [clay(), depths(), wires()] as const);
     for (const material of this.#materials) deformedBy(material, this.#uniforms);
-    this.#solid = new Mesh(this.#geometry, clay);
+    this.#solid = new Mesh(this.#geometry, solid);
     this.#solid.customDepthMaterial = depth;
     this.#solid.castShadow = true;
     this.#solid.receiveShadow = true;
-    this.#wires = new Mesh(this.#geometry, wires);
+    this.#wires = new Mesh(this.#geometry, edges);
     this.#wires.visible = false;
     for (const mesh of [this.#solid, this.#wires]) mesh.frustumCulled = false;
     this.#own = look && new OwnSurface(look, space.base, this.#uniforms);
@@ -131,7 +118,7 @@ export class Surface {
     this.#coefficients = coefficients;
     this.#share = 0;
     this.#picker?.show(coefficients);
-    this.#deformer.update(coefficients);
+    this.refresh();
   }
 
   /** The shape to blend to, 3 numbers per vertex. */
@@ -145,12 +132,13 @@ export class Surface {
   blend(share: number): void {
     this.#share = share;
     this.#picker?.show(this.#coefficients, share);
-    this.#deformer.update(this.#coefficients, share);
+    this.refresh();
   }
 
-  /** Computes again what was lost on the graphics processor. */
+  /** Computes the shape, also what was lost on the graphics processor. */
   refresh(): void {
     this.#deformer.update(this.#coefficients, this.#share);
+    this.#occlusion?.update();
   }
 
   /** The shape before its rigid motion, computed here. */
@@ -189,6 +177,19 @@ export class Surface {
     const [clay] = this.#materials;
     Object.assign(clay, { transparent: true, opacity, depthWrite: false });
     for (const mesh of this.#meshes) mesh.castShadow = mesh.receiveShadow = false;
+  }
+
+  /** Whether less of the light from all sides reaches creases; ignored where `Occlusion` is not supported. */
+  set occluded(on: boolean) {
+    this.#occlusion?.dispose();
+    this.#occlusion =
+      on && Occlusion.supports(this.#renderer)
+        ? new Occlusion(this.#renderer, this.#deformer, this.space.base, this.faces)
+        : null;
+    this.#occlusion?.update();
+    const { shownOcclusion, isOccluded } = this.#uniforms;
+    shownOcclusion.value = this.#occlusion?.texture ?? this.#deformer.normals;
+    isOccluded.value = this.#occlusion !== null;
   }
 
   /** Takes a rigid motion along. */
@@ -246,6 +247,7 @@ export class Surface {
     this.#solid.receiveShadow = other.#solid.receiveShadow;
     this.colors = other.colors;
     this.strainEnd = other.#uniforms.strainEnd.value;
+    this.occluded = other.#occlusion !== null;
   }
 
   /** A colour for every vertex. */
@@ -277,6 +279,7 @@ export class Surface {
 
   dispose(): void {
     this.#deformer.dispose();
+    this.#occlusion?.dispose();
     this.#own?.dispose();
     this.#geometry.dispose();
     this.#materials.forEach((material) => material.dispose());

@@ -1,4 +1,4 @@
-import type { IUniform, Material, Texture } from "three";
+import { MeshStandardMaterial, type IUniform, type Material, type Texture } from "three";
 
 export type SurfaceUniforms = Record<string, IUniform> & {
   shownPositions: IUniform<Texture>;
@@ -10,6 +10,9 @@ export type SurfaceUniforms = Record<string, IUniform> & {
   /** What the ramps end at: a length, and a strain. */
   displacementEnd: IUniform<number>;
   strainEnd: IUniform<number>;
+  /** Of `Occlusion`, where the surface is occluded. */
+  shownOcclusion: IUniform<Texture>;
+  isOccluded: IUniform<boolean>;
 };
 
 const DECLARATIONS = `
@@ -63,6 +66,22 @@ const COLOR = `
   if (shownColors == 2) vColor.rgb = shownRamp(texelFetch(shownStrains, shownCellOf(SHOWN_VERTEX), 0).x / strainEnd);
 #endif`;
 
+/** The share of light from all sides that reaches the surface. */
+const LIGHT = `
+varying float shownLight;
+`;
+const OCCLUSION = `
+uniform mediump sampler2D shownOcclusion;
+uniform bool isOccluded;
+`;
+const REACHING = `
+shownLight = isOccluded ? texelFetch(shownOcclusion, shownCellOf(SHOWN_VERTEX), 0).x : 1.0;`;
+/** The key lights stand for areas, which creases see less of as well. The square is a matter of taste. */
+const SHADED = `
+reflectedLight.indirectDiffuse *= shownLight * shownLight;
+reflectedLight.directDiffuse *= shownLight;
+reflectedLight.directSpecular *= shownLight;`;
+
 /** Makes a material of three.js take positions and normals from textures in place of attributes. */
 export function deformedBy(material: Material, uniforms: SurfaceUniforms): void {
   replaced(material, uniforms, "deformed", SAME, NORMAL, POSITION + COLOR);
@@ -85,15 +104,19 @@ function replaced(
   normal: string,
   position: string,
 ): void {
+  const isLit = material instanceof MeshStandardMaterial;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
     shader.vertexShader =
       DECLARATIONS +
       CELL +
       declarations +
+      (isLit ? LIGHT + OCCLUSION : "") +
       shader.vertexShader
         .replace("#include <beginnormal_vertex>", normal)
-        .replace("#include <begin_vertex>", position);
+        .replace("#include <begin_vertex>", position + (isLit ? REACHING : ""));
+    if (isLit)
+      shader.fragmentShader = LIGHT + shader.fragmentShader.replace("#include <aomap_fragment>", SHADED);
   };
   material.customProgramCacheKey = () => key;
 }

@@ -25,6 +25,7 @@ export async function shownBlending(
   const own = model.appearance ? new OwnLook(model.appearance) : null;
   const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, false, null, own);
   void showMaterial(stage, [surface]);
+  surface.occluded = true;
   surface.paint(() => CLAY);
   stage.root.add(surface.object);
   const equal = poses.map(() => 1 / poses.length);

@@ -23,6 +23,7 @@ export async function shownPosing(
   const scene = await PosingScene.create(stage, module, model);
   const { posing } = scene;
   void showMaterial(stage, scene.surfaces);
+  scene.surfaces[0].occluded = true;
   const names = model.handles.map(({ name }) => name);
   const playing = new Playing<readonly Motion[]>(model.timeline, handleStates(names), (motions) =>
     motions.forEach((motion, handle) => posing.wish(handle, motion)),

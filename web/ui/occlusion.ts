@@ -1,0 +1,160 @@
+import {
+  NearestFilter,
+  RedFormat,
+  WebGLRenderTarget,
+  type DataTexture,
+  type Texture,
+  type WebGLRenderer,
+} from "three";
+
+import { weightedNormals } from "../engine/index.ts";
+import type { Deformer } from "./deformer.ts";
+import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
+
+/** How many patches hide light: the more vertices, the fewer, so that their product is at most this. */
+const [FEWEST, MOST] = [128, 384];
+const PRODUCT = 1 << 23;
+/** Vertices that a patch is computed from. */
+const SOME = 64;
+
+/** In the first row the middles of patches, in the second one their areas times their normals. */
+const PATCHES = `
+precision highp float;
+precision highp sampler2D;
+precision highp isampler2D;
+uniform sampler2D positions;
+uniform sampler2D normals;
+uniform isampler2D order;
+uniform int count;
+uniform int size;
+out vec4 result;
+void main() {
+  int first = int(gl_FragCoord.x) * size, end = min(first + size, count), step = 1 + (size - 1) / ${SOME};
+  int width = textureSize(positions, 0).x;
+  vec3 middle = vec3(0.0), area = vec3(0.0);
+  float sum = 1e-30;
+  for (int i = first; i < end; i += step) {
+    int vertex = texelFetch(order, ivec2(i % width, i / width), 0).x;
+    ivec2 at = ivec2(vertex % width, vertex / width);
+    vec3 normal = texelFetch(normals, at, 0).xyz;
+    middle += length(normal) * texelFetch(positions, at, 0).xyz;
+    area += normal;
+    sum += length(normal);
+  }
+  // normals are twice the areas of faces, which have three corners
+  result = vec4(gl_FragCoord.y < 1.0 ? middle / sum : area * float(step) / 6.0, 1.0);
+}`;
+
+/** The light that patches leave to vertices. A patch hides as much as a disk (Bunnell 2005); behind several disks it is darker
+ * than behind one, but never black. How dark is a matter of taste. */
+const LIGHT = `
+precision highp float;
+precision highp sampler2D;
+uniform sampler2D positions;
+uniform sampler2D normals;
+uniform sampler2D patches;
+out vec4 result;
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy);
+  vec3 place = texelFetch(positions, at, 0).xyz, normal = texelFetch(normals, at, 0).xyz;
+  float size = max(length(normal), 1e-30);
+  normal /= size;
+  place += 0.2 * sqrt(size) * normal; // half an edge above: in a crease a vertex is in the planes of both sides
+  int count = textureSize(patches, 0).x;
+  float hidden = 0.0;
+  for (int k = 0; k < count; k++) {
+    vec3 away = texelFetch(patches, ivec2(k, 0), 0).xyz - place, area = texelFetch(patches, ivec2(k, 1), 0).xyz;
+    float square = dot(away, away) + 1e-30;
+    float facing = max(dot(normal, away), 0.0) * max(-dot(area, away), 0.0);
+    hidden += facing / (square * (3.14159 * square + length(area)));
+  }
+  result = vec4(exp(-1.5 * hidden));
+}`;
+
+/** Ambient occlusion of a shape that changes: the share of light from all sides that reaches each vertex.
+ *
+ * Per vertex and not per pixel: no halos, no noise, and a shape at rest costs nothing. It is exactly one on convex shapes. */
+export class Occlusion {
+  readonly #renderer: WebGLRenderer;
+  readonly #order: DataTexture;
+  readonly #passes: readonly [patches: Pass, light: Pass];
+  readonly #count: number;
+  readonly #size: number;
+
+  /** Whether this browser can draw into float textures. */
+  static supports(renderer: WebGLRenderer): boolean {
+    return renderer.extensions.has("EXT_color_buffer_float");
+  }
+
+  /** `base` is the shape at rest. */
+  constructor(
+    renderer: WebGLRenderer,
+    { positions, normals }: Deformer,
+    base: Float32Array,
+    faces: Uint32Array,
+  ) {
+    this.#renderer = renderer;
+    this.#count = base.length / 3;
+    const patches = Math.min(Math.max(Math.floor(PRODUCT / this.#count), FEWEST), MOST, this.#count);
+    this.#size = Math.ceil(this.#count / patches);
+    const { width, height } = positions.image as { width: number; height: number };
+    const order = new Int32Array(2 * this.#count);
+    neighboursTogether(base, faces).forEach((vertex, place) => (order[2 * place] = vertex));
+    this.#order = integers(order, width, height);
+    this.#order.needsUpdate = true;
+    const hiding = floatTarget(Math.ceil(this.#count / this.#size), 2);
+    const target = new WebGLRenderTarget(width, height, {
+      format: RedFormat,
+      minFilter: NearestFilter,
+      magFilter: NearestFilter,
+      depthBuffer: false,
+    });
+    this.#passes = [
+      new Pass(renderer, PATCHES, { positions, normals, order: this.#order }, hiding),
+      new Pass(renderer, LIGHT, { positions, normals, patches: hiding.texture }, target),
+    ];
+  }
+
+  get texture(): Texture {
+    return this.#passes[1].target.texture;
+  }
+
+  /** Follows the shape that the deformer has. */
+  update(): void {
+    this.#passes[0].setInteger("count", this.#count);
+    this.#passes[0].setInteger("size", this.#size);
+    runPasses(this.#renderer, this.#passes);
+  }
+
+  dispose(): void {
+    this.#order.dispose();
+    for (const pass of this.#passes) {
+      pass.target.dispose();
+      pass.dispose();
+    }
+  }
+}
+
+/** Vertices in an order in which neighbours that face the same octant are close to each other: along Morton's curve. */
+export function neighboursTogether(base: Float32Array, faces: Uint32Array): number[] {
+  const normals = new Float32Array(base.length);
+  weightedNormals(base, faces, normals);
+  const [least, most] = [Array<number>(3).fill(Infinity), Array<number>(3).fill(-Infinity)];
+  base.forEach((x, i) => {
+    least[i % 3] = Math.min(least[i % 3], x);
+    most[i % 3] = Math.max(most[i % 3], x);
+  });
+  const side = Math.max(...most.map((x, axis) => x - least[axis])) || 1;
+  // octant, place on the curve (9 bits an axis), and vertex: exact in 53 bits
+  const keys = new Float64Array(base.length / 3);
+  for (let vertex = 0; vertex < keys.length; vertex++) {
+    let key = 0;
+    for (let axis = 0; axis < 3; axis++) key = 2 * key + (normals[3 * vertex + axis] < 0 ? 1 : 0);
+    const cell = least.map((low, axis) => Math.floor((511 * (base[3 * vertex + axis] - low)) / side));
+    for (let bit = 8; bit >= 0; bit--) for (const x of cell) key = 2 * key + ((x >> bit) & 1);
+    keys[vertex] = key * VERTICES + vertex;
+  }
+  return Array.from(keys.sort(), (key) => key % VERTICES);
+}
+
+const VERTICES = 2 ** 23;
