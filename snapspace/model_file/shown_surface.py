@@ -1,4 +1,4 @@
-"""The surface of a model as arrays: faces, the tet vertices that vertices follow, and its file."""
+"""The surface of a model as arrays: faces, tet vertices that vertices follow, its file and look."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..mesh import EmbeddedSurface, SurfaceFile, TetMesh, boundary_surface
+from .appearance import appearance_arrays
 from .container import Arrays, check_shapes
 
 DTYPES: dict[str, type] = {
@@ -19,12 +20,17 @@ DTYPES: dict[str, type] = {
 SOURCE = "surface_source"
 #: The materials and textures that the file refers to, one after the other.
 BESIDE = "surface_beside"
+#: The entry of what the page draws, which reads no surface files.
+APPEARANCE = "appearance"
 #: Files of more bytes are not kept; `snapspace pose --surface` takes them when it writes.
 LARGEST_SOURCE = 1 << 26
 
 
 def surface_arrays(surface: EmbeddedSurface) -> Arrays:
-    """The arrays of a surface; the names are those of DTYPES, SOURCE and BESIDE."""
+    """The arrays of a surface; the names are those of DTYPES, SOURCE, BESIDE and own_ ones.
+
+    Those are of `appearance_arrays`, without textures that are in BESIDE.
+    """
     arrays: Arrays = {
         "surface_faces": surface.faces,
         "surface_corners": surface.corners,
@@ -36,6 +42,9 @@ def surface_arrays(surface: EmbeddedSurface) -> Arrays:
         beside = _kept_beside(source)
         if beside:
             arrays[BESIDE] = np.frombuffer(b"".join(beside.values()), np.uint8)
+        look, _ = appearance_arrays(surface)
+        places = places_of(look, beside)
+        arrays |= {name: array for name, array in look.items() if places.get(name) is None}
     return arrays
 
 
@@ -54,7 +63,26 @@ def surface_content(surface: EmbeddedSurface) -> dict[str, Any]:
     beside = _kept_beside(source)
     if beside:
         content[BESIDE] = [[name, len(data)] for name, data in beside.items()]
+    look, about = appearance_arrays(surface)
+    if about is not None:
+        content[APPEARANCE] = about | {"textures": list(places_of(look, beside).values())}
     return content
+
+
+def places_of(look: Arrays, beside: dict[str, bytes]) -> dict[str, tuple[int, int] | None]:
+    """By the name of each texture, where it starts in BESIDE and its size; None: not there."""
+    starts: dict[bytes, int] = {}
+    start = 0
+    for data in beside.values():
+        starts.setdefault(data, start)
+        start += len(data)
+    textures = {
+        name: array.tobytes() for name, array in look.items() if name.startswith("own_texture_")
+    }
+    return {
+        name: (starts[data], len(data)) if data in starts else None
+        for name, data in textures.items()
+    }
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:

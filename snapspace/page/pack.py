@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
+from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
 from ..reduction import (
     BlendedCubature,
@@ -24,7 +25,6 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import RigidFrames
-from .appearance import appearance_arrays
 from .estimator import estimator_arrays
 from .painted import handle_of_vertex
 from .shape_space import quantised

@@ -13,8 +13,9 @@ from PIL import Image
 
 from snapspace import PosingModel, export_html
 from snapspace.mesh import MeshNotice, SurfaceFile, compact_surface
-from snapspace.page import appearance
-from snapspace.page.appearance import appearance_arrays
+from snapspace.model_file import appearance
+from snapspace.model_file.appearance import appearance_arrays
+from snapspace.model_file.shown_surface import places_of, surface_arrays, surface_content
 
 from .pages import OpenPage, Page
 
@@ -112,6 +113,38 @@ def test_its_texture_moves_with_the_shape(
     assert np.ptp(clay) < 90 and clay[0] >= clay[2], "clay, no longer the texture"
 
 
+def test_a_model_file_brings_its_materials(
+    posing_model: PosingModel, posing_page: Path, tmp_path: Path, opened: OpenPage
+) -> None:
+    """Opened in a page that has no server, as when it is dropped there."""
+    path = with_file(posing_model, own_file(posing_model)).save(tmp_path / "own.snapspace")
+    page = opened(posing_page.as_uri())
+    page.page.locator("footer input[type=file]").set_input_files(path)
+    page.wait(f"{MATERIAL}?.getAttribute('aria-checked') === 'true'")
+    page.settle()
+    first, last = ends(page)
+    blue, red = pixel(page, *first), pixel(page, *last)
+    assert blue[2] > blue[0] + GLOW, blue
+    assert red[0] > red[2] + GLOW, red
+
+
+def test_textures_are_in_a_model_file_once(posing_model: PosingModel) -> None:
+    surface = with_file(posing_model, own_file(posing_model)).surface
+    arrays, content = surface_arrays(surface), surface_content(surface)
+    assert not any(name.startswith("own_texture") for name in arrays), "it is beside the surface"
+    (place,) = content["appearance"]["textures"]
+    start, size = place
+    assert arrays["surface_beside"][start : start + size].tobytes() == picture(RED, BLUE)
+
+
+def test_a_texture_inside_the_surface_is_apart_in_a_model_file(posing_model: PosingModel) -> None:
+    """As in .glb files, which the model file has compressed."""
+    file = own_file(posing_model)
+    surface = with_file(posing_model, file).surface
+    look, _ = appearance_arrays(surface)
+    assert places_of(look, {"own.mtl": file.beside["own.mtl"]}) == {"own_texture_0": None}
+
+
 def test_edges_in_the_file_are_sharp_in_the_page(
     posing_model: PosingModel, tmp_path: Path, opened: OpenPage
 ) -> None:
@@ -168,6 +201,9 @@ def test_what_is_not_shown_is_told(
     alone = with_file(posing_model, replace(file, beside={})).surface
     with pytest.warns(MeshNotice, match=r"own\.obj: not found beside it, .*: own\.mtl; the surf"):
         assert appearance_arrays(alone) == ({}, None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert appearance_arrays(alone) == ({}, None), "once, also while models grow"
     monkeypatch.setattr(appearance, "MOST_TEXTURE_BYTES", 10)
     with pytest.warns(MeshNotice, match=r"its textures have 0 MB, and are not shown"):
         arrays, about = appearance_arrays(with_file(posing_model, file).surface)

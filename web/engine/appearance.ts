@@ -12,7 +12,7 @@ export interface OwnMaterial {
   readonly triangles: number;
 }
 
-/** How the user's own file wants a surface to look (snapspace/page/appearance.py). */
+/** How the user's own file wants a surface to look (snapspace/model_file/appearance.py). */
 export interface Appearance {
   /** The surface's vertex of each point that is drawn. */
   readonly points: Int32Array<ArrayBuffer>;
@@ -36,24 +36,35 @@ interface Stored {
     alpha_cutoff: number | null;
     triangles: number;
   }[];
+  /** In model files, where each texture starts among the files beside the surface, and its size; null: it is apart. */
+  textures?: ([start: number, size: number] | null)[];
 }
 
 export function readAppearance(container: Container, about: unknown, vertices: number): Appearance | null {
   if (!about) return null; // also in files from before there was one
   const [count] = container.shape("own_points", 1);
   const [triangles] = container.shape("own_triangles", 2);
-  const textures: Uint8Array<ArrayBuffer>[] = [];
-  for (let k = 0; container.has(`own_texture_${k}`); k++) textures.push(container.bytes(`own_texture_${k}`));
+  const stored = about as Stored;
   return {
     points: container.indices("own_points", vertices, [count]),
     triangles: Uint32Array.from(container.indices("own_triangles", count, [triangles, 3])),
     creases: container.has("own_creases") ? container.indices("own_creases", triangles * 3, [count]) : null,
     coordinates: container.has("own_coordinates") ? container.floats("own_coordinates", count, 2) : null,
     colors: container.has("own_colors") ? container.bytes("own_colors", count, 3) : null,
-    materials: (about as Stored).materials.map(({ alpha_cutoff: alphaCutoff, ...material }) => ({
+    materials: stored.materials.map(({ alpha_cutoff: alphaCutoff, ...material }) => ({
       ...material,
       alphaCutoff,
     })),
-    textures,
+    textures: texturesOf(container, stored),
   };
+}
+
+function texturesOf(container: Container, { textures: places = [] }: Stored): Uint8Array<ArrayBuffer>[] {
+  const beside = places.some((place) => place) ? container.bytes("surface_beside") : new Uint8Array();
+  const found: Uint8Array<ArrayBuffer>[] = [];
+  for (let k = 0; places[k] || container.has(`own_texture_${k}`); k++) {
+    const [start, size] = places[k] ?? [0, 0];
+    found.push(places[k] ? beside.slice(start, start + size) : container.bytes(`own_texture_${k}`));
+  }
+  return found;
 }

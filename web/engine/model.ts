@@ -24,8 +24,8 @@ interface ModelBase {
   readonly diagonal: number;
   /** Name of the material. The page knows no more of it: the core does. */
   readonly material: string;
-  /** The materials of the user's own file; missing in model files. */
-  readonly appearance?: Appearance | null;
+  /** The materials of the user's own file; null without any. */
+  readonly appearance: Appearance | null;
   /** Content of a timeline file, if one was saved with the model. */
   readonly timeline?: unknown;
   /** Present in calibrated models. */

@@ -1,3 +1,4 @@
+import { readAppearance } from "./appearance.ts";
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { NO_PINS } from "./estimator.ts";
@@ -69,6 +70,7 @@ function readPosing(container: Container, name: string): Model {
     ...timelineOf(record),
     dimension,
     faces,
+    appearance: readAppearance(container, about.appearance, nearest.length),
     space: quantised(embedded(rest), embedded(basis)),
     ...scales(material, volumes, diagonal),
     material: material.kind,
@@ -127,6 +129,7 @@ function readInterpolation(container: Container, name: string): Model {
     ...timelineOf(readRecord(container)),
     dimension,
     faces,
+    appearance: readAppearance(container, about.appearance, base.length / 3),
     space: quantised(base, embedded(basis)),
     ...scales(material, tetVolumes(first, tets), diagonalOf(first)),
     material: material.kind,

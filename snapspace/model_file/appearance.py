@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,15 +12,19 @@ from numpy.typing import NDArray
 from ..mesh import Appearance, EmbeddedSurface, MeshNotice, SurfaceFile
 from ..mesh.polygons import fan_corners
 from ..mesh.surface_file.weld import in_order
-from ..model_file.container import Arrays
+from .container import Arrays
 
 #: Textures of more bytes in all stay out of the page, which is read as a whole.
 MOST_TEXTURE_BYTES = 1 << 25
 
 IntArray = NDArray[np.int64]
+_Drawn = tuple[Arrays, dict[str, Any] | None]
+
+# Of files in use: the models that grow share one, and a user is told once what is not shown.
+_KNOWN: WeakKeyDictionary[SurfaceFile, _Drawn] = WeakKeyDictionary()
 
 
-def appearance_arrays(surface: EmbeddedSurface) -> tuple[Arrays, dict[str, Any] | None]:
+def appearance_arrays(surface: EmbeddedSurface) -> _Drawn:
     """Arrays and entries of a surface's own materials; none if its file has nothing to show.
 
     The page draws points: a vertex of the surface with one normal, texture coordinate and colour.
@@ -38,11 +43,21 @@ def appearance_arrays(surface: EmbeddedSurface) -> tuple[Arrays, dict[str, Any] 
     Warns
     -----
     MeshNotice
-        Where materials are damaged, textures are missing, or they are too large for a page.
+        Where materials are damaged, textures are missing, or they are too large for a page; once
+        for a file.
     """
     source = surface.source
-    look = None if source is None else _look(source)
-    if source is None or look is None or not _shows_anything(look):
+    if source is None:
+        return {}, None
+    if source not in _KNOWN:
+        _KNOWN[source] = _drawn(source)
+    arrays, about = _KNOWN[source]
+    return dict(arrays), about
+
+
+def _drawn(source: SurfaceFile) -> _Drawn:
+    look = _look(source)
+    if look is None or not _shows_anything(look):
         return {}, None
     sizes = np.diff(source.starts)
     corners = fan_corners(sizes)
@@ -98,7 +113,7 @@ def _look(source: SurfaceFile) -> Appearance | None:
 
 
 def _note(text: str) -> None:
-    warnings.warn(text, MeshNotice, stacklevel=4)
+    warnings.warn(text, MeshNotice, stacklevel=5)
 
 
 def _shows_anything(look: Appearance) -> bool:
