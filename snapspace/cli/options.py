@@ -102,5 +102,6 @@ def up_option(command: Command) -> Command:
     return click.option(
         "--up",
         type=click.Choice(["x", "y", "z"]),
-        help="Axis that points up [default: that of the file, or z].",
+        help="Axis that points up; coordinates stay [default: that of the model or problem, else "
+        "y for .obj, .glb and .gltf, z for others].",
     )(command)

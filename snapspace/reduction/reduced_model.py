@@ -52,9 +52,14 @@ class ReducedModel(ABC):
 
     @property
     def up(self) -> str:
-        """Axis that points up in pages and pictures: `provenance["up"]`, or z if it names none."""
+        """Axis that points up in pages and pictures: `provenance["up"]`.
+
+        If it names none, that of the surface's file (`SurfaceFile.up`), or z without a file.
+        """
         axis = self.provenance.get("up")
-        return axis if axis in ("x", "y", "z") else "z"
+        if axis in ("x", "y", "z"):
+            return str(axis)
+        return "z" if self.surface.source is None else self.surface.source.up
 
     @property
     def value_scale(self) -> float:

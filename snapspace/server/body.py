@@ -44,7 +44,7 @@ class Body:
     problem : PosingProblem with the initial handles, or None
     surface : EmbeddedSurface that was filled, shown in place of the tets' surface; or None
     surface_file : Path of the surface, or None if no file of the user has it
-    up : axis that points up, or None if no file says it
+    up : axis that points up, or None if no file says it and it is no surface
     painted : by the name of a handle, the vertices of the surface where it was painted
     """
 
@@ -80,7 +80,7 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
         problem=problem,
         surface=surface,
         surface_file=None if surface is None else (path.parent / files["surface"]).resolve(),
-        up=files.get("up"),
+        up=files.get("up") or _up(surface),
         painted={
             name: handle["painted"]
             for name, handle in zip(problem.handles.names, files["handles"], strict=True)
@@ -121,7 +121,13 @@ def mesh_body(
         folder=folder,
         surface=surface,
         surface_file=path.resolve(),
+        up=_up(surface),
     )
+
+
+def _up(surface: EmbeddedSurface | None) -> str | None:
+    """The usual axis of a surface's file."""
+    return None if surface is None or surface.source is None else surface.source.up
 
 
 def _filled(

@@ -46,7 +46,7 @@ def serve(
         The mesh that pages begin with. Without a model and a body, pages ask for a mesh.
     title : str
         Heading of the page, until a mesh has a name.
-    up : "x", "y" or "z", default that of the model or problem, or z
+    up : "x", "y" or "z", default that of the model or problem, or of the surface's format
         Axis that points up at first.
     folder : Path, default the current one
         Where files made from uploaded meshes, or from the model, are saved.

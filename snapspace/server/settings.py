@@ -31,7 +31,7 @@ class ServerSettings:
     """The settings that a server was started with.
 
     title : heading that is shown until a mesh has a name
-    up : axis that points up at first; None: that of the model or problem, or z
+    up : axis that points up at first; None: that of the model, problem or surface, or z
     token : secret in addresses; only letters, digits, - and _
     folder : Path of the folder where files of uploaded meshes are saved
     scratch : Path of the folder for temporary files, which the server removes at the end

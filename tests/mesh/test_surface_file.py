@@ -155,3 +155,11 @@ def test_whole_number_coordinates_are_refused_when_written(tmp_path: Path) -> No
     assert surface.vertices.tolist() == np.arange(9).reshape(3, 3).tolist()
     with pytest.raises(ValueError, match=r"b\.ply: its coordinates are whole numbers"):
         surface.write(tmp_path / "b.ply", surface.vertices + 0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "up"),
+    [("A.OBJ", "y"), ("a.glb", "y"), ("a.gltf", "y"), ("a.stl", "z"), ("a.ply", "z")],
+)
+def test_an_axis_is_usually_up_in_a_format(name: str, up: str) -> None:
+    assert SurfaceFile(name, b"").up == up

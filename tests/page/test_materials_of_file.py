@@ -126,6 +126,13 @@ def test_a_model_file_brings_its_materials(
     blue, red = pixel(page, *first), pixel(page, *last)
     assert blue[2] > blue[0] + GLOW, blue
     assert red[0] > red[2] + GLOW, red
+    assert page.run("snapspace.stage.up") == "y", "as in most .obj files"
+
+
+def test_a_body_stands_as_its_file_is_usually_written(posing_model: PosingModel) -> None:
+    model = with_file(posing_model, own_file(posing_model))
+    assert (posing_model.up, model.up) == ("z", "y")
+    assert replace(model, provenance={"up": "x"}).up == "x", "what was saved comes first"
 
 
 def test_textures_are_in_a_model_file_once(posing_model: PosingModel) -> None:

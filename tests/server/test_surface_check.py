@@ -32,6 +32,7 @@ def scan(folder: Path, faces: slice = slice(1, None)) -> Body:
 
 def test_holes_are_found_and_what_closes_them_is_sent(tmp_path: Path) -> None:
     body = scan(tmp_path)
+    assert body.up == "y", "as in most .obj files"
     answer = surface_check(body, 7)
     assert (answer.request, answer.fine) == (7, False)
     first = answer.findings[0]

@@ -66,7 +66,7 @@ function readPosing(container: Container, name: string): Model {
   return {
     kind: "posing",
     name,
-    ...upOf(record),
+    ...upOf(record, about.surface_source?.name),
     ...timelineOf(record),
     dimension,
     faces,
@@ -125,7 +125,7 @@ function readInterpolation(container: Container, name: string): Model {
   return {
     kind: "interpolation",
     name,
-    ...upOf(readRecord(container)),
+    ...upOf(readRecord(container), about.surface_source?.name),
     ...timelineOf(readRecord(container)),
     dimension,
     faces,

@@ -12,9 +12,10 @@ export function readRecord(container: Container): Record<string, unknown> {
   }
 }
 
-/** The axis that points up; undefined if the record has none. */
-export function upOf({ up }: Record<string, unknown>): { up?: Axis } {
-  return up === "x" || up === "y" || up === "z" ? { up } : {};
+/** The axis that points up; if the record has none, the one that is usual for the surface's file (as `SurfaceFile.up`). */
+export function upOf({ up }: Record<string, unknown>, file: unknown): { up?: Axis } {
+  if (up === "x" || up === "y" || up === "z") return { up };
+  return typeof file === "string" && /\.(obj|glb|gltf)$/i.test(file) ? { up: "y" } : {};
 }
 
 /** The timeline that was saved with the model; undefined if the record has none. */

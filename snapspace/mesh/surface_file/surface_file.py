@@ -28,6 +28,9 @@ from .obj_appearance import obj_appearance
 from .ply_appearance import ply_appearance
 from .slots import Patch, patched
 
+# Formats that programs write with y up: glTF by its specification, OBJ by custom. The others come
+# from scanners and solid modelling, with z up.
+_Y_UP = (".obj", ".glb", ".gltf")
 # Vertices that move by less than this share of the largest coordinate stay as they are.
 _STILL = 1e-12
 
@@ -80,6 +83,11 @@ class SurfaceFile:
     def suffix(self) -> str:
         """The extension, such as .obj."""
         return Path(self.name).suffix.lower()
+
+    @property
+    def up(self) -> str:
+        """Axis that usually points up in this format: y in .obj, .glb and .gltf, else z."""
+        return "y" if self.suffix in _Y_UP else "z"
 
     @property
     def vertices(self) -> FloatArray:

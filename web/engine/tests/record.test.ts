@@ -19,7 +19,15 @@ for (const file of ["own_surface.snapspace", "own_surface.packed"])
 
 test("a record without an axis, or with anything else there", () => {
   assert.equal((readModel(bytes("posing.snapspace"), "bar") as PosingModel).up, undefined);
-  for (const up of [undefined, null, "w", 1, ["x"], {}]) assert.deepEqual(upOf({ up }), {});
+  for (const up of [undefined, null, "w", 1, ["x"], {}]) assert.deepEqual(upOf({ up }, "scan.stl"), {});
+});
+
+test("without an axis in the record, the one that is usual for the surface's file", () => {
+  for (const file of ["a.obj", "a.GLB", "b.gltf"]) {
+    assert.deepEqual(upOf({}, file), { up: "y" });
+    assert.deepEqual(upOf({ up: "z" }, file), { up: "z" });
+  }
+  for (const file of ["a.stl", "a.ply", "a.off", "obj", undefined, 3]) assert.deepEqual(upOf({}, file), {});
 });
 
 test("painted vertices that do not fit are left aside", () => {
