@@ -33,6 +33,7 @@ EXPORTS = {
     "mesh": (
         "EmbeddedSurface",
         "MeshNotice",
+        "MirrorPlane",
         "SurfaceFile",
         "TetMesh",
         "boundary_surface",
@@ -81,6 +82,7 @@ EXPORTS = {
         "Polished",
         "PosingSession",
         "Session",
+        "mirror_pose",
     ),
     "snapshots": (
         "Checkpoint",
@@ -97,6 +99,13 @@ EXPORTS = {
         "solve_snapshots",
     ),
     "subspace": ("AffineSubspace", "affine_subspace", "pca", "snapshot_pca"),
+    "symmetry": (
+        "counterparts",
+        "mirror_handle",
+        "mirror_plane",
+        "mirrored_name",
+        "mirrored_region",
+    ),
     "timeline": ("Key", "Timeline", "read_timeline", "write_timeline"),
     "validation": (
         "ErrorCurve",

@@ -34,6 +34,7 @@ from .material import (
 from .mesh import (
     EmbeddedSurface,
     MeshNotice,
+    MirrorPlane,
     SurfaceFile,
     TetMesh,
     boundary_surface,
@@ -86,6 +87,7 @@ from .session import (
     Polished,
     PosingSession,
     Session,
+    mirror_pose,
 )
 from .snapshots import (
     Checkpoint,
@@ -106,6 +108,13 @@ from .subspace import (
     affine_subspace,
     pca,
     snapshot_pca,
+)
+from .symmetry import (
+    counterparts,
+    mirror_handle,
+    mirror_plane,
+    mirrored_name,
+    mirrored_region,
 )
 from .timeline import Key, Timeline, read_timeline, write_timeline
 from .validation import (
@@ -156,6 +165,7 @@ __all__ = [
     "Material",
     "MendedSurface",
     "MeshNotice",
+    "MirrorPlane",
     "MooneyRivlin",
     "MorphTargets",
     "NextOption",
@@ -191,6 +201,7 @@ __all__ = [
     "calibrate",
     "carry_over",
     "check_surface",
+    "counterparts",
     "embed_surface",
     "error_curve",
     "export_html",
@@ -210,6 +221,11 @@ __all__ = [
     "mass_matrix",
     "matched_scales",
     "mend_surface",
+    "mirror_handle",
+    "mirror_plane",
+    "mirror_pose",
+    "mirrored_name",
+    "mirrored_region",
     "mode_targets",
     "next_option",
     "open_surface",

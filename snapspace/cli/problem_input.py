@@ -91,5 +91,5 @@ def _tets(file: SurfaceFile, filling: SurfaceFilling, kept: Path) -> TetMesh:
 def _source(problem_file: Path, mesh_file: Path | None) -> dict[str, Any]:
     content = json.loads(problem_file.read_text(encoding="utf-8"))
     mesh = Path(content["mesh"]) if mesh_file is None else mesh_file
-    kept = {key: content[key] for key in ("up",) if key in content}
+    kept = {key: content[key] for key in ("up", "mirror") if key in content}
     return {"problem": problem_file.name, "mesh": mesh.name} | kept

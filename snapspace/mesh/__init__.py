@@ -11,6 +11,7 @@ from .mass import (
     mass_norms,
     mass_of_tets,
 )
+from .mirror_plane import MirrorPlane
 from .quality import dihedral_angles, tet_volumes
 from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
 from .read_surface import SURFACE_SUFFIXES, read_surface
@@ -29,6 +30,7 @@ __all__ = [
     "Appearance",
     "EmbeddedSurface",
     "MeshNotice",
+    "MirrorPlane",
     "SurfaceFile",
     "SurfaceMaterial",
     "TetMesh",

@@ -110,21 +110,33 @@ def closest_faces(
     limit : float
         Largest distance of interest.
     """
-    triangles = vertices[faces]
-    tree = BoxTree(triangles.min(axis=1), triangles.max(axis=1))
-    # the closest vertex bounds the distance of the closest face from above
-    reach, _ = cKDTree(vertices).query(points)
-    reach = np.minimum(reach * (1.0 + _ROUNDING), limit)
-    nearest, distances = np.full(len(points), -1), np.full(len(points), np.inf)
-    for start in range(0, len(points), _BLOCK):
-        here = points[start : start + _BLOCK]
-        point, face = tree.within(here, reach[start : start + _BLOCK])
-        offset = closest_on_triangles(here[point], triangles[face]) - here[point]
-        distance = np.linalg.norm(offset, axis=1)
-        best = _first_of_each(point, distance, face)
-        best = best[distance[best] <= limit]
-        nearest[start + point[best]], distances[start + point[best]] = face[best], distance[best]
-    return nearest, distances
+    return FaceSearch(vertices, faces).closest(points, limit=limit)
+
+
+class FaceSearch:
+    """`closest_faces` for several sets of points and the same surface."""
+
+    def __init__(self, vertices: FloatArray, faces: IndexArray) -> None:
+        self.triangles = vertices[faces]
+        self._tree = BoxTree(self.triangles.min(axis=1), self.triangles.max(axis=1))
+        self._vertices = cKDTree(vertices)
+
+    def closest(self, points: FloatArray, *, limit: float = np.inf) -> tuple[Integers, FloatArray]:
+        """The closest face of each point, and its distance, as `closest_faces`."""
+        # the closest vertex bounds the distance of the closest face from above
+        reach, _ = self._vertices.query(points)
+        reach = np.minimum(reach * (1.0 + _ROUNDING), limit)
+        nearest, distances = np.full(len(points), -1), np.full(len(points), np.inf)
+        for start in range(0, len(points), _BLOCK):
+            here = points[start : start + _BLOCK]
+            point, face = self._tree.within(here, reach[start : start + _BLOCK])
+            offset = closest_on_triangles(here[point], self.triangles[face]) - here[point]
+            distance = np.linalg.norm(offset, axis=1)
+            best = _first_of_each(point, distance, face)
+            best = best[distance[best] <= limit]
+            nearest[start + point[best]] = face[best]
+            distances[start + point[best]] = distance[best]
+        return nearest, distances
 
 
 def least_extrapolated(

@@ -26,6 +26,7 @@ from ..reduction import (
 )
 from ..subspace import RigidFrames
 from .estimator import estimator_arrays
+from .mirror import mirror_about
 from .painted import handle_of_vertex
 from .shape_space import quantised
 
@@ -43,6 +44,7 @@ def packed(
     up: str | None = None,
     before: PosingModel | None = None,
     owners: NDArray[np.int32] | None = None,
+    mirror: dict[str, Any] | None = None,
 ) -> bytes:
     """The model as the page reads it.
 
@@ -61,6 +63,8 @@ def packed(
     owners : ndarray of int, (s,), optional
         For a posing model, the handle of each surface vertex, -1 for none. Default: that of
         `handle_of_vertex`.
+    mirror : dict, optional
+        How the page mirrors poses of a posing model. Default: `mirror_about`.
 
     Returns
     -------
@@ -81,6 +85,7 @@ def packed(
         raise ValueError(f"packed: up is '{up}', but it must be one of {', '.join(AXES)}")
     if isinstance(model, PosingModel):
         kind, arrays, about = "posing", _posing_arrays(model), _posing_metadata(model)
+        about["mirror"] = mirror_about(model) if mirror is None else mirror
         if owners is not None:
             arrays["handle_of_vertex"] = owners.astype(np.int32)
         if before is not None:

@@ -7,16 +7,16 @@ from pathlib import Path
 from typing import Any
 
 from ..filling import stuff_surface
-from ..mesh import EmbeddedSurface, TetMesh, embed_file, open_surface, read_tets
+from ..mesh import EmbeddedSurface, MirrorPlane, TetMesh, embed_file, open_surface, read_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
-from .json_entries import as_index, as_list, as_number, as_object, as_text, within
+from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three, within
 from .material_entries import material_content, material_from
 from .place_entries import Mask, in_places, listed
 from .posing_problem import PosingProblem
 
-_KEYS = {"mesh", "surface", "up", "material", "stiffness", "domain", "handles"}
+_KEYS = {"mesh", "surface", "up", "mirror", "material", "stiffness", "domain", "handles"}
 AXES = ("x", "y", "z")
 MOST_VERTICES = 2**31 - 1
 
@@ -31,7 +31,8 @@ def read_problem(
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
         `read_problem_surface`; without "mesh" it is filled with tets in seconds, see
-        `stuff_surface`, "up": axis that points up in pages and pictures, "material", "stiffness",
+        `stuff_surface`, "up": axis that points up in pages and pictures, "mirror": {"normal":
+        [x, y, z], "point": [x, y, z]}, the plane that mirrors poses, "material", "stiffness",
         "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
         "vertices", "painted", "domain"}, ...]}.
         A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
@@ -61,6 +62,8 @@ def read_problem(
             mesh = _mesh(path, content, repair=repair)
         if "up" in content and content["up"] not in AXES:
             raise ValueError(f"up must be one of {', '.join(AXES)}, got {content['up']!r:.60}")
+        if "mirror" in content:
+            _check_mirror(content["mirror"])
         return _problem(content, mesh)
 
 
@@ -100,6 +103,7 @@ def problem_content(
     surface_path: str | None = None,
     *,
     up: str | None = None,
+    mirror: MirrorPlane | None = None,
 ) -> dict[str, Any]:
     """The problem as the JSON content that `read_problem` takes, handles by vertices.
 
@@ -118,8 +122,9 @@ def problem_content(
     for handle, bounds in zip(content["handles"][1:], problem.domain.bounds, strict=True):
         if (bounds != common).any():
             handle["domain"] = domain_content(bounds)
-    files = {"mesh": mesh_path, "surface": surface_path, "up": up}
-    return {key: file for key, file in files.items() if file is not None} | content
+    plane = None if mirror is None else mirror.content
+    given = {"mesh": mesh_path, "surface": surface_path, "up": up, "mirror": plane}
+    return {key: value for key, value in given.items() if value is not None} | content
 
 
 def _load(path: Path) -> dict[str, Any]:
@@ -133,6 +138,12 @@ def _load(path: Path) -> dict[str, Any]:
         raise ValueError(f"{path}: not valid JSON: {error}") from None
     with within(path):
         return as_object(content, "a problem", known=_KEYS)
+
+
+def _check_mirror(value: Any) -> None:
+    entries = as_object(value, "mirror", known={"normal", "point"})
+    normal = as_three(_entry(entries, "normal"), "mirror.normal")
+    MirrorPlane(normal, as_three(entries.get("point", [0, 0, 0]), "mirror.point"))
 
 
 def _entry(content: dict[str, Any], key: str) -> Any:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from ..certificate import ErrorEstimator
 from ..cubature import BlendedCubature, Cubature
-from ..mesh import EmbeddedSurface
+from ..mesh import EmbeddedSurface, MirrorPlane
 from ..problem import Problem
 from ..subspace import AffineSubspace
 
@@ -60,6 +60,15 @@ class ReducedModel(ABC):
         if axis in ("x", "y", "z"):
             return str(axis)
         return "z" if self.surface.source is None else self.surface.source.up
+
+    @property
+    def mirror_plane(self) -> MirrorPlane | None:
+        """The plane of `provenance["mirror"]`, {"normal", "point"}; None if it names none."""
+        record = self.provenance.get("mirror")
+        try:
+            return MirrorPlane(**record) if isinstance(record, dict) else None
+        except (TypeError, ValueError):  # the record comes from a file and may hold anything
+            return None
 
     @property
     def value_scale(self) -> float:

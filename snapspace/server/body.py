@@ -12,6 +12,7 @@ from ..mesh import (
     SURFACE_SUFFIXES,
     TET_SUFFIXES,
     EmbeddedSurface,
+    MirrorPlane,
     TetMesh,
     embed_file,
     open_surface,
@@ -45,6 +46,7 @@ class Body:
     surface : EmbeddedSurface that was filled, shown in place of the tets' surface; or None
     surface_file : Path of the surface, or None if no file of the user has it
     up : axis that points up, or None if no file says it and it is no surface
+    mirror : MirrorPlane that a file gives, or None
     painted : by the name of a handle, the vertices of the surface where it was painted
     """
 
@@ -56,6 +58,7 @@ class Body:
     surface: EmbeddedSurface | None = None
     surface_file: Path | None = None
     up: str | None = None
+    mirror: MirrorPlane | None = None
     painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
 
 
@@ -81,6 +84,7 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
         surface=surface,
         surface_file=None if surface is None else (path.parent / files["surface"]).resolve(),
         up=files.get("up") or _up(surface),
+        mirror=MirrorPlane(**files["mirror"]) if "mirror" in files else None,
         painted={
             name: handle["painted"]
             for name, handle in zip(problem.handles.names, files["handles"], strict=True)
@@ -173,5 +177,6 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
         problem=problem,
         surface=model.surface if own else None,
         up=model.up,
+        mirror=model.mirror_plane,
         painted=painted_vertices(model),
     )

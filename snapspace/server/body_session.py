@@ -17,6 +17,7 @@ from .body import Body
 from .computation import Computation, Publish
 from .computation_queue import ComputationQueue
 from .materials import chosen_material, shown_poisson
+from .mirroring import Mirroring
 from .models import Models
 from .parts import FloatArray, part_factors, with_factors
 from .reporter import Reporter
@@ -54,6 +55,7 @@ class BodySession:
         self._factors: FloatArray | None = None  # by tet, from the parts
         self._selection: Selection | None = None
         self._painted: tuple[messages.HandleChoice, ...] = ()  # if the body has its own surface
+        self.mirroring = Mirroring(body)
         surface = body.surface
         self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
         if body.problem is not None:
@@ -164,6 +166,8 @@ class BodySession:
             record |= (
                 {} if order.timeline is None else {"timeline": checked_timeline(order.timeline)}
             )
+            plane = self.mirroring.plane
+            record |= {} if plane is None else {"mirror": plane.content}
             model = replace(model, provenance=model.provenance | record | self._record_of(model))
         return self._saved.save(
             self.body,
@@ -172,6 +176,7 @@ class BodySession:
             name=order.name,
             request=order.request,
             up=order.up,
+            mirror=self.mirroring.plane,
             painted=self._painted,
         )
 

@@ -18,7 +18,7 @@ from .message_parts import (
     SurfaceFinding,
     Vector,
 )
-from .page_messages import Cancel, Check, Choose, Compute, Edit, Keep, Polish, Save
+from .page_messages import Cancel, Check, Choose, Compute, Edit, Keep, Mirror, Polish, Save
 
 __all__ = [
     "Cancel",
@@ -31,6 +31,7 @@ __all__ = [
     "Keep",
     "MaterialChoice",
     "Matrix",
+    "Mirror",
     "PartChoice",
     "Polish",
     "Save",
@@ -95,6 +96,21 @@ class Chosen:
 
     request: int
     handles: tuple[str, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Mirrored:
+    """Server: the mirror image of a handle, and the plane.
+
+    normal, point : unit vector across the plane, and a point of it
+    deviation : of the surface from its mirror image, relative to the diagonal; null if not known
+    """
+
+    request: int
+    handle: HandleChoice
+    normal: Vector
+    point: Vector
+    deviation: float | None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,13 +225,33 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check)
-FROM_SERVER = (Workspace, Chosen, Progress, Model, Cancelled, Failed, Saved, Polished, Checked)
+FROM_PAGE = (Choose, Mirror, Compute, Cancel, Save, Polish, Keep, Edit, Check)
+FROM_SERVER = (
+    Workspace,
+    Chosen,
+    Mirrored,
+    Progress,
+    Model,
+    Cancelled,
+    Failed,
+    Saved,
+    Polished,
+    Checked,
+)
 PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, SurfaceFinding)
 
-PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check
+PageMessage = Choose | Mirror | Compute | Cancel | Save | Polish | Keep | Edit | Check
 ServerMessage = (
-    Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished | Checked
+    Workspace
+    | Chosen
+    | Mirrored
+    | Progress
+    | Model
+    | Cancelled
+    | Failed
+    | Saved
+    | Polished
+    | Checked
 )
 
 

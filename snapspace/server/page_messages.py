@@ -24,6 +24,18 @@ class Choose:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Mirror:
+    """Page: make the mirror image of a handle. Answered by `Mirrored`, or `Failed`.
+
+    axis : x, y or z, the direction across the plane; null: the plane is found
+    """
+
+    request: int
+    handle: HandleChoice
+    axis: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Compute:
     """Page: compute models for the handles chosen last. A running computation is replaced.
 

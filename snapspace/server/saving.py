@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..disk.atomic_file import atomic_file
-from ..mesh import EmbeddedSurface, TetMesh, write_surface, write_tets
+from ..mesh import EmbeddedSurface, MirrorPlane, TetMesh, write_surface, write_tets
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel
@@ -44,6 +44,7 @@ class SavedFiles:
         name: str | None,
         request: int,
         up: str | None = None,
+        mirror: MirrorPlane | None = None,
         painted: Sequence[HandleChoice] = (),
     ) -> Saved:
         """Writes problem file and model, and mesh and surface if they are in no file yet.
@@ -60,6 +61,8 @@ class SavedFiles:
             Number of the request, repeated in the answer.
         up : "x", "y" or "z", optional
             Axis that points up, for the problem file.
+        mirror : MirrorPlane, optional
+            For the problem file.
         painted : sequence of HandleChoice, optional
             Handles as vertices of the body's own surface, so that they look as they were painted.
 
@@ -93,6 +96,7 @@ class SavedFiles:
                 os.path.relpath(mesh, folder),
                 None if shown is None else os.path.relpath(shown, folder),
                 up=up,
+                mirror=mirror,
             )
             own = {handle.name: list(handle.vertices) for handle in painted}
             for entry in content["handles"]:

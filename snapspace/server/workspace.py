@@ -155,6 +155,8 @@ class Workspace:
     def _answer(self, message: messages.PageMessage) -> None:
         if isinstance(message, messages.Choose):
             self._emit(self._current_session().choose(message))
+        elif isinstance(message, messages.Mirror):
+            self._emit(self._current_session().mirroring.mirrored(message))
         elif isinstance(message, messages.Compute):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
@@ -211,7 +213,10 @@ class Workspace:
             name, up = session.body.name, self._up
             assert isinstance(growth.model, PosingModel)
             owners = session.painted_owners(growth.model)
-            content = packed(growth.model, name=name, up=up, before=before, owners=owners)
+            mirror = session.mirroring.about(growth.model)
+            content = packed(
+                growth.model, name=name, up=up, before=before, owners=owners, mirror=mirror
+            )
             check_stop()
             number = self._models.add(growth.model, content)
             self._send(

@@ -3,8 +3,17 @@
 from .blending_session import BlendingSession
 from .dynamics import Dynamics
 from .frame_report import FrameReport
+from .mirror_pose import mirror_pose
 from .polish import Polished
 from .posing_session import PosingSession
 from .session import Session
 
-__all__ = ["BlendingSession", "Dynamics", "FrameReport", "Polished", "PosingSession", "Session"]
+__all__ = [
+    "BlendingSession",
+    "Dynamics",
+    "FrameReport",
+    "Polished",
+    "PosingSession",
+    "Session",
+    "mirror_pose",
+]

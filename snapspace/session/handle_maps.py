@@ -28,6 +28,16 @@ def world_maps(offsets: FloatArray, centers: FloatArray) -> FloatArray:
     return np.array([world_map(*pair) for pair in zip(offsets, centers, strict=True)])
 
 
+def motions_of(
+    maps: FloatArray, names: Sequence[str], centers: FloatArray
+) -> dict[str, tuple[FloatArray, FloatArray]]:
+    """By name, the linear part (3, 3) about a center and the translation (3,) of each map."""
+    return {
+        name: (own[:, :3].copy(), own[:, :3] @ center + own[:, 3] - center)
+        for name, own, center in zip(names, maps, centers, strict=True)
+    }
+
+
 def wanted_maps(
     motions: Mapping[str, Motion], center: Callable[[str], FloatArray], *, who: str
 ) -> dict[str, FloatArray]:

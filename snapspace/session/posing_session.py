@@ -17,7 +17,7 @@ from .finite_input import finite
 from .frame_report import FrameReport
 from .given_coordinates import given_coordinates
 from .given_rotation import Turn, is_rotation
-from .handle_maps import Motion, given_maps, relative_offsets, wanted_maps, world_maps
+from .handle_maps import Motion, given_maps, motions_of, relative_offsets, wanted_maps, world_maps
 from .motion_space import MotionSpace
 from .posing_loop import posing_loop
 from .sample_starts import SampleStarts
@@ -37,12 +37,6 @@ class PosingSession(Session[PosingModel]):
     -----
     A drag starts from the last frame's shape. A jump, longer than the spacing of the training
     samples, starts from a shape interpolated between them, or from the last one if that is lower.
-
-    Examples
-    --------
-    session = snapspace.load("dragon.snapspace").session()
-    session.move("head", euler=(0, 0, 0.5), translation=(0, 0, 1))
-    session.vertices
     """
 
     _maps: FloatArray  # (h, 3, 4), maps of world positions
@@ -50,10 +44,7 @@ class PosingSession(Session[PosingModel]):
 
     @property
     def vertices(self) -> FloatArray:
-        """Vertices of the current shape, (n, 3), in the mesh's length unit.
-
-        They are tau + U q, carried along by the first handle's motion if it has one.
-        """
+        """Vertices of the current shape, (n, 3): tau + U q, carried along by the first handle."""
         return super().vertices
 
     def move(
@@ -198,6 +189,15 @@ class PosingSession(Session[PosingModel]):
         shape = given_coordinates(q, self.model.dimension)
         self.dimension, self._loop.q = len(shape), shape
         self._set(*self._moved(maps))
+
+    @property
+    def motions(self) -> dict[str, tuple[FloatArray, FloatArray]]:
+        """Each handle's motion from rest, as `move_all` takes it.
+
+        A rotation (3, 3), any matrix after `move_affine`, and a translation of the centroid (3,).
+        """
+        problem = self.model.problem
+        return motions_of(self._maps, problem.handles.names, problem.centroids)
 
     def reset(self) -> None:
         """Returns all handles and the shape to rest."""

@@ -94,6 +94,7 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "subspace",
     },
+    "symmetry": {"mesh", "problem", "reduction"},
     "session": {
         "_core",
         "blas",
@@ -104,6 +105,7 @@ ALLOWED: dict[str, set[str]] = {
         "reduction",
         "snapshots",
         "subspace",
+        "symmetry",
         "timeline",
     },
     "timeline": {"disk", "mesh", "problem"},
@@ -119,7 +121,7 @@ ALLOWED: dict[str, set[str]] = {
     },
     "gltf": {"blas", "disk", "mesh", "reduction"},
     "animation": {"disk", "gltf", "mesh", "pictures", "reduction"},
-    "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace"},
+    "page": {"certificate", "disk", "mesh", "model_file", "reduction", "subspace", "symmetry"},
     "server": {
         "accurate",
         "disk",
@@ -137,6 +139,7 @@ ALLOWED: dict[str, set[str]] = {
         "session",
         "snapshots",
         "stopping",
+        "symmetry",
         "timeline",
     },
     "accurate": {

@@ -85,6 +85,27 @@ export function withMore(choice: Choice, key: number): Choice {
   return { ...choice, selected: NOTHING, handles: left };
 }
 
+/** Adds the mirror image of a handle, or puts it in place of the handle that has its name. Other handles lose the image's
+ * vertices, except the mirrored one. Null if nothing is left of the image. */
+export function withMirrored(choice: Choice, key: number, image: HandleChoice): Choice | null {
+  const [made] = choiceOf([image]).handles;
+  const source = choice.handles.find((handle) => handle.key === key);
+  const vertices = without(made.vertices, source?.vertices ?? NOTHING);
+  if (vertices.length === 0) return null;
+  const before = choice.handles.find(({ name }) => name === image.name);
+  const free = 1 + Math.max(-1, ...choice.handles.map((handle) => handle.key));
+  const own = { ...made, vertices, key: before?.key ?? free };
+  const kept = withoutVertices(
+    choice.handles.filter((handle) => handle !== before),
+    vertices,
+  );
+  if (!before) return { ...choice, handles: [...kept, own] };
+  const handles = choice.handles.flatMap((handle) =>
+    handle === before ? [own] : kept.filter((other) => other.key === handle.key),
+  );
+  return { ...choice, handles };
+}
+
 /** Takes the selected vertices out of all handles. */
 export function withFree(choice: Choice): Choice {
   return { ...choice, handles: withoutVertices(choice.handles, choice.selected) };

@@ -60,6 +60,20 @@ export interface Chosen {
   readonly handles: readonly string[];
 }
 
+/** Server: the mirror image of a handle, and the plane.
+ *
+ * normal, point : unit vector across the plane, and a point of it
+ * deviation : of the surface from its mirror image, relative to the diagonal; null if not known
+ */
+export interface Mirrored {
+  readonly type: "mirrored";
+  readonly request: number;
+  readonly handle: HandleChoice;
+  readonly normal: Vector;
+  readonly point: Vector;
+  readonly deviation: number | null;
+}
+
 /** Server: progress of the work, at most ten times a second.
  *
  * request : that of the `Compute`; 0 while a mesh is read or filled
@@ -166,4 +180,4 @@ export interface Checked {
 }
 
 export type ServerMessage =
-  Workspace | Chosen | Progress | Model | Cancelled | Failed | Saved | Polished | Checked;
+  Workspace | Chosen | Mirrored | Progress | Model | Cancelled | Failed | Saved | Polished | Checked;

@@ -1,6 +1,7 @@
 import type { Appearance } from "./appearance.ts";
 import type { Box } from "./sampled_box.ts";
 import type { Estimator } from "./estimator.ts";
+import type { Mirror, NoMirror } from "./mirror.ts";
 import type { RigidFrames } from "./rigid_frames.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
@@ -54,6 +55,8 @@ export interface PosingModel extends ModelBase {
   readonly handleOfVertex: Int32Array<ArrayBuffer>;
   /** The box of motions that was sampled, handle by handle; of those at rest, the first one too, zeros. */
   readonly boxes: readonly Box[];
+  /** How poses are mirrored, or why they cannot be. */
+  readonly mirror: Mirror | NoMirror;
   readonly elastic: Quartic | Cubature;
   readonly K: Float64Array<ArrayBuffer>;
   readonly L: Float64Array<ArrayBuffer>;

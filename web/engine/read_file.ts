@@ -2,6 +2,7 @@ import { readAppearance } from "./appearance.ts";
 import type { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 import { NO_PINS } from "./estimator.ts";
+import { NO_MIRROR } from "./mirror.ts";
 import { estimatorOf, pinsOf } from "./read_estimator.ts";
 import {
   coefficientCount,
@@ -84,6 +85,7 @@ function readPosing(container: Container, name: string): Model {
     handleOfVertex:
       paintedOwners(record, names, nearest.length) ?? Int32Array.from(nearest, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
+    mirror: NO_MIRROR,
     elastic: readElastic(container, rest, tets, basis, material),
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),

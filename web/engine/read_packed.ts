@@ -13,6 +13,7 @@ import {
   type PoseQuartics,
   type Quartic,
 } from "./model.ts";
+import { readMirror } from "./mirror.ts";
 import type { RigidFrames } from "./rigid_frames.ts";
 import type { ShapeSpace } from "./shape_space.ts";
 
@@ -44,6 +45,7 @@ export function readPacked(container: Container): Model {
       handles: about.handles,
       handleOfVertex: container.indices("handle_of_vertex", count, [space.vertices], -1),
       boxes: about.boxes,
+      mirror: readMirror(about.mirror, count),
       elastic: readElastic(container, common),
       K: container.doubles("handle_K", dimension, dimension),
       L: container.doubles("handle_L", count, dimension, 12),

@@ -12,6 +12,7 @@ import {
 import { union } from "../engine/selecting.ts";
 import type { Choosing } from "./choosing.ts";
 import { colorOf } from "./choosing_colors.ts";
+import type { HandleMirror } from "./choosing_mirror.ts";
 import type { CommonRanges } from "./choosing_sampling.ts";
 import { h, section, vertexCount } from "./dom.ts";
 import { DEGREES, rangeFields, shareOf } from "./range_fields.ts";
@@ -21,6 +22,7 @@ export class HandleList {
   readonly element: HTMLElement;
   readonly #choosing: Choosing;
   readonly #common: CommonRanges;
+  readonly #mirror: HandleMirror;
   readonly #list = h("ul", { className: "handles" });
   readonly #make = h("button", { type: "button", className: "primary wide", title: "Enter" });
   /** The same button on the stage, for narrow windows. */
@@ -32,11 +34,12 @@ export class HandleList {
   #shown: readonly ChosenHandle[] | null = null;
   #hadSelection = false;
 
-  constructor(choosing: Choosing, common: CommonRanges) {
+  constructor(choosing: Choosing, common: CommonRanges, mirror: HandleMirror) {
     this.#choosing = choosing;
     this.#common = common;
+    this.#mirror = mirror;
     for (const button of [this.#make, this.floating]) button.addEventListener("click", () => this.make());
-    this.element = section("Handles", this.#lacking, this.#make, this.#hint, this.#list);
+    this.element = section("Handles", this.#lacking, this.#make, this.#hint, this.#list, mirror.element);
   }
 
   /** Makes a handle of the selected vertices; its name can be typed at once. */
@@ -46,6 +49,14 @@ export class HandleList {
     // where there is a keyboard: on a phone it would cover the stage
     if (matchMedia("(hover: hover)").matches)
       this.#list.querySelector<HTMLInputElement>("li:last-child .name")?.select();
+  }
+
+  /** Makes the mirror image of the handle that has the focus, or of the last one. */
+  mirror(): void {
+    const key = document.activeElement?.closest<HTMLElement>("li[data-handle]")?.dataset["handle"];
+    const { handles } = this.#choosing.choice;
+    const handle = handles.find((handle) => String(handle.key) === key) ?? handles.at(-1);
+    if (handle) void this.#mirror.mirror(handle);
   }
 
   update(): void {
@@ -115,6 +126,20 @@ export class HandleList {
       "✕",
     );
     const below = h("div", { className: "below" }, h("span", {}, vertexCount(handle.vertices.length)));
+    below.append(
+      h(
+        "button",
+        {
+          type: "button",
+          className: "link",
+          title: "Make its mirror image on the other side; M",
+          "aria-label": `Mirror ${handle.name}`,
+          ...own("mirror"),
+          onclick: () => void this.#mirror.mirror(handle),
+        },
+        "Mirror",
+      ),
+    );
     if (hasSelection)
       below.append(
         h(
@@ -130,7 +155,12 @@ export class HandleList {
           "Extend",
         ),
       );
-    const item = h("li", {}, h("div", { className: "top" }, swatch, this.#name(handle), held, remove), below);
+    const item = h(
+      "li",
+      { "data-handle": key },
+      h("div", { className: "top" }, swatch, this.#name(handle), held, remove),
+      below,
+    );
     if (moving) this.#ranges(handle, item, below);
     return item;
   }

@@ -8,15 +8,17 @@ export interface ChoosingKeys {
   choosing: Choosing;
   tools: ChoosingTools;
   make(): void;
+  mirror(): void;
 }
 
-/** Keys, while no field has the focus: B, X, L, V tools; A, D add or remove; [ ] brush; Enter a handle; Escape;
+/** Keys, while no field has the focus: B, X, L, V tools; A, D add or remove; [ ] brush; Enter a handle; M its mirror image; Escape;
  * Ctrl+Z, Ctrl+Shift+Z, Ctrl+Y; F, W. With the focus on the stage arrows move the brush, and Space paints. */
 export function listenToChoosingKeys(keys: ChoosingKeys, signal: AbortSignal): void {
   document.addEventListener("keydown", (event) => handle(keys, event), { signal });
 }
 
 function handle(keys: ChoosingKeys, event: KeyboardEvent): void {
+  if (document.querySelector("dialog[open]")) return;
   if (event.target instanceof HTMLInputElement && event.target.type !== "range") return;
   const { choosing } = keys;
   if (choosing.isBusy && event.key !== "Escape") {
@@ -34,6 +36,8 @@ function handle(keys: ChoosingKeys, event: KeyboardEvent): void {
     if (!keys.tools.cancel()) choosing.clear();
   } else if (key === "enter" && !isPressable(event.target)) {
     keys.make();
+  } else if (key === "m") {
+    keys.mirror();
   } else if (!letter(keys, key)) {
     return;
   }

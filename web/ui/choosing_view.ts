@@ -3,6 +3,7 @@ import type { RestMesh } from "../engine/rest_mesh.ts";
 import { Choosing } from "./choosing.ts";
 import { HandleList } from "./choosing_handles.ts";
 import { listenToChoosingKeys } from "./choosing_keys.ts";
+import { HandleMirror } from "./choosing_mirror.ts";
 import { materialPanel, type Materials } from "./choosing_material.ts";
 import { ToolOverlay } from "./choosing_overlay.ts";
 import { PartList } from "./choosing_parts.ts";
@@ -11,7 +12,9 @@ import { selectPanel } from "./choosing_select_panel.ts";
 import { ChoosingTools } from "./choosing_tools.ts";
 import { choice, h, section, toggle } from "./dom.ts";
 import { occlusionToggle } from "./look_panel.ts";
-import type { Axis, Stage } from "./stage.ts";
+import type { Server } from "./server.ts";
+import { CHOOSING, shortcutSheet } from "./shortcuts.ts";
+import { VIEWS, type Axis, type Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import type { View, ViewOptions } from "./view.ts";
 
@@ -28,6 +31,7 @@ export function choosingView(
   sampling: Sampling,
   materials: Materials,
   below: readonly HTMLElement[],
+  server: Pick<Server, "ask">,
   onChoice: (choice: Choice) => void,
   onOther: () => void,
   options: ViewOptions,
@@ -49,9 +53,13 @@ export function choosingView(
   const overlay = new ToolOverlay();
   const tools = new ChoosingTools(choosing, overlay, stop.signal);
   const select = selectPanel(choosing, () => tools.refresh());
-  const handles = new HandleList(choosing, () => sampling);
+  const mirror = new HandleMirror(choosing, server);
+  const handles = new HandleList(choosing, () => sampling, mirror);
   const parts = new PartList(choosing);
-  listenToChoosingKeys({ choosing, tools, make: () => handles.make() }, stop.signal);
+  listenToChoosingKeys(
+    { choosing, tools, make: () => handles.make(), mirror: () => handles.mirror() },
+    stop.signal,
+  );
   stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
   stage.restored = () => surface.refresh();
@@ -63,6 +71,7 @@ export function choosingView(
   };
   choosing.changed();
 
+  const sheet = shortcutSheet(CHOOSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
   const inside = space.vertices - new Set(mesh.faces).size;
   const counted =
     `${space.vertices.toLocaleString("en")} vertices` +
@@ -78,7 +87,7 @@ export function choosingView(
       handles.element,
       materialPanel(sampling, materials, parts.element),
       samplingPanel(sampling, mesh.diagonal),
-      lookPanel(stage, surface, mesh, options.up, onOther),
+      lookPanel(stage, surface, mesh, options.up, onOther, sheet),
       ...below,
     ],
     script: {
@@ -101,13 +110,21 @@ export function choosingView(
       stage.restored = () => {};
       overlay.element.remove();
       handles.floating.remove();
+      mirror.dispose();
       surface.object.removeFromParent();
       surface.dispose();
     },
   };
 }
 
-function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis, onUp: () => void): HTMLElement {
+function lookPanel(
+  stage: Stage,
+  surface: Surface,
+  mesh: RestMesh,
+  up: Axis,
+  onUp: () => void,
+  sheet: HTMLElement,
+): HTMLElement {
   const ups = choice<Axis>(
     "Up",
     [
@@ -131,6 +148,6 @@ function lookPanel(stage: Stage, surface: Surface, mesh: RestMesh, up: Axis, onU
   return section(
     "Look",
     ups.element,
-    h("div", { className: "row" }, wires, occlusionToggle(stage, [surface]), frame),
+    h("div", { className: "row" }, wires, occlusionToggle(stage, [surface]), frame, sheet),
   );
 }

@@ -7,7 +7,7 @@ const STEP = 0.015; // of the diagonal
 const TURN = Math.PI / 36;
 
 /** Keys, while no field has the focus: 1-9 select, arrows move or turn, Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y, T, R, F, W, J,
- * K, P, L, S, Escape. In a drag Escape takes it back, and no other key does anything. */
+ * K, P, L, S, M, Escape. In a drag Escape takes it back, and no other key does anything. */
 export function listenToKeys(posing: Posing, signal: AbortSignal): void {
   const press = (button: string) => document.getElementById(button)?.click();
   document.addEventListener("keydown", (event) => actOn(event, posing, press), { signal });
@@ -50,6 +50,7 @@ const BUTTONS: Record<string, string> = {
   p: "play-keys",
   l: "own-axes",
   s: "snap",
+  m: "mirror-pose",
 };
 
 function letter(posing: Posing, key: string, press: (button: string) => void): boolean {

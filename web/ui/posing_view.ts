@@ -7,6 +7,7 @@ import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
 import type { Mode } from "./posing.ts";
+import { mirrorPose } from "./mirror_pose.ts";
 import { MotionFields } from "./motion_fields.ts";
 import { Polishing } from "./polishing.ts";
 import { listenToKeys } from "./posing_keys.ts";
@@ -78,6 +79,7 @@ export async function posingView(
     "Redo",
   );
   const reset = h("button", { type: "button", title: "R", onclick: () => posing.reset() }, "Reset");
+  const mirror = mirrorPose(posing);
   const figures = h("p", { className: "figures" });
   const fields = new MotionFields(model.diagonal, (motion) => {
     posing.wish(posing.selected, motion);
@@ -112,6 +114,7 @@ export async function posingView(
         modes.set(posing.mode),
         enable(undo, posing.canUndo),
         enable(redo, posing.canRedo),
+        mirror.update(),
       ].includes(true),
     () => hud.warn(warningOf(posing.session)),
     () => {
@@ -203,7 +206,8 @@ export async function posingView(
       figures,
       fields.element,
       pulls.element,
-      h("div", { className: "row" }, local, snap),
+      h("div", { className: "row" }, local, snap, mirror.button),
+      mirror.hint,
       h("div", { className: "row" }, undo, redo, reset),
       ...chooser(options.choose),
     ),

@@ -11,9 +11,20 @@ export const POSING: Shortcuts = [
   ["L, S", "the handle's own axes, snap"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["R", "reset"],
+  ["M", "mirror the pose"],
   ["J", "jiggle"],
   ["K, P", "add a key, play"],
   ["Escape", "cancel a drag, select nothing"],
+];
+export const CHOOSING: Shortcuts = [
+  ["B, X, L, V", "brush, box, lasso, look"],
+  ["A, D", "add or remove; Alt and Shift do it for one stroke"],
+  ["[, ]", "smaller or larger brush"],
+  ["Enter", "a handle of the selection"],
+  ["M", "the mirror image of a handle: where the focus is, or the last one"],
+  ["Arrows, Space", "with the focus on the stage: move the brush, paint"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
+  ["Escape", "cancel a stroke, clear the selection"],
 ];
 export const BLENDING: Shortcuts = [
   ["Space", "walk through the poses"],

@@ -119,8 +119,7 @@ export class Workspace {
     }
     this.#isBack = false;
     this.#mesh = readMesh(await this.#server.fetched(given.mesh));
-    this.#choice = choiceOf(given.handles, given.parts);
-    this.#sampling = samplingOf(given);
+    [this.#choice, this.#sampling] = [choiceOf(given.handles, given.parts), samplingOf(given)];
     [this.#model, this.#job, this.#isRunning] = [null, given.job ?? 0, given.is_running ?? false];
     this.#motions = motionsOf(location.hash); // after a reload
     this.#panel.clear();
@@ -157,6 +156,7 @@ export class Workspace {
         this.#sampling!,
         this.#given!,
         below,
+        this.#server,
         onChoice,
         () => this.#keepSoon(),
         { up, forceCpu: true, keepView: !isNew },

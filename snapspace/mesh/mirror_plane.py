@@ -1,0 +1,102 @@
+"""MirrorPlane: a plane, and the mirror images of positions, vectors, rotations and bounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from .arrays import FloatArray
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class MirrorPlane:
+    """The plane through a point, across a normal.
+
+    Parameters
+    ----------
+    normal : three numbers
+        Of any length but zero; kept as a unit vector.
+    point : three lengths, default the origin
+        Any point of the plane, in the mesh's length unit.
+    deviation : float, optional
+        How far a surface is from its mirror image: the root mean square distance, relative to the
+        surface's diagonal. `mirror_plane` measures it.
+
+    Raises
+    ------
+    ValueError
+        For a normal or a point that is not three finite numbers, or a normal of length zero.
+
+    Examples
+    --------
+    >>> MirrorPlane((1, 0, 0)).points([[1.0, 2.0, 3.0]])
+    array([[-1.,  2.,  3.]])
+    """
+
+    normal: Vector
+    point: Vector = (0.0, 0.0, 0.0)
+    deviation: float | None = None
+
+    def __post_init__(self) -> None:
+        normal, point = _three(self.normal, "normal"), _three(self.point, "point")
+        largest = np.abs(normal).max()
+        if largest == 0:
+            raise ValueError("MirrorPlane: the normal is zero; give the direction across the plane")
+        scaled = normal / largest
+        object.__setattr__(self, "normal", tuple((scaled / np.linalg.norm(scaled)).tolist()))
+        object.__setattr__(self, "point", tuple(point.tolist()))
+
+    @property
+    def content(self) -> dict[str, Any]:
+        """The plane as an entry of a problem file, {"normal", "point"}."""
+        return {"normal": list(self.normal), "point": list(self.point)}
+
+    @cached_property
+    def matrix(self) -> FloatArray:
+        """H = I - 2 n n^T, (3, 3), which mirrors vectors; H H = I."""
+        normal = np.array(self.normal)
+        return np.eye(3) - 2.0 * np.outer(normal, normal)
+
+    def points(self, points: ArrayLike) -> FloatArray:
+        """Mirror images of positions, (..., 3)."""
+        given, normal = np.asarray(points, np.float64), np.array(self.normal)
+        along = (given - np.array(self.point)) @ normal
+        return np.asarray(given - 2.0 * along[..., None] * normal)
+
+    def vectors(self, vectors: ArrayLike) -> FloatArray:
+        """Mirror images of translations, (..., 3)."""
+        return np.asarray(np.asarray(vectors, np.float64) @ self.matrix)
+
+    def rotations(self, rotations: ArrayLike) -> FloatArray:
+        """Mirror images H R H of rotations, (..., 3, 3).
+
+        Their axes are axial vectors: a rotation about the normal stays, one about an axis in the
+        plane is reversed.
+        """
+        return np.asarray(self.matrix @ np.asarray(rotations, np.float64) @ self.matrix)
+
+    def bounds(self, bounds: ArrayLike) -> FloatArray:
+        """The least half widths, (..., 3), of a box that has the mirror image of a centred box.
+
+        For translations up to `bounds`, and to first order for angles. Along the coordinate axes
+        nothing changes; across an oblique plane the box grows.
+        """
+        return np.asarray(np.asarray(bounds, np.float64) @ np.abs(self.matrix))
+
+
+def _three(values: ArrayLike, what: str) -> FloatArray:
+    try:
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        array = np.empty(0)
+    if array.shape != (3,) or not np.isfinite(array).all():
+        raise ValueError(
+            f"MirrorPlane: the {what} must be three finite numbers, got {values!r:.60}"
+        )
+    return array

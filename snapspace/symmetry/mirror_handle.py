@@ -1,0 +1,94 @@
+"""mirror_handle: a problem with the counterpart of a handle."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..mesh import MirrorPlane
+from ..problem import HandleBox, Handles, PosingProblem
+from .plane_search import mirror_plane
+from .region import mirrored_region
+from .side_names import mirrored_name
+
+#: A handle is its own mirror image if it shares more than this with it.
+MOST_COMMON = 0.5
+
+
+def mirror_handle(
+    problem: PosingProblem, name: str, *, plane: MirrorPlane | None = None
+) -> PosingProblem:
+    """The problem with the mirror image of a handle.
+
+    Parameters
+    ----------
+    problem : PosingProblem
+    name : str
+        The handle to mirror.
+    plane : MirrorPlane, default that of `mirror_plane`
+
+    Returns
+    -------
+    PosingProblem
+        The counterpart, with the name of `mirrored_name`, comes last. If there is a handle of that
+        name, its vertices and bounds are replaced. The counterpart has the vertices near the mirror
+        image (`mirrored_region`), except those of the mirrored handle; other handles lose them. Its
+        bounds are the mirrored ones: zero for a handle that is held at rest.
+
+    Raises
+    ------
+    ValueError
+        If there is no such handle, if it lies across the plane and so is its own mirror image, if
+        another handle would lose all its vertices, and as for `mirror_plane`.
+
+    Examples
+    --------
+    >>> problem = mirror_handle(problem, "left ear")
+    >>> problem.handles.names
+    ('feet', 'left ear', 'right ear')
+    """
+    mesh, handles = problem.mesh, problem.handles
+    region = handles[name].vertices
+    if plane is None:
+        plane = mirror_plane(mesh.vertices, mesh.surface)
+    other = mirrored_name(name)
+    image = checked_image(name, region, mirrored_region(mesh.vertices, mesh.surface, region, plane))
+    rows = {handle.name: row for handle, row in zip(handles, _rows(problem.domain), strict=True)}
+    rows[other] = np.concatenate([plane.bounds(part) for part in rows[name].reshape(2, 3)])
+    rows[other][3:] = np.minimum(rows[other][3:], np.pi)
+
+    regions = {handle.name: np.setdiff1d(handle.vertices, image) for handle in handles}
+    regions[other] = image
+    lost = [own for own, vertices in regions.items() if not len(vertices)]
+    if lost:
+        raise ValueError(
+            f"mirror_handle: the mirror image of '{name}' covers '{lost[0]}'; remove that handle, "
+            f"or name it '{other}', so that it is replaced"
+        )
+    chosen = Handles(list(regions.values()), names=list(regions))
+    return problem.with_handles(chosen, domain=_box([rows[own] for own in chosen.names[1:]]))
+
+
+def checked_image(name: str, region: np.ndarray, image: np.ndarray) -> np.ndarray:
+    """The vertices of a mirror image that are not in the region itself.
+
+    ValueError if the region has more than half of its image: it lies across the plane.
+    """
+    own = np.setdiff1d(image, region)
+    if len(image) - len(own) > MOST_COMMON * len(image):
+        raise ValueError(
+            f"'{name}' lies across the mirror plane and is its own mirror image, so it has no "
+            "counterpart; mirror a handle on one side"
+        )
+    return own
+
+
+def _rows(domain: HandleBox) -> np.ndarray:
+    """Bounds of all handles, (h, 6), of the first one too, zeros."""
+    return np.vstack([np.zeros(6), domain.bounds])
+
+
+def _box(rows: list[np.ndarray]) -> HandleBox:
+    """The box with these bounds, common to all handles where they are the same."""
+    bounds = np.array(rows)
+    same = bounds[0] if (bounds == bounds[0]).all() else bounds
+    return HandleBox(translation=same[..., :3], angle=same[..., 3:], moving=len(rows))

@@ -1,0 +1,54 @@
+"""mirrored_region: the part of a body that is the mirror image of another."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from ..mesh import MirrorPlane, compact_surface
+from ..mesh.closest_corners import closest_corners
+
+FloatArray = NDArray[np.float64]
+Indices = NDArray[np.int32]
+
+
+def mirrored_region(
+    vertices: FloatArray, faces: Indices, region: ArrayLike, plane: MirrorPlane
+) -> Indices:
+    """The vertices near the mirror image of a region.
+
+    Parameters
+    ----------
+    vertices : ndarray, (n, 3)
+    faces : ndarray of int, (f, 3)
+        The surface. Vertices without a face are inside.
+    region : array_like of int
+        Indices of vertices, at least one.
+    plane : MirrorPlane
+
+    Returns
+    -------
+    ndarray of int32
+        Sorted. A vertex of the surface belongs to it if the surface at its mirror image belongs to
+        the region: the corner next to the closest point decides, so that the two sides may have
+        different triangles. For a vertex inside, the vertex closest to its mirror image decides. A
+        region too small for the triangles of the other side becomes the corners closest to its
+        mirror image. Where vertices are mirror images of each other, mirroring twice gives the
+        region itself.
+    """
+    chosen = np.zeros(len(vertices), np.bool_)
+    chosen[np.asarray(region)] = True
+    shown = np.unique(faces)
+    inner = np.setdiff1d(np.arange(len(vertices)), shown)
+    surface = compact_surface(vertices, faces)
+
+    found = np.zeros_like(chosen)
+    found[shown] = chosen[shown[closest_corners(*surface, plane.points(vertices[shown]))]]
+    if inner.size:
+        _, nearest = cKDTree(vertices).query(plane.points(vertices[inner]))
+        found[inner] = chosen[nearest]
+    if not found.any():
+        images = plane.points(vertices[np.flatnonzero(chosen)])
+        found[shown[closest_corners(*surface, images)]] = True
+    return np.flatnonzero(found).astype(np.int32)

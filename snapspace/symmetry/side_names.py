@@ -1,0 +1,36 @@
+"""Names of the left and right side."""
+
+from __future__ import annotations
+
+import re
+
+# A word, at a change of case or next to anything but a letter: not the end of "bright".
+_WORD = re.compile(
+    r"(?<![A-Za-z])(left|right|Left|Right|LEFT|RIGHT)(?![a-z])|(?<=[a-z])(Left|Right)(?![a-z])"
+)
+_LETTER = re.compile(r"(?<=[._\- ])([lrLR])(?=$|\.\d+$)|^([lrLR])(?=[._\- ])")
+_OTHER = {"left": "right", "right": "left", "l": "r", "r": "l"}
+_SUFFIX = " mirrored"
+
+
+def mirrored_name(name: str) -> str:
+    """The name of the counterpart on the other side; twice gives the name itself.
+
+    The word left or right changes, in any of the usual cases: "left ear", "EarLeft", "LEFT_EAR". So
+    does the letter l or r at the end after one of . _ - or a space, or at the beginning before one:
+    "ear.L", "ear_r", "L_ear", and before a number as in "ear.L.001". Other names get or lose
+    " mirrored" at the end.
+    """
+    for pattern in (_WORD, _LETTER):
+        changed, count = pattern.subn(_other, name, count=1)
+        if count:
+            return changed
+    return name.removesuffix(_SUFFIX) if name.endswith(_SUFFIX) else name + _SUFFIX
+
+
+def _other(found: re.Match[str]) -> str:
+    side = found[0]
+    other = _OTHER[side.lower()]
+    if side.isupper():
+        return other.upper()
+    return other.capitalize() if side[0].isupper() else other

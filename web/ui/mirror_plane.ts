@@ -1,0 +1,79 @@
+import { DoubleSide, Matrix4, Mesh, MeshBasicMaterial, PlaneGeometry, Vector3 } from "three";
+
+import type { Vector } from "../engine/motion.ts";
+import type { RestMesh } from "../engine/rest_mesh.ts";
+import type { Stage } from "./stage.ts";
+
+const COLOR = 0x14b8ff;
+const UP: Record<RestMesh["up"], Vector3> = {
+  x: new Vector3(1, 0, 0),
+  y: new Vector3(0, 1, 0),
+  z: new Vector3(0, 0, 1),
+};
+
+/** A mirror plane on the stage, as a square through the middle of the shape. */
+export class MirrorPlane {
+  readonly #stage: Stage;
+  readonly #middle: Vector3;
+  readonly #up: Vector3;
+  readonly #square: Mesh<PlaneGeometry, MeshBasicMaterial>;
+
+  constructor(stage: Stage, { shape, diagonal, up }: RestMesh) {
+    this.#stage = stage;
+    this.#up = UP[up];
+    this.#middle = middleOf(shape);
+    const material = new MeshBasicMaterial({
+      color: COLOR,
+      side: DoubleSide,
+      transparent: true,
+      opacity: 0.22,
+      depthWrite: false,
+    });
+    this.#square = new Mesh(new PlaneGeometry(diagonal, diagonal), material);
+    this.#square.name = "mirror plane";
+    this.#square.visible = false;
+    stage.root.add(this.#square);
+  }
+
+  /** Shows the plane across a unit normal, through a point. */
+  put(normal: Vector, point: Vector): void {
+    const across = new Vector3(...normal);
+    const away = this.#middle
+      .clone()
+      .sub(new Vector3(...point))
+      .dot(across);
+    this.#square.position.copy(this.#middle).addScaledVector(across, -away);
+    const side = this.#up.clone().cross(across);
+    if (side.length() < 0.1) side.set(across.y, across.z, across.x).cross(across); // any along the plane
+    side.normalize();
+    const axes = new Matrix4().makeBasis(side, across.clone().cross(side), across);
+    this.#square.quaternion.setFromRotationMatrix(axes);
+    this.show(true);
+  }
+
+  show(on: boolean): void {
+    this.#square.visible = on;
+    this.#stage.draw();
+  }
+
+  dispose(): void {
+    this.#square.removeFromParent();
+    this.#square.geometry.dispose();
+    this.#square.material.dispose();
+  }
+}
+
+/** The middle of the box around a shape. */
+function middleOf(shape: Float32Array): Vector3 {
+  const [low, high] = [
+    new Vector3(Infinity, Infinity, Infinity),
+    new Vector3(-Infinity, -Infinity, -Infinity),
+  ];
+  const place = new Vector3();
+  for (let i = 0; i < shape.length; i += 3) {
+    place.fromArray(shape, i);
+    low.min(place);
+    high.max(place);
+  }
+  return low.add(high).divideScalar(2);
+}
