@@ -13,6 +13,8 @@ from .arrays import FloatArray
 
 Vector = tuple[float, float, float]
 
+_ROUNDING = 4.0 * np.finfo(float).eps
+
 
 @dataclass(frozen=True)
 class MirrorPlane:
@@ -48,8 +50,10 @@ class MirrorPlane:
         largest = np.abs(normal).max()
         if largest == 0:
             raise ValueError("MirrorPlane: the normal is zero; give the direction across the plane")
-        scaled = normal / largest
-        object.__setattr__(self, "normal", tuple((scaled / np.linalg.norm(scaled)).tolist()))
+        if abs(np.linalg.norm(normal) - 1.0) > _ROUNDING:  # else files give back the same plane
+            normal = normal / largest
+            normal = normal / np.linalg.norm(normal)
+        object.__setattr__(self, "normal", tuple(normal.tolist()))
         object.__setattr__(self, "point", tuple(point.tolist()))
 
     @property

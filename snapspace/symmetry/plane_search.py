@@ -21,7 +21,9 @@ _DENSE, _FEW, _FINE = 6000, 150, 1000  # points
 _DIRECTIONS, _APART = 120, np.cos(np.deg2rad(15))
 _STARTS = 5
 #: Nearly along an axis: rounded to it unless the deviation grows by more than a tenth.
-_NEAR_AXIS, _WORSE, _EXACT = np.cos(np.deg2rad(2)), 1.1, 1e-6
+_NEAR_AXIS, _WORSE, _EXACT, _ROUNDING = np.cos(np.deg2rad(2)), 1.1, 1e-6, 1e-12
+
+_STEPS = 10
 
 Plane = tuple[FloatArray, float]  # normal . x = offset
 
@@ -124,10 +126,11 @@ class _Search:
                 planes.append(self._rounded(self._refined(plane)))
         return min(planes, key=self._rank)
 
-    def _rank(self, plane: MirrorPlane) -> tuple[int, int]:
+    def _rank(self, plane: MirrorPlane) -> tuple[int, bool, int]:
         """Order of planes: deviations that differ by a tenth at least, then axes x, y and z."""
-        size = max(_deviation(plane), _EXACT)
-        return int(np.floor(np.log(size) / np.log(_WORSE))), int(np.argmax(np.abs(plane.normal)))
+        level = np.floor(np.log(max(_deviation(plane), _EXACT)) / np.log(_WORSE))
+        axis = int(np.argmax(np.abs(plane.normal)))
+        return int(level), abs(plane.normal[axis]) < 1.0, axis
 
     def _starts(self) -> list[FloatArray]:
         """The normals of the best planes through the centre, apart from each other."""
@@ -159,13 +162,13 @@ class _Search:
     def _refined(self, plane: Plane, *, turning: bool = True) -> MirrorPlane:
         """A plane improved by Gauss-Newton, as long as that helps; it may keep its normal."""
         best = self._measured(plane)
-        for _ in range(10):
+        for _ in range(_STEPS):
             plane = self._step(plane, turning=turning)
             found = self._measured(plane)
             gain = 1.0 - _deviation(found) / max(_deviation(best), 1e-300)
             if gain > 0:
                 best = found
-            if gain < 1e-3:
+            if gain < 1e-3 or _deviation(best) < _ROUNDING:
                 break
         return best
 

@@ -8,7 +8,7 @@ import re
 _WORD = re.compile(
     r"(?<![A-Za-z])(left|right|Left|Right|LEFT|RIGHT)(?![a-z])|(?<=[a-z])(Left|Right)(?![a-z])"
 )
-_LETTER = re.compile(r"(?<=[._\- ])([lrLR])(?=$|\.\d+$)|^([lrLR])(?=[._\- ])")
+_LETTER = re.compile(r"(?<=[._\- ])[lrLR](?=\Z|\.\d+\Z)|\A[lrLR](?=[._\- ]|\Z)")
 _OTHER = {"left": "right", "right": "left", "l": "r", "r": "l"}
 _SUFFIX = " mirrored"
 
@@ -21,11 +21,21 @@ def mirrored_name(name: str) -> str:
     "ear.L", "ear_r", "L_ear", and before a number as in "ear.L.001". Other names get or lose
     " mirrored" at the end.
     """
+    other = _on_other_side(name)
+    if other is not None:
+        return other
+    base = name.removesuffix(_SUFFIX)
+    was_mirrored = base not in ("", name) and _on_other_side(base) is None
+    return base if was_mirrored else name + _SUFFIX
+
+
+def _on_other_side(name: str) -> str | None:
+    """The name with its side changed; None if it names no side."""
     for pattern in (_WORD, _LETTER):
         changed, count = pattern.subn(_other, name, count=1)
         if count:
             return changed
-    return name.removesuffix(_SUFFIX) if name.endswith(_SUFFIX) else name + _SUFFIX
+    return None
 
 
 def _other(found: re.Match[str]) -> str:

@@ -25,12 +25,12 @@ export class HandleMirror {
     [this.#choosing, this.#server] = [choosing, server];
     this.#plane = new MirrorPlane(choosing.stage, choosing.mesh);
     const options = [
-      [FOUND, "Found"],
-      ["x", "x"],
-      ["y", "y"],
-      ["z", "z"],
+      [FOUND, "Plane found"],
+      ["x", "Across x"],
+      ["y", "Across y"],
+      ["z", "Across z"],
     ] as const;
-    const axes = choice<Across>("Direction across the mirror plane", options, FOUND, (across) => {
+    const axes = choice<Across>("Mirror plane", options, FOUND, (across) => {
       this.#across = across;
       void this.#again();
     });
@@ -38,10 +38,9 @@ export class HandleMirror {
     this.element = h(
       "div",
       { className: "mirror", hidden: true },
-      h("span", {}, "Mirror across"),
+      this.#hint,
       axes.element,
       h("div", { className: "row" }, show),
-      this.#hint,
     );
   }
 
@@ -83,6 +82,7 @@ export class HandleMirror {
   #say(text: string, isFault: boolean): void {
     this.#hint.textContent = `${text.charAt(0).toUpperCase()}${text.slice(1)}`.trim();
     this.#hint.classList.toggle("fault", isFault);
+    this.element.scrollIntoView({ block: "center" });
   }
 }
 

@@ -21,7 +21,7 @@ export const CHOOSING: Shortcuts = [
   ["A, D", "add or remove; Alt and Shift do it for one stroke"],
   ["[, ]", "smaller or larger brush"],
   ["Enter", "a handle of the selection"],
-  ["M", "the mirror image of a handle: where the focus is, or the last one"],
+  ["M", "mirror image of the focused or last handle"],
   ["Arrows, Space", "with the focus on the stage: move the brush, paint"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo"],
   ["Escape", "cancel a stroke, clear the selection"],

@@ -9,6 +9,7 @@ import {
   losses,
   orderedHandleMessages,
   nameFault,
+  withMirrored,
   withMore,
   withNewHandle,
   withoutHandle,
@@ -108,4 +109,16 @@ test("parts are made of the selection, beside handles and over each other", () =
   assert.equal(more.parts, both.parts);
   assert.equal(withMore(select(both, 30), two.handles[0].key).parts, both.parts);
   assert.equal(withNewPart(select(withoutPart(both, first.key), 1), 3).parts[1].name, "stiff 1");
+});
+
+test("the mirror image of a handle is added, or replaces the handle of its name", () => {
+  const [first, second] = two.handles;
+  const image = { name: "right", vertices: [8, 9, 3], moving: false, translation: null, angle: null };
+  const added = withMirrored(two, first.key, image)!;
+  assert.deepEqual(sets(added), { "handle 1": [1, 2, 3], "handle 2": [7], right: [8, 9] });
+  assert.equal(added.handles[2].moving, false);
+  const replaced = withMirrored(added, second.key, { ...image, vertices: [1, 5] })!;
+  assert.deepEqual(sets(replaced), { "handle 1": [2, 3], "handle 2": [7], right: [1, 5] });
+  assert.equal(replaced.handles[2].key, added.handles[2].key);
+  assert.equal(withMirrored(two, first.key, { ...image, vertices: [1, 2] }), null);
 });
