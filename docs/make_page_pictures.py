@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pictures_choosing import choosing, creature_served
+from pictures_choosing import choosing, creature_served, mirroring
 from pictures_creature import creature_problem
 from pictures_poses import creature_poses, many_creature_poses
 from playwright.sync_api import sync_playwright
@@ -117,6 +117,7 @@ def main() -> None:
             take(browser, path.as_uri(), theme, act, name)
         with creature_served(Path(folder), TETS) as address:
             take(browser, address, "light", choosing, "page-choosing")
+            take(browser, address, "light", mirroring, "page-mirror")
         browser.close()
 
 

@@ -1,4 +1,4 @@
-"""The page on which handles are chosen, with the creature: two are, and the tail is painted."""
+"""The page on which handles are chosen, with the creature."""
 
 from __future__ import annotations
 
@@ -42,6 +42,27 @@ def name_handle(page: Any, name: str) -> None:
     page.keyboard.press("Enter")
     page.keyboard.type(name)
     page.keyboard.press("Enter")
+
+
+#: Selects the ear and the horn on one side.
+ONE_SIDE = """(() => {
+  const { choosing } = snapspace;
+  const { shape } = choosing.mesh;
+  const vertices = Int32Array.from({ length: shape.length / 3 }, (_, vertex) => vertex);
+  const selected = vertices.filter((v) => shape[3 * v + 1] < -0.25 && shape[3 * v + 2] > 1.9);
+  choosing.go({ ...choosing.choice, selected });
+})()"""
+
+
+def mirroring(page: Any) -> None:
+    """The feet, an ear and its mirror image, with the plane between them."""
+    page.keyboard.press("x")
+    stroke(page, (360, 505), (660, 640))
+    name_handle(page, "feet")
+    page.evaluate(ONE_SIDE)
+    name_handle(page, "right ear")
+    page.keyboard.press("m")
+    page.get_by_text("is the mirror image of").wait_for()
 
 
 def choosing(page: Any) -> None:

@@ -7,8 +7,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.spatial import cKDTree
 
 from ..mesh import MirrorPlane, compact_surface
+from ..mesh.arrays import as_indices, as_points
 from ..mesh.closest_point import closest_on_triangles
 from ..mesh.tet_search import FaceSearch
+from ..mesh.validation import check_indices
 from .surface_points import even_directions, even_points
 
 FloatArray = NDArray[np.float64]
@@ -54,7 +56,7 @@ def mirror_plane(
     ------
     ValueError
         If no plane has a deviation of at most 0.015, for a surface without faces or without
-        extent, or an invalid normal.
+        extent, vertices that are not finite, an index out of range, or an invalid normal.
 
     Notes
     -----
@@ -68,7 +70,16 @@ def mirror_plane(
     >>> plane.normal, plane.deviation
     ((0.0, 1.0, 0.0), 3.2e-17)
     """
-    search = _Search(np.asarray(vertices, np.float64), np.asarray(faces, np.int32))
+    who = "mirror_plane"
+    points = as_points(vertices, who=who)
+    triangles = as_indices(faces, corners=3, who=who, what="faces")
+    if not len(triangles):
+        raise ValueError("mirror_plane: the surface has no faces")
+    check_indices(triangles, len(points), who=who, what="face")
+    if not np.isfinite(points).all():
+        row = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
+        raise ValueError(f"mirror_plane: vertex {row} is not finite; give finite coordinates")
+    search = _Search(points, triangles)
     if normal is not None:
         return search.across(np.asarray(MirrorPlane(normal).normal, np.float64))
     found = search.best()
@@ -97,8 +108,6 @@ class _Search:
     """The surface as points, and measures of planes."""
 
     def __init__(self, vertices: FloatArray, faces: Indices) -> None:
-        if faces.ndim != 2 or not len(faces):
-            raise ValueError("mirror_plane: the surface has no faces")
         points, own = compact_surface(vertices, faces)
         self._diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
         corners = points[own]

@@ -36,9 +36,13 @@ def mirrored_region(
         region too small for the triangles of the other side becomes the corners closest to its
         mirror image. Where vertices are mirror images of each other, mirroring twice gives the
         region itself.
+
+    Raises
+    ------
+    ValueError
+        For a region without vertices, or an index out of range.
     """
-    chosen = np.zeros(len(vertices), np.bool_)
-    chosen[np.asarray(region)] = True
+    chosen = _mask(region, len(vertices))
     shown = np.unique(faces)
     inner = np.setdiff1d(np.arange(len(vertices)), shown)
     surface = compact_surface(vertices, faces)
@@ -52,3 +56,18 @@ def mirrored_region(
         images = plane.points(vertices[np.flatnonzero(chosen)])
         found[shown[closest_corners(*surface, images)]] = True
     return np.flatnonzero(found).astype(np.int32)
+
+
+def _mask(region: ArrayLike, count: int) -> NDArray[np.bool_]:
+    indices = np.asarray(region)
+    if not indices.size or indices.dtype.kind not in "iu":
+        raise ValueError("mirrored_region: the region needs at least one vertex index")
+    wrong = indices[(indices < 0) | (indices >= count)]
+    if wrong.size:
+        raise ValueError(
+            f"mirrored_region: the region has vertex index {wrong[0]}, but there are {count} "
+            "vertices"
+        )
+    mask = np.zeros(count, np.bool_)
+    mask[indices] = True
+    return mask

@@ -39,6 +39,7 @@ def test_scripts_make_all_pictures_of_the_docs(monkeypatch: pytest.MonkeyPatch) 
     made = {f"{name}.png" for name in script["PICTURES"]}
     # by make_page_pictures.py, in a browser
     made |= {"page-posing.png", "page-blending.png", "page-many-poses.png", "page-choosing.png"}
+    made |= {"page-mirror.png"}
     made |= {"web-component.png"}  # by make_viewer_picture.py
     made |= {"blender-posed.png", "blender-blend.png"}  # by make_blender_pictures.py
     made |= {"path-lion.png"}  # by benchmarks/blend_strip.py, from meshes outside the project

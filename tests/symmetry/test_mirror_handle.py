@@ -90,6 +90,21 @@ def test_a_region_smaller_than_the_triangles_is_not_lost() -> None:
     assert len(image) == 1 and vertices[image[0], 0] == 1.0
 
 
+@pytest.mark.parametrize(
+    ("region", "message"),
+    [
+        ([], "needs at least one vertex index"),
+        ([0.5], "needs at least one vertex index"),
+        ([-1], "has vertex index -1, but there are 27 vertices"),
+        ([3, 27], "has vertex index 27"),
+    ],
+)
+def test_bad_regions_are_refused(region: list[float], message: str) -> None:
+    mesh = bar(2, 2, 2, length=1, width=1, height=1)
+    with pytest.raises(ValueError, match=f"mirrored_region: the region {message}"):
+        mirrored_region(mesh.vertices, mesh.surface, region, PLANE)
+
+
 def test_counterparts_need_the_same_place_and_are_mutual() -> None:
     problem = mirror_handle(one_ear(), "left ear", plane=PLANE)
     head = np.flatnonzero((body().vertices[:, 0] > 0.9) & (body().vertices[:, 2] > 1.2))

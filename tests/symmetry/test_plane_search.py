@@ -90,7 +90,10 @@ def test_with_a_normal_only_the_place_is_sought_and_nothing_is_refused() -> None
 @pytest.mark.parametrize(
     ("vertices", "faces", "options", "message"),
     [
-        (np.eye(3), np.empty((0, 3)), {}, "the surface has no faces"),
+        (np.eye(3), np.empty((0, 3), int), {}, "the surface has no faces"),
+        (np.eye(2), [[0, 1, 2]], {}, r"vertices must have shape \(n, 3\)"),
+        (np.eye(3) * np.nan, [[0, 1, 2]], {}, "vertex 0 is not finite"),
+        (np.eye(3), [[0, 1, 3]], {}, "mirror_plane: face 0 has vertex index 3"),
         (np.ones((3, 3)), [[0, 1, 2]], {}, "the surface has no extent"),
         (np.eye(3), [[0, 1, 2]], {"normal": (0, 0, 0)}, "the normal is zero"),
     ],

@@ -7,6 +7,7 @@ import type { Server } from "./server.ts";
 import type { Axis } from "./stage.ts";
 
 const FOUND = "found";
+const EXACT = 5e-5; // of the diagonal
 type Across = Axis | typeof FOUND;
 
 /** Makes mirror images of handles, and shows the plane: found by the server, or across an axis that the user chooses. */
@@ -74,8 +75,8 @@ export class HandleMirror {
     const next = withMirrored(before, handle.key, image);
     if (!next) return this.#say(`There is nothing left at the mirror image of ${handle.name}.`, true);
     const others = { ...before, handles: before.handles.filter(({ name }) => name !== image.name) };
-    const exact = deviation === null ? "" : ` The shape is ${percent(deviation)} from its mirror image.`;
-    this.#say(`${image.name} is the mirror image of ${handle.name}.${exact} ${losses(others, next)}`, false);
+    const made = `${image.name} is the mirror image of ${handle.name}.`;
+    this.#say([made, symmetry(deviation), losses(others, next)].join(" "), false);
     if (!this.#choosing.isBusy) this.#choosing.go(next);
   }
 
@@ -86,5 +87,9 @@ export class HandleMirror {
   }
 }
 
-const percent = (share: number) =>
-  share < 5e-5 ? "0 %" : `${Number((100 * share).toPrecision(2))} % of its size`;
+/** How symmetric the shape is; empty if that is not known. */
+function symmetry(deviation: number | null): string {
+  if (deviation === null) return "";
+  if (deviation < EXACT) return "The shape is symmetric.";
+  return `The shape and its mirror image differ by ${Number((100 * deviation).toPrecision(2))} % of its size.`;
+}
