@@ -32,7 +32,7 @@ def mirror_handle(
         The counterpart, with the name of `mirrored_name`, comes last. If there is a handle of that
         name, its vertices and bounds are replaced. The counterpart has the vertices near the mirror
         image (`mirrored_region`), except those of the mirrored handle; other handles lose them. Its
-        bounds are the mirrored ones: zero for a handle that is held at rest.
+        own bounds are mirrored, and the common ones stay: zero for a handle that is held at rest.
 
     Raises
     ------
@@ -53,8 +53,8 @@ def mirror_handle(
     other = mirrored_name(name)
     image = checked_image(name, region, mirrored_region(mesh.vertices, mesh.surface, region, plane))
     rows = {handle.name: row for handle, row in zip(handles, _rows(problem.domain), strict=True)}
-    rows[other] = np.concatenate([plane.bounds(part) for part in rows[name].reshape(2, 3)])
-    rows[other][3:] = np.minimum(rows[other][3:], np.pi)
+    is_common = (rows[name] == problem.domain.common.bounds[0]).all()
+    rows[other] = rows[name] if is_common else _mirrored(rows[name], plane)
 
     regions = {handle.name: np.setdiff1d(handle.vertices, image) for handle in handles}
     regions[other] = image
@@ -80,6 +80,11 @@ def checked_image(name: str, region: np.ndarray, image: np.ndarray) -> np.ndarra
             "counterpart; mirror a handle on one side"
         )
     return own
+
+
+def _mirrored(bounds: np.ndarray, plane: MirrorPlane) -> np.ndarray:
+    shift, angle = (plane.bounds(part) for part in bounds.reshape(2, 3))
+    return np.concatenate([shift, np.minimum(angle, np.pi)])
 
 
 def _rows(domain: HandleBox) -> np.ndarray:

@@ -23,7 +23,7 @@ _DENSE, _FEW, _FINE = 6000, 150, 1000  # points
 _DIRECTIONS, _APART = 120, np.cos(np.deg2rad(15))
 _STARTS = 5
 #: Nearly along an axis: rounded to it unless the deviation grows by more than a tenth.
-_NEAR_AXIS, _WORSE, _EXACT, _ROUNDING = np.cos(np.deg2rad(2)), 1.1, 1e-6, 1e-12
+_NEAR_AXIS, _WORSE, _EXACT, _ROUNDING = np.cos(np.deg2rad(2)), 1.1, 1e-5, 1e-12
 
 _STEPS = 10
 

@@ -52,21 +52,24 @@ def test_own_bounds_are_mirrored_and_a_held_handle_stays_held() -> None:
     ends = [x + y > 1.8, (x < 0.2) & (y < 0.3), (x > 0.8) & (y < 0.3)]
     handles = Handles(ends, names=["foot", "arm.L", "arm.R"])
     domain = HandleBox(
-        translation=[(0.1, 0.2, 0.3), (1, 1, 1)], angle=[(0.4, 0.5, 0.6), (1, 1, 1)], moving=2
+        translation=[(1, 1, 1), (0.1, 0.2, 0.3)], angle=[(1, 1, 1), (0.4, 0.5, 0.6)], moving=2
     )
     problem = PosingProblem(box, handles, domain=domain)
-    # the diagonal plane x = y swaps the axes x and y
     center = box.vertices.mean(axis=0)
+    across = mirror_handle(problem, "arm.R", plane=MirrorPlane((1, 0, 0), center))
+    assert across.handles.names == ("foot", "arm.L", "arm.R")
+    assert across.domain.bounds[0] == pytest.approx(domain.bounds[1])
+    # the plane x = y swaps these axes
     swapped = mirror_handle(problem, "arm.R", plane=MirrorPlane((1, -1, 0), center))
-    assert swapped.handles.names == ("foot", "arm.L", "arm.R")
-    assert swapped.domain.bounds[0] == pytest.approx(np.ones(6))
-    swapped = mirror_handle(problem, "arm.L", plane=MirrorPlane((1, 0, 0), center))
-    assert swapped.domain.bounds[-1] == pytest.approx(domain.bounds[0])
+    assert swapped.domain.bounds[0] == pytest.approx([0.2, 0.1, 0.3, 0.5, 0.4, 0.6])
     held = mirror_handle(problem, "foot", plane=MirrorPlane((0, 1, 0), center))
     assert held.handles.names[-1] == "foot mirrored"
     assert not held.domain.bounds[-1].any()
-    oblique = MirrorPlane((1, -1, 0), center).bounds([0.1, 0.2, 0.3])
-    assert oblique == pytest.approx([0.2, 0.1, 0.3])
+
+
+def test_common_bounds_stay_common_across_an_oblique_plane() -> None:
+    problem = mirror_handle(one_ear(), "left ear", plane=MirrorPlane((0.05, 1, 0)))
+    assert problem.domain.bounds.tolist() == [[0.2] * 3 + [0.6] * 3] * 2
 
 
 def test_regions_follow_the_surface_where_triangles_differ() -> None:
