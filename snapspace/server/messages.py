@@ -225,7 +225,7 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Mirror, Compute, Cancel, Save, Polish, Keep, Edit, Check)
+FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check, Mirror)
 FROM_SERVER = (
     Workspace,
     Chosen,
@@ -240,7 +240,7 @@ FROM_SERVER = (
 )
 PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, SurfaceFinding)
 
-PageMessage = Choose | Mirror | Compute | Cancel | Save | Polish | Keep | Edit | Check
+PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror
 ServerMessage = (
     Workspace
     | Chosen

@@ -74,17 +74,6 @@ export interface Choose {
   readonly parts?: readonly PartChoice[];
 }
 
-/** Page: make the mirror image of a handle. Answered by `Mirrored`, or `Failed`.
- *
- * axis : x, y or z, the direction across the plane; null: the plane is found
- */
-export interface Mirror {
-  readonly type: "mirror";
-  readonly request: number;
-  readonly handle: HandleChoice;
-  readonly axis?: string | null;
-}
-
 /** Page: compute models for the handles chosen last. A running computation is replaced.
  *
  * Answered by `Progress` and `Model`, the last one `final`; or `Cancelled`, or `Failed`.
@@ -180,4 +169,15 @@ export interface Check {
   readonly request: number;
 }
 
-export type PageMessage = Choose | Mirror | Compute | Cancel | Save | Polish | Keep | Edit | Check;
+/** Page: make the mirror image of a handle. Answered by `Mirrored`, or `Failed`.
+ *
+ * axis : x, y or z, the direction across the plane; null: the plane is found
+ */
+export interface Mirror {
+  readonly type: "mirror";
+  readonly request: number;
+  readonly handle: HandleChoice;
+  readonly axis?: string | null;
+}
+
+export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror;
