@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -14,6 +14,7 @@ from snapspace import MirrorPlane
 from snapspace.problem import rotation_matrix
 
 seeds = st.integers(0, 10_000)
+few = settings(max_examples=20)
 
 
 def plane_of(seed: int) -> tuple[MirrorPlane, np.random.Generator]:
@@ -22,6 +23,7 @@ def plane_of(seed: int) -> tuple[MirrorPlane, np.random.Generator]:
     return MirrorPlane(normal, point), rng
 
 
+@few
 @given(seeds)
 def test_mirroring_twice_is_the_identity(seed: int) -> None:
     plane, rng = plane_of(seed)
@@ -34,6 +36,7 @@ def test_mirroring_twice_is_the_identity(seed: int) -> None:
         np.testing.assert_allclose(mirror(mirror(values)), values, atol=1e-13)
 
 
+@few
 @given(seeds)
 def test_points_of_the_plane_stay_and_the_middle_of_a_pair_is_on_it(seed: int) -> None:
     plane, rng = plane_of(seed)
@@ -44,6 +47,7 @@ def test_points_of_the_plane_stay_and_the_middle_of_a_pair_is_on_it(seed: int) -
     assert np.linalg.norm(plane.normal) == pytest.approx(1, abs=1e-15)
 
 
+@few
 @given(seeds)
 def test_a_mirrored_motion_moves_mirror_images(seed: int) -> None:
     """S (R v + t) = (H R H) (S v) + H t for a plane through the origin."""
@@ -64,6 +68,7 @@ def test_a_turn_about_the_normal_stays_and_others_are_reversed() -> None:
     np.testing.assert_allclose(mirrored, expected, atol=1e-15)
 
 
+@few
 @given(seeds)
 def test_mirrored_bounds_hold_the_mirror_image_of_the_box_and_no_less(seed: int) -> None:
     plane, rng = plane_of(seed)

@@ -52,8 +52,7 @@ def test_both_sides_may_have_different_triangles() -> None:
 
 
 def test_of_several_planes_that_across_x_is_taken() -> None:
-    points, faces = surface(bar(6, 2, 2, length=3, width=1, height=1))
-    assert mirror_plane(points, faces).normal == (1, 0, 0)
+    points, faces = surface(bar(6, 2, 3, length=3, width=1, height=1.5))
     assert mirror_plane(points[:, [1, 2, 0]], faces).normal == (1, 0, 0)
 
 
