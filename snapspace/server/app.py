@@ -12,7 +12,7 @@ from starlette.requests import Request
 from starlette.responses import HTMLResponse, PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
 
-from ..page import packed, page_with_packed
+from ..page import packed
 from ..page.page_file import PLACE, page_html
 from .guard import Guard
 from .hosts import LOCAL
@@ -29,7 +29,7 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
     """Serves requests that `Guard` lets through.
 
     GET / is the page, /model the model of the settings, and /mesh/ID/NUMBER and /model/ID/NUMBER
-    are those of a workspace. /page and /page/ID/NUMBER are pages in one file with these models.
+    are those of a workspace. /page/ID/NUMBER is a page in one file that was asked for.
     POST /mesh takes uploads, and /live is the websocket, see `messages`.
 
     Parameters
@@ -49,13 +49,12 @@ def page_app(settings: ServerSettings, *, hosts: Container[str] = LOCAL) -> Star
         Route("/mesh", upload_endpoint(settings, workspaces), methods=["POST"]),
         Route("/mesh/{id}/{number:int}", _content(workspaces, Workspace.mesh_content)),
         Route("/model/{id}/{number:int}", _content(workspaces, Workspace.model_content)),
-        Route("/page/{id}/{number:int}", _content(workspaces, _page_content)),
+        Route("/page/{id}/{number:int}", _content(workspaces, Workspace.page_content)),
         WebSocketRoute("/live", live_endpoint(workspaces)),
     ]
     if settings.model is not None:
         content = packed(settings.model, name=settings.title, up=settings.up)
-        page = page_with_packed(content).encode()
-        routes += [Route("/model", _bytes(content)), Route("/page", _bytes(page))]
+        routes.append(Route("/model", _bytes(content)))
     return Starlette(
         routes=routes, middleware=[Middleware(Guard, token=settings.token, hosts=hosts)]
     )
@@ -77,11 +76,6 @@ def _page(settings: ServerSettings) -> Handler:
         return HTMLResponse(page)
 
     return show_page
-
-
-def _page_content(workspace: Workspace, number: int) -> bytes | None:
-    content = workspace.model_content(number)
-    return None if content is None else page_with_packed(content).encode()
 
 
 def _bytes(content: bytes) -> Handler:

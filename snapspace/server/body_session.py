@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..accurate import MOTIONS
 from ..material import DEFAULT_MATERIAL, Material
 from ..page.painted import KEY
 from ..problem import PosingProblem, usual_stiffness
@@ -16,12 +18,14 @@ from . import messages
 from .body import Body
 from .computation import Computation, Publish
 from .computation_queue import ComputationQueue
+from .extension import Extension, extension_of
 from .materials import chosen_material, shown_poisson
 from .mirroring import Mirroring
-from .models import Models
+from .models import Models, usable_start
 from .parts import FloatArray, part_factors, with_factors
+from .recorded import recorded
 from .reporter import Reporter
-from .saving import SavedFiles, checked_timeline
+from .saving import SavedFiles
 from .selection import (
     ANGLE,
     TRANSLATION_SHARE,
@@ -56,6 +60,8 @@ class BodySession:
         self._selection: Selection | None = None
         self._painted: tuple[messages.HandleChoice, ...] = ()  # if the body has its own surface
         self.mirroring = Mirroring(body)
+        self._order: messages.Compute | None = None  # the last one
+        self._extension: Extension | None = None  # until there is a model of it
         surface = body.surface
         self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
         if body.problem is not None:
@@ -104,6 +110,7 @@ class BodySession:
         material = with_factors(self._material, factors)
         problem = self._make_problem(selection, self._stiffness, material)
         self._selection, self._factors, self._painted = selection, factors, painted
+        self._extension = None
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
 
     def computation(
@@ -134,19 +141,74 @@ class BodySession:
             surface=self.body.surface,
             publish=publish,
         )
-        self._problem, self._material = problem, material
+        self._problem, self._material, self._order = problem, material, order
         return computation
 
-    def painted_owners(self, model: PosingModel) -> NDArray[np.int32] | None:
+    def extend(self, order: messages.Extend, model: PosingModel) -> Extension:
+        """The model's problem with further handles; ValueError as for `with_points`.
+
+        They count as chosen once there is a model of it.
+        """
+        self._settle()
+        painted = {handle.name: handle.vertices for handle in self._painted}
+        self._extension = extension_of(
+            model.problem,
+            order.points,
+            model.surface,
+            regions=self._regions,
+            painted=painted or self.body.painted,
+        )
+        return self._extension
+
+    def extended_computation(
+        self,
+        order: messages.Extend,
+        problem: PosingProblem,
+        model: PosingModel,
+        *,
+        queue: ComputationQueue,
+        report: Reporter,
+        publish: Publish,
+    ) -> Computation:
+        """The computation that `Extend` asks for, which starts from a model of fewer handles."""
+        usual = messages.Compute(
+            request=0, target_error=_target_of(model), seed=0, stiffness=problem.stiffness
+        )
+        return Computation(
+            problem,
+            replace(self._order or usual, request=order.request),
+            queue=queue,
+            solved=self._solved,
+            report=report,
+            start=usable_start(model, problem),
+            surface=self.body.surface,
+            publish=publish,
+        )
+
+    def _settle(self) -> None:
+        """Chooses the handles of the last extension, if there is a model of it."""
+        extended = self._extension
+        if extended is None or not self._models.is_of(extended.problem):
+            return
+        self._extension, self._problem = None, extended.problem
+        self._selection = Selection(extended.problem.handles, extended.problem.domain)
+        self._painted = () if self._regions is None else extended.shown
+
+    def painted_owners(
+        self, model: PosingModel, painted: Sequence[messages.HandleChoice] | None = None
+    ) -> NDArray[np.int32] | None:
         """The handle painted at each surface vertex, (s,), -1 for none.
+
+        painted : the handles as they were painted, by default those chosen last
 
         None if the body has no surface of its own, or if other handles have been chosen since.
         """
         names = list(model.problem.handles.names)
-        if self._regions is None or sorted(h.name for h in self._painted) != sorted(names):
+        painted = self._painted if painted is None else painted
+        if self._regions is None or sorted(h.name for h in painted) != sorted(names):
             return None
         owners = np.full(self._regions.surface_vertices, -1, np.int32)
-        for handle in self._painted:
+        for handle in painted:
             owners[list(handle.vertices)] = names.index(handle.name)
         return owners
 
@@ -155,30 +217,30 @@ class BodySession:
 
         ValueError if there are no handles, for an invalid timeline, and as for `SavedFiles.save`.
         """
+        self._settle()
         if self._selection is None:
             raise ValueError("save: no handles are chosen, so there is nothing to save")
         material = with_factors(self._material, self._factors)
         problem = self._make_problem(self._selection, self._stiffness, material)
-        newest = self._models.newest
-        model = None if newest is None else newest.model
-        if model is not None:
-            record: dict[str, Any] = {} if order.up is None else {"up": order.up}
-            record |= (
-                {} if order.timeline is None else {"timeline": checked_timeline(order.timeline)}
-            )
-            plane = self.mirroring.plane
-            record |= {} if plane is None else {"mirror": plane.content}
-            model = replace(model, provenance=model.provenance | record | self._record_of(model))
+        model = self._models.current
         return self._saved.save(
             self.body,
             problem,
-            model,
+            None if model is None else self.recorded(model, order),
             name=order.name,
             request=order.request,
             up=order.up,
             mirror=self.mirroring.plane,
             painted=self._painted,
         )
+
+    def recorded(self, model: ReducedModel, order: messages.Save | messages.Export) -> ReducedModel:
+        """The model as files and pages keep it; ValueError for an invalid timeline."""
+        self._settle()
+        others, plane = self._record_of(model), self.mirroring.plane
+        if plane is not None:
+            others["mirror"] = plane.content
+        return recorded(model, up=order.up, timeline=order.timeline, **others)
 
     def _record_of(self, model: ReducedModel) -> dict[str, Any]:
         """How the handles of a model were painted, for its record; empty if others are chosen."""
@@ -207,3 +269,10 @@ class BodySession:
         return selection.problem(
             self.body.mesh, material=material, stiffness=stiffness, known=self._problem
         )
+
+
+def _target_of(model: PosingModel) -> float:
+    """The target of `accurate_model` that the model was made for, or the usual one."""
+    record = model.provenance.get("accurate")
+    target = record.get("target_error") if isinstance(record, dict) else None
+    return target if isinstance(target, float) and target > 0 else MOTIONS.target

@@ -64,6 +64,21 @@ class HandleMotion:
 
 
 @dataclass(frozen=True, kw_only=True)
+class KeptPoint:
+    """A point of the surface that the page pulled and keeps.
+
+    name : unique among the handles
+    corners, shares : three vertices of the surface in the packed model, and their shares of it
+    reach : where it was pulled to from rest, per axis, as seen from the first handle
+    """
+
+    name: str
+    corners: tuple[int, ...]
+    shares: Vector
+    reach: Vector
+
+
+@dataclass(frozen=True, kw_only=True)
 class SurfaceFinding:
     """Something about a surface that its user should know, see `doctor.Finding`."""
 

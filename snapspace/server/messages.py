@@ -12,13 +12,26 @@ from dataclasses import dataclass
 from .message_parts import (
     HandleChoice,
     HandleMotion,
+    KeptPoint,
     MaterialChoice,
     Matrix,
     PartChoice,
     SurfaceFinding,
     Vector,
 )
-from .page_messages import Cancel, Check, Choose, Compute, Edit, Keep, Mirror, Polish, Save
+from .page_messages import (
+    Cancel,
+    Check,
+    Choose,
+    Compute,
+    Edit,
+    Export,
+    Extend,
+    Keep,
+    Mirror,
+    Polish,
+    Save,
+)
 
 __all__ = [
     "Cancel",
@@ -26,9 +39,12 @@ __all__ = [
     "Choose",
     "Compute",
     "Edit",
+    "Export",
+    "Extend",
     "HandleChoice",
     "HandleMotion",
     "Keep",
+    "KeptPoint",
     "MaterialChoice",
     "Matrix",
     "Mirror",
@@ -60,8 +76,9 @@ class Workspace:
     folder : folder where `Save` writes, to show to the reader
     upload_limit : largest upload, in bytes
     own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
-    job : request of the last `Compute` for this mesh; 0 if there was none
+    job : request of the last `Compute` or `Extend` for this mesh; 0 if there was none
     is_running : whether that is still running
+    has_model : whether a model of that follows
     has_surface : whether the mesh came as a surface, so that `Check` examines it
     """
 
@@ -87,6 +104,7 @@ class Workspace:
     own_poisson: float | None = None
     job: int = 0
     is_running: bool = False
+    has_model: bool = False
     has_surface: bool = False
 
 
@@ -117,7 +135,7 @@ class Mirrored:
 class Progress:
     """Server: progress of the work, at most ten times a second.
 
-    request : that of the `Compute`; 0 while a mesh is read or filled
+    request : that of the `Compute` or `Extend`; 0 while a mesh is read or filled
     stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
         filling exactly, snapshots, subspace, energy
     done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
@@ -145,6 +163,7 @@ class Model:
     dimension, samples : dimension and number of samples of this model
     error : median relative error at motions not used for training; null if not known yet
     seconds : time since the computation began
+    kept : the points of an `Extend`, which are handles of this model
     """
 
     request: int
@@ -155,6 +174,7 @@ class Model:
     error: float | None
     final: bool
     seconds: float
+    kept: tuple[HandleChoice, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,6 +214,17 @@ class Saved:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Exported:
+    """Server: the page in one file is ready.
+
+    address : its address, valid until the next `Exported`
+    """
+
+    request: int
+    address: str
+
+
+@dataclass(frozen=True, kw_only=True)
 class Checked:
     """Server: what is wrong with the surface.
 
@@ -225,7 +256,7 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check, Mirror)
+FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check, Mirror, Extend, Export)
 FROM_SERVER = (
     Workspace,
     Chosen,
@@ -235,12 +266,15 @@ FROM_SERVER = (
     Cancelled,
     Failed,
     Saved,
+    Exported,
     Polished,
     Checked,
 )
-PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, SurfaceFinding)
+PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, KeptPoint, SurfaceFinding)
 
-PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror
+PageMessage = (
+    Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror | Extend | Export
+)
 ServerMessage = (
     Workspace
     | Chosen
@@ -250,6 +284,7 @@ ServerMessage = (
     | Cancelled
     | Failed
     | Saved
+    | Exported
     | Polished
     | Checked
 )

@@ -24,9 +24,15 @@ class Models:
     """The last `KEPT` models.
 
     Numbers count from 1 and continue after `clear`, so that an address never means another model.
+
+    Parameters
+    ----------
+    own : ReducedModel, optional
+        The model that the page begins with, number 0.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, own: ReducedModel | None = None) -> None:
+        self._own = own
         self._kept: tuple[KeptModel, ...] = ()
         self._count = 0
 
@@ -41,25 +47,44 @@ class Models:
         """The last model; None before the first."""
         return self._kept[-1] if self._kept else None
 
+    @property
+    def current(self) -> ReducedModel | None:
+        """The newest model, or the one that the page began with; None if there is neither."""
+        return self._own if self.newest is None else self.newest.model
+
     def is_of(self, problem: Problem) -> bool:
         """Whether the newest model is of this problem."""
         return self.newest is not None and self.newest.model.problem is problem
 
     def start(self, problem: PosingProblem) -> PosingModel | None:
-        """The newest model if it has other handles and `growing_models` can start from it.
-
-        None for materials whose solutions are not unique, such as St.Venant-Kirchhoff.
-        """
-        model = None if self.newest is None else self.newest.model
-        if not isinstance(model, PosingModel) or problem.material.exact_degree == 4:
-            return None
-        other = model.problem.fingerprint != problem.fingerprint
-        return model if other and len(model.training_parameters) else None
+        """The newest model if it has other handles and `growing_models` can start from it."""
+        return None if self.newest is None else usable_start(self.newest.model, problem)
 
     def find(self, number: int) -> KeptModel | None:
         """The model of a number; None if it is no longer kept."""
         return next((kept for kept in self._kept if kept.number == number), None)
 
+    def get(self, number: int) -> ReducedModel:
+        """The model of a number; ValueError if it is no longer kept."""
+        if number == 0 and self._own is not None:
+            return self._own
+        kept = self.find(number)
+        if kept is None:
+            raise ValueError(f"model {number} is no longer kept; use the newest one")
+        return kept.model
+
     def clear(self) -> None:
-        """Drops all models."""
-        self._kept = ()
+        """Drops all models, also the one that the page began with."""
+        self._own, self._kept = None, ()
+
+
+def usable_start(model: ReducedModel, problem: PosingProblem) -> PosingModel | None:
+    """The model if it has other handles than the problem and `growing_models` can start from it.
+
+    None for materials whose solutions are not unique, such as St.Venant-Kirchhoff, and for models
+    that were made without snapshots.
+    """
+    if not isinstance(model, PosingModel) or problem.material.exact_degree == 4:
+        return None
+    other = model.problem.fingerprint != problem.fingerprint
+    return model if other and len(model.training_parameters) > 1 else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .message_parts import HandleChoice, HandleMotion, PartChoice, Vector
+from .message_parts import HandleChoice, HandleMotion, KeptPoint, PartChoice, Vector
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,6 +57,18 @@ class Compute:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Extend:
+    """Page: compute models with points as further handles. A running computation is replaced.
+
+    The first one is made from the newest model, or from the server's own. Answered as `Compute` is,
+    with its target, number of samples and seed.
+    """
+
+    request: int
+    points: tuple[KeptPoint, ...]
+
+
+@dataclass(frozen=True, kw_only=True)
 class Cancel:
     """Page: stop filling or computing. Models and solved samples are kept.
 
@@ -76,6 +88,19 @@ class Save:
 
     request: int
     name: str | None = None
+    up: str | None = None
+    timeline: str | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Export:
+    """Page: make a page in one file with a model, as `Save` would keep it. Answered by `Exported`.
+
+    model : its number; up, timeline : as in `Save`
+    """
+
+    request: int
+    model: int
     up: str | None = None
     timeline: str | None = None
 

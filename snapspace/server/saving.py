@@ -11,14 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ..disk.atomic_file import atomic_file
 from ..mesh import EmbeddedSurface, MirrorPlane, TetMesh, write_surface, write_tets
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel
-from ..timeline import timeline_of
 from .body import PROBLEM_SUFFIX, Body
 from .messages import HandleChoice, Saved
 
@@ -194,14 +192,3 @@ def _stamp(path: Path) -> tuple[int, int]:
     """Inode and modification time, which change when a file is written."""
     state = path.stat()
     return state.st_ino, state.st_mtime_ns
-
-
-def checked_timeline(text: str) -> dict[str, Any]:
-    """The content of a timeline file, parsed; ValueError unless it is one of a posing model."""
-    try:
-        content: dict[str, Any] = json.loads(text)
-    except (ValueError, RecursionError):
-        raise ValueError("save: the timeline is no JSON") from None
-    if timeline_of(content).kind != "posing":
-        raise ValueError("save: the timeline is of weights, but the model has handles")
-    return content

@@ -10,21 +10,21 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
 
-from ..accurate import Growth
 from ..model_file import SUFFIX, load
-from ..page import packed
-from ..reduction import PosingModel, ReducedModel
 from ..stopping import check_stop
 from . import messages
 from .body import Body, mesh_body, model_body
 from .body_session import BodySession
 from .empty_workspace import empty_workspace
+from .exports import Exports
 from .job import Job
 from .mesh_pack import packed_mesh
 from .models import Models
 from .page_channel import PageChannel
+from .page_computation import page_computation
 from .polish_jobs import PolishJobs
 from .reader_text import text_of
+from .recorded import recorded
 from .reporter import Reporter
 from .settings import ServerSettings
 from .shared_body import Stage
@@ -54,7 +54,8 @@ class Workspace:
         self._polishes = PolishJobs(self._emit, self._fail)
         self._session: BodySession | None = None
         self._meshes = 0  # number of meshes opened so far; the last one is current
-        self._models = Models()
+        self._models = Models(settings.model)
+        self._exports = Exports()
         self._draft: messages.Keep | None = None
         self._job = 0  # request of the last `Compute`
         self._closed = False
@@ -81,12 +82,15 @@ class Workspace:
 
     def _present(self, begun: messages.Workspace) -> messages.Workspace:
         """The workspace with the page's choices since."""
-        if begun.kind != "mesh":
-            return begun
-        job = self._work is not None and self._work.running
-        now = replace(begun, job=self._job, is_running=job and self._job > 0)
+        running = self._work is not None and self._work.running
+        now = replace(
+            begun,
+            job=self._job,
+            is_running=running and self._job > 0,
+            has_model=self._models.newest is not None,
+        )
         kept = self._draft
-        if kept is None:
+        if kept is None or begun.kind != "mesh":
             return now
         chosen = {field.name: getattr(kept, field.name) for field in fields(kept)}
         del chosen["request"]
@@ -137,6 +141,10 @@ class Workspace:
         kept = self._models.find(number)
         return None if kept is None else kept.content
 
+    def page_content(self, number: int) -> bytes | None:
+        """The page in one file of an address; None if it is no longer kept."""
+        return self._exports.content(number)
+
     def close(self) -> None:
         """Stops all work, and drops its results."""
         with self._lock:
@@ -151,19 +159,22 @@ class Workspace:
             self._work = self._check = self._session = None
             self._polishes = PolishJobs(self._emit, self._fail)
             self._models.clear()
+            self._exports.clear()
 
     def _answer(self, message: messages.PageMessage) -> None:
         if isinstance(message, messages.Choose):
             self._emit(self._current_session().choose(message))
         elif isinstance(message, messages.Mirror):
             self._emit(self._current_session().mirroring.mirrored(message))
-        elif isinstance(message, messages.Compute):
+        elif isinstance(message, messages.Compute | messages.Extend):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
             self._end_work()
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
             self._emit(self._current_session().save(message))
+        elif isinstance(message, messages.Export):
+            self._export(message)
         elif isinstance(message, messages.Keep):
             self._draft = message
         elif isinstance(message, messages.Edit):
@@ -171,25 +182,37 @@ class Workspace:
         elif isinstance(message, messages.Check):
             self._check_surface(self._current_session().body, message.request)
         else:
-            self._polishes.begin(message, self._model(message.model))
+            self._polishes.begin(message, self._models.get(message.model))
 
     def _current_session(self) -> BodySession:
         if self._session is None:
             raise ValueError("there is no mesh yet; drop one on the page, or wait until it is read")
         return self._session
 
-    def _model(self, number: int) -> ReducedModel:
-        if number == 0 and self._settings.model is not None:
-            return self._settings.model
-        kept = self._models.find(number)
-        if kept is None:
-            raise ValueError(f"model {number} is no longer kept; use the newest one")
-        return kept.model
+    def _own_session(self) -> BodySession:
+        """The session of the model that the page began with, to improve it."""
+        model, title, folder = self._models.current, self._settings.title, self._settings.folder
+        if model is not None:
+            self._session = BodySession(model_body(model, name=title, folder=folder), self._models)
+        return self._current_session()
+
+    def _export(self, order: messages.Export) -> None:
+        """Keeps a model with what was made on its page, until that page fetches it."""
+        order, session = replace(order, up=order.up or self._up), self._session
+        model, name = self._models.get(order.model), self._settings.title
+        if session is None:
+            model = recorded(model, up=order.up, timeline=order.timeline)
+        else:
+            model, name = session.recorded(model, order), session.body.name
+        self._exports.keep(order.model, name, model)
+        address = self._address("page", order.model)
+        self._emit(messages.Exported(request=order.request, address=address))
 
     def _edit(self) -> None:
-        model, title, folder = self._settings.model, self._settings.title, self._settings.folder
-        if model is None:
+        own, title, folder = self._settings.model, self._settings.title, self._settings.folder
+        if own is None:
             raise ValueError("this server has no model of its own; choose handles on its mesh")
+        model = self._models.current or own
         self._open(lambda stage: model_body(model, name=title, folder=folder), title)
 
     def _check_surface(self, body: Body, request: int) -> None:
@@ -201,50 +224,27 @@ class Workspace:
             failed=lambda error: self._fail(request, error),
         )
 
-    def _compute(self, order: messages.Compute) -> None:
-        session, request = self._current_session(), order.request
-
-        def publish(growth: Growth, seconds: float) -> None:
-            if growth.step is None and self._models.is_of(growth.model.problem):
-                return  # computed again: the page's model is better than a first one
-            newest = self._models.newest
-            before = newest.model if newest and self._models.is_of(growth.model.problem) else None
-            assert before is None or isinstance(before, PosingModel)
-            name, up = session.body.name, self._up
-            assert isinstance(growth.model, PosingModel)
-            owners = session.painted_owners(growth.model)
-            mirror = session.mirroring.about(growth.model)
-            content = packed(
-                growth.model, name=name, up=up, before=before, owners=owners, mirror=mirror
-            )
-            check_stop()
-            number = self._models.add(growth.model, content)
-            self._send(
-                messages.Model(
-                    request=request,
-                    number=number,
-                    address=self._address("model", number),
-                    dimension=growth.model.dimension,
-                    samples=len(growth.snapshots),
-                    error=None if growth.step is None else growth.step.error,
-                    final=growth.final,
-                    seconds=seconds,
-                )
-            )
-
-        report = Reporter(self._send, request)
-        computation = session.computation(
-            order, queue=self._settings.queue, report=report, publish=publish
+    def _compute(self, order: messages.Compute | messages.Extend) -> None:
+        begins = isinstance(order, messages.Extend) and self._session is None
+        computation = page_computation(
+            order,
+            self._own_session() if begins else self._current_session(),
+            self._models,
+            queue=self._settings.queue,
+            up=lambda: self._up,
+            address=lambda number: self._address("model", number),
+            send=self._send,
         )
         self._end_work()
-        self._job = request
-        self._work = Job(computation.run, failed=lambda error: self._fail(request, error))
+        self._job = order.request
+        self._work = Job(computation.run, failed=lambda error: self._fail(order.request, error))
 
     def _open(self, make: Callable[[Stage], Body], name: str) -> None:
         """Begins to make a body; the page is sent a workspace once it is ready."""
         self._end_work()
         self._session = None
         self._models.clear()
+        self._exports.clear()
         self._draft, self._job = None, 0
         self._meshes += 1
         number, empty = self._meshes, self._empty()

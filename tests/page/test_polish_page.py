@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from .frames import session_at_frame
 from .pages import OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
+from .test_take_away import taken
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +34,15 @@ def polished(page: Page, model: PosingModel) -> np.ndarray:
     assert f"moved {100 * found.moved_relative:.2g}"[:7] in page.text(".hud")
     shape: np.ndarray = found.vertices[model.problem.mesh.surface_vertices]
     return shape
+
+
+def test_the_page_in_one_file_has_the_keys(address: str, opened: OpenPage, tmp_path: Path) -> None:
+    page = opened(address)
+    page.drag(page.run("snapspace.handle(1)"), 30, -20)
+    page.page.get_by_role("button", name="Add key").click()
+    alone = opened(taken(page, "HTML", tmp_path).as_uri())
+    (state,) = alone.run("snapspace.timeline.timeline.keys.map((key) => key.state)")
+    np.testing.assert_allclose(state[1]["translation"], page.motions()[1][1], atol=1e-6)
 
 
 def test_a_released_handle_is_polished(

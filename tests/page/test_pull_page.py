@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from snapspace import PosingModel
-
 from .pages import OpenPage, Page
 
 
@@ -28,10 +26,12 @@ def window(page: Page, vertex: int) -> tuple[float, float]:
     return x, y
 
 
-def free_vertex(page: Page, model: PosingModel) -> int:
+def free_vertex(page: Page) -> int:
     """A vertex of no handle, in front, that a press finds nowhere near a handle's marker."""
     owners = np.asarray(page.run("Array.from(snapspace.session.model.handleOfVertex)"))
-    markers = np.array([page.run(f"snapspace.handle({k})") for k in range(3)])
+    markers = np.array(
+        page.run("snapspace.session.model.handles.map((_, k) => snapspace.handle(k))")
+    )
     shown = page.shown()
     camera = np.asarray(
         page.run(
@@ -56,13 +56,11 @@ def press_pull(page: Page, start: tuple[float, float], by: tuple[float, float]) 
     return mouse
 
 
-def test_a_point_follows_the_pointer_and_goes_back(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage
-) -> None:
+def test_a_point_follows_the_pointer_and_goes_back(posing_page: Path, opened: OpenPage) -> None:
     page = opened(posing_page.as_uri())
     page.page.get_by_role("radio", name="Pull").click()
     rest, motions = page.shown(), page.motions()
-    vertex = free_vertex(page, posing_model)
+    vertex = free_vertex(page)
     start = window(page, vertex)
     mouse = press_pull(page, start, (25, -35))
     pulled = page.shown()
@@ -77,14 +75,12 @@ def test_a_point_follows_the_pointer_and_goes_back(
     np.testing.assert_allclose(page.shown(), rest, atol=1e-4 * np.abs(pulled - rest).max() + 1e-5)
 
 
-def test_kept_points_hold_while_handles_move(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage
-) -> None:
+def test_kept_points_hold_while_handles_move(posing_page: Path, opened: OpenPage) -> None:
     page = opened(posing_page.as_uri())
     page.page.get_by_role("radio", name="Pull").click()
     page.page.get_by_role("button", name="Keep points").click()
     rest = page.shown()
-    vertex = free_vertex(page, posing_model)
+    vertex = free_vertex(page)
     press_pull(page, window(page, vertex), (20, -25)).up()
     page.settle()
     kept = page.shown()

@@ -29,6 +29,7 @@ from .choosing_page import (
 from .pages import SECONDS, OpenPage, Page
 from .serving import served
 from .test_posing_page import assert_shown
+from .test_take_away import taken
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +65,9 @@ def compute(page: Page, most_samples: int = 20, percent: float = 50.0) -> None:
     press(page, "Compute")
 
 
-def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path) -> None:
+def test_it_is_dragged_while_it_improves_and_saved(
+    page: Page, bar_folder: Path, opened: OpenPage, tmp_path: Path
+) -> None:
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
@@ -90,12 +93,16 @@ def test_it_is_dragged_while_it_improves_and_saved(page: Page, bar_folder: Path)
     page.settle()
     assert np.linalg.norm(np.subtract(page.motions()[1][1], before)) > 0.01
     wait_for_text(page, "#panel", "Done in")
-    with page.page.expect_download() as waiting:
-        press(page, "Export HTML")
-    content = Path(waiting.value.path()).read_text(encoding="utf-8")
-    assert waiting.value.suggested_filename == "bar.html"
-    assert '<script id="model"' in content and 'snapspace-server" content' not in content
     press(page, "Add key")
+    press(page, "Choose handles")  # keys are there in all views
+    exported = taken(page, "Export HTML", tmp_path)
+    press(page, "Pose")
+    page.wait("snapspace.kind === 'posing'")
+    content = exported.read_text(encoding="utf-8")
+    assert exported.name == "bar.html" and 'snapspace-server" content' not in content
+    alone = opened(exported.as_uri())
+    (state,) = alone.run("snapspace.timeline.timeline.keys.map((key) => key.state)")
+    np.testing.assert_allclose(state[1]["translation"], page.motions()[1][1], atol=1e-6)
     press(page, "Save")
     wait_for_text(page, "#panel", f"in {bar_folder}")
 

@@ -93,9 +93,16 @@ def test_models_arrive_and_improve(server: Running, page: Page) -> None:
         assert len(server.fetch(model["address"])["space_scales"]) == model["dimension"]
     stages = [message["stage"] for message in page.seen if message["type"] == "progress"]
     assert list(dict.fromkeys(stages)) == ["snapshots", "subspace", "energy"]
-    address = models[1]["address"].split("?")[0].replace("model", "page", 1)
+    page.send("export", request=6, model=2)
+    address = page.take("exported", "failed")["address"].split("?")[0]
     status, text = server.get(f"/{address}")
     assert status == 200 and text.count(b'<script id="model"') == 1, "a page with the model"
+    status, text = server.get(f"/{address[:-1]}1")
+    assert status == 404, "only the last one is kept"
+    page.send("export", request=7, model=9)
+    assert "no longer kept" in page.take("exported", "failed")["message"]
+    page.send("export", request=8, model=2, timeline="{")
+    assert "no JSON" in page.take("exported", "failed")["message"]
     status, text = server.get(f"/model/{models[0]['address'].split('/')[1]}/9")
     assert status == 404 and b"no longer kept" in text
 

@@ -35,6 +35,14 @@ POLISH = m.Polish(
     handles=(m.HandleMotion(rotation=(1, 0, 0, 0, 1, 0, 0, 0, 1), translation=(0.0, 0.0, 1.0)),),
     q=(0.5, -0.25),
 )
+EXTEND = m.Extend(
+    request=5,
+    points=(
+        m.KeptPoint(
+            name="point 1", corners=(1, 2, 3), shares=(0.5, 0.25, 0.25), reach=(0.0, 1.0, 0.0)
+        ),
+    ),
+)
 
 
 @pytest.mark.parametrize(
@@ -46,6 +54,8 @@ POLISH = m.Polish(
         m.Compute(request=1, target_error=0.1, most_samples=30, seed=0, stiffness=3.0),
         m.Cancel(request=2),
         m.Save(request=2, name="a name"),
+        m.Export(request=2, model=3, up="y", timeline="{}"),
+        EXTEND,
     ],
     ids=lambda message: type(message).__name__,
 )

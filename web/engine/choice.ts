@@ -70,6 +70,14 @@ export function withNewHandle(choice: Choice): Choice {
   return { ...choice, selected: NOTHING, handles: [...others, own] };
 }
 
+/** Adds handles that a server made of kept points, unless it has them. */
+export function withKept(choice: Choice, kept: readonly HandleChoice[]): Choice {
+  const names = new Set(choice.handles.map(({ name }) => name));
+  const next = 1 + Math.max(-1, ...choice.handles.map(({ key }) => key));
+  const more = choiceOf(kept.filter(({ name }) => !names.has(name))).handles;
+  return { ...choice, handles: [...choice.handles, ...more.map((own) => ({ ...own, key: next + own.key }))] };
+}
+
 /** Adds the selected vertices to a handle. */
 export function withMore(choice: Choice, key: number): Choice {
   const { selected, handles } = choice;

@@ -22,8 +22,9 @@ export type * from "./page_messages.ts";
  * folder : folder where `Save` writes, to show to the reader
  * upload_limit : largest upload, in bytes
  * own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
- * job : request of the last `Compute` for this mesh; 0 if there was none
+ * job : request of the last `Compute` or `Extend` for this mesh; 0 if there was none
  * is_running : whether that is still running
+ * has_model : whether a model of that follows
  * has_surface : whether the mesh came as a surface, so that `Check` examines it
  */
 export interface Workspace {
@@ -50,6 +51,7 @@ export interface Workspace {
   readonly own_poisson?: number | null;
   readonly job?: number;
   readonly is_running?: boolean;
+  readonly has_model?: boolean;
   readonly has_surface?: boolean;
 }
 
@@ -76,7 +78,7 @@ export interface Mirrored {
 
 /** Server: progress of the work, at most ten times a second.
  *
- * request : that of the `Compute`; 0 while a mesh is read or filled
+ * request : that of the `Compute` or `Extend`; 0 while a mesh is read or filled
  * stage : waiting (for another computation), reading, filling, filling inside, filling boundary,
  *     filling exactly, snapshots, subspace, energy
  * done, total : numbers of samples, points or steps; 0 of 0 where nothing is counted, and a number
@@ -103,6 +105,7 @@ export interface Progress {
  * dimension, samples : dimension and number of samples of this model
  * error : median relative error at motions not used for training; null if not known yet
  * seconds : time since the computation began
+ * kept : the points of an `Extend`, which are handles of this model
  */
 export interface Model {
   readonly type: "model";
@@ -114,6 +117,7 @@ export interface Model {
   readonly error: number | null;
   readonly final: boolean;
   readonly seconds: number;
+  readonly kept?: readonly HandleChoice[];
 }
 
 /** Server: nothing is running any more.
@@ -149,6 +153,16 @@ export interface Saved {
   readonly surface: string | null;
 }
 
+/** Server: the page in one file is ready.
+ *
+ * address : its address, valid until the next `Exported`
+ */
+export interface Exported {
+  readonly type: "exported";
+  readonly request: number;
+  readonly address: string;
+}
+
 /** Server: a report on the shape in the preceding binary frame.
  *
  * moved : root mean square over the body, relative to the displacement from rest; null if at rest
@@ -180,4 +194,14 @@ export interface Checked {
 }
 
 export type ServerMessage =
-  Workspace | Chosen | Mirrored | Progress | Model | Cancelled | Failed | Saved | Polished | Checked;
+  | Workspace
+  | Chosen
+  | Mirrored
+  | Progress
+  | Model
+  | Cancelled
+  | Failed
+  | Saved
+  | Exported
+  | Polished
+  | Checked;

@@ -65,6 +65,14 @@ export function product(A: Rotation, B: Rotation): Rotation {
   ];
 }
 
+/** The motion about a centre at rest that is a rigid map. */
+export function motionOfMap(
+  { rotation, shift }: RigidMap,
+  center: Vector,
+): { rotation: Rotation; translation: Vector } {
+  return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
+}
+
 /** Difference of two vectors. */
 export function minus(a: Vector, b: Vector): Vector {
   return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];

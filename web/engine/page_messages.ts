@@ -50,6 +50,19 @@ export interface HandleMotion {
   readonly translation: Vector;
 }
 
+/** A point of the surface that the page pulled and keeps.
+ *
+ * name : unique among the handles
+ * corners, shares : three vertices of the surface in the packed model, and their shares of it
+ * reach : where it was pulled to from rest, per axis, as seen from the first handle
+ */
+export interface KeptPoint {
+  readonly name: string;
+  readonly corners: readonly number[];
+  readonly shares: Vector;
+  readonly reach: Vector;
+}
+
 /** Something about a surface that its user should know, see `doctor.Finding`. */
 export interface SurfaceFinding {
   readonly name: string;
@@ -180,4 +193,28 @@ export interface Mirror {
   readonly axis?: string | null;
 }
 
-export type PageMessage = Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror;
+/** Page: compute models with points as further handles. A running computation is replaced.
+ *
+ * The first one is made from the newest model, or from the server's own. Answered as `Compute` is,
+ * with its target, number of samples and seed.
+ */
+export interface Extend {
+  readonly type: "extend";
+  readonly request: number;
+  readonly points: readonly KeptPoint[];
+}
+
+/** Page: make a page in one file with a model, as `Save` would keep it. Answered by `Exported`.
+ *
+ * model : its number; up, timeline : as in `Save`
+ */
+export interface Export {
+  readonly type: "export";
+  readonly request: number;
+  readonly model: number;
+  readonly up?: string | null;
+  readonly timeline?: string | null;
+}
+
+export type PageMessage =
+  Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror | Extend | Export;

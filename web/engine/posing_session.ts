@@ -6,6 +6,7 @@ import {
   eulerOfRotation,
   IDENTITY,
   minus,
+  motionOfMap,
   plus,
   product,
   rotationOfEuler,
@@ -74,9 +75,7 @@ export class PosingSession {
   }
 
   motion(handle: number): Motion {
-    const { rotation, shift } = this.#maps[handle];
-    const { center } = this.model.handles[handle];
-    return { rotation, translation: minus(plus(applied(rotation, center), shift), center) };
+    return motionOfMap(this.#maps[handle], this.model.handles[handle].center);
   }
 
   /** The requested position of the handle's centroid. */

@@ -83,6 +83,11 @@ export function placeOf(model: PosingModel, point: PulledPoint, q: ArrayLike<num
   return plus(applied(map.rotation, [place[0], place[1], place[2]]), map.shift);
 }
 
+/** Where a point is pulled to from rest, as seen from the first handle, which is carried by a rigid map. */
+export function reachOf(model: PosingModel, point: PulledPoint, { rotation, shift }: RigidMap): Vector {
+  return minus(applied(transposed(rotation), minus(point.target, shift)), restOf(model, point));
+}
+
 /** The model with points as further handles. */
 function withPoints(model: PosingModel, points: readonly PulledPoint[]): PosingModel {
   const { dimension: d, handles } = model;

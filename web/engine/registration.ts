@@ -1,6 +1,8 @@
 /** Rigid registration in the M-norm, M the consistent mass matrix of linear tets (Horn 1987, Closed-form
  * solution of absolute orientation using unit quaternions). */
 
+import { applied, minus, type RigidMap, type Vector } from "./motion.ts";
+
 type Rows = Float64Array; // x0 y0 z0 x1 ...
 
 /** The shape after the proper rigid motion that brings it closest to `onto`. */
@@ -24,6 +26,23 @@ export function registered(shape: Rows, onto: Rows, tets: Int32Array, volumes: F
         R[3 * a + 2] * (shape[i + 2] - from[2]) +
         to[a];
   return moved;
+}
+
+/** The rigid map that brings points closest to others, by the sum of squared distances; the identity without points. */
+export function closestMap(from: readonly Vector[], to: readonly Vector[]): RigidMap {
+  const [middle, goal] = [mean(from), mean(to)];
+  const covariance = new Float64Array(9);
+  from.forEach((point, k) => {
+    const [x, y] = [minus(point, middle), minus(to[k], goal)];
+    for (let a = 0; a < 3; a++) for (let b = 0; b < 3; b++) covariance[3 * a + b] += x[a] * y[b];
+  });
+  const rotation = bestRotation(covariance);
+  return { rotation, shift: minus(goal, applied(rotation, middle)) };
+}
+
+function mean(points: readonly Vector[]): Vector {
+  const at = (axis: number) => points.reduce((sum, point) => sum + point[axis], 0) / (points.length || 1);
+  return [at(0), at(1), at(2)];
 }
 
 function massTimes(shape: Rows, tets: Int32Array, volumes: Float64Array): Rows {

@@ -177,7 +177,7 @@ export async function blendingView(
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
-    page: options.page,
+    page: options.page && (() => options.page!(timeline.content)),
     shape: () => elastic.shown(),
     bare: () => () => {},
   });

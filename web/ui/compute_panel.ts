@@ -68,11 +68,18 @@ export class ComputePanel {
   }
 
   /** Shows what can be done now. */
-  update(now: { isChoosing: boolean; lacking: string; isRunning: boolean; hasModel: boolean }): void {
+  update(now: {
+    isChoosing: boolean;
+    lacking: string;
+    isRunning: boolean;
+    hasModel: boolean;
+    /** Whether the view has its own button that leads to the handles. */
+    hasChooser: boolean;
+  }): void {
     this.#compute.hidden = !now.isChoosing || now.isRunning;
     this.#compute.disabled = now.lacking !== "";
     this.#cancel.hidden = !now.isRunning;
-    this.#choose.hidden = now.isChoosing;
+    this.#choose.hidden = now.isChoosing || now.hasChooser;
     this.#pose.hidden = !now.isChoosing || !now.hasModel;
     this.element.classList.toggle("stays", now.isChoosing);
     this.#compute.title = now.lacking;
@@ -127,6 +134,10 @@ export class ComputePanel {
       .map((path) => path.replace(/^.*[\\/]/, ""));
     this.#savedText.textContent = `Saved ${names.join(", ")} in ${folder}.`;
     this.#savedText.hidden = false;
+  }
+
+  get hasFault(): boolean {
+    return !this.#fault.hidden;
   }
 
   fault(text: string): void {

@@ -1,8 +1,19 @@
-import type { Model as Sent } from "../engine/messages.ts";
 import { downloadFrom } from "./download.ts";
+import type { Server } from "./server.ts";
+import type { Axis } from "./stage.ts";
 
-/** Gives the user a page in one file with a model of a workspace; the server makes it. */
-export function exportPage({ sent, content }: { sent: Sent; content: { name: string } }): void {
-  const address = new URL(sent.address.replace(/^model/, "page"), location.href);
-  downloadFrom(address, `${content.name}.html`);
+/** What a page in one file is made of. */
+export interface ExportedPage {
+  /** The model, by its number at the server. */
+  readonly model: number;
+  readonly name: string;
+  readonly up: Axis;
+  /** Content of a timeline file; null without keys. */
+  readonly timeline: string | null;
+}
+
+/** Gives the user a page in one file; the server makes it. Refused if it cannot. */
+export async function exportPage(server: Server, { name, model, up, timeline }: ExportedPage): Promise<void> {
+  const { message } = await server.ask({ type: "export", model, up, timeline }, "exported");
+  downloadFrom(new URL(message.address, location.href), `${name || "snapspace"}.html`);
 }

@@ -1,7 +1,7 @@
 import { glbFile, objFile, plyFile } from "../engine/index.ts";
 import { currentAddress } from "./address.ts";
 import { h, section, toggle } from "./dom.ts";
-import { download, downloadFrom } from "./download.ts";
+import { download } from "./download.ts";
 import { gifTurntable, Recording, webmTurntable } from "./film.ts";
 import { paper, png, type Size } from "./picture.ts";
 import type { Stage } from "./stage.ts";
@@ -12,8 +12,8 @@ export interface Exported {
   readonly faces: Uint32Array<ArrayBuffer>;
   /** The shape as it is shown, in the model's coordinates. */
   shape(): Float32Array<ArrayBuffer>;
-  /** Where the server has a page in one file with the model, if there is a server. */
-  readonly page?: URL | undefined;
+  /** Gives the user a page in one file with the model, if there is a server. */
+  readonly page?: (() => Promise<void>) | undefined;
   /** Hides what is no part of the shape, such as a gizmo; the result shows it again. */
   bare(): () => void;
 }
@@ -62,9 +62,7 @@ export class ExportPanel {
     this.#seconds.value = String(SECONDS);
     this.#seconds.setAttribute("aria-label", "Seconds of a turn");
     const { page } = exported;
-    const whole = page
-      ? [button("HTML", "A page in one file, which needs no server", () => this.#page(page))]
-      : [];
+    const whole = page ? [button("HTML", "A page in one file, which needs no server", page)] : [];
     if (!Recording.isPossible) for (const film of [this.#record, this.#films[0]]) film.disabled = true;
     this.element = section(
       "Take away",
@@ -136,10 +134,6 @@ export class ExportPanel {
     const recording = this.#recording;
     this.#recording = null;
     if (recording) this.#give(await recording.stop(), "webm", "video/webm");
-  }
-
-  #page(address: URL): void {
-    downloadFrom(address, `${this.#exported.name || "snapspace"}.html`);
   }
 
   async #turn(kind: "webm" | "gif"): Promise<void> {

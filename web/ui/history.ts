@@ -16,6 +16,18 @@ export class History<T> {
     return this.#future.length > 0;
   }
 
+  /** All states, from the first one to the last that was undone. */
+  get states(): T[] {
+    return [...this.#past, this.#present, ...this.#future.toReversed()];
+  }
+
+  /** Every state becomes another one; the steps stay. */
+  map(other: (state: T) => T): void {
+    this.#past = this.#past.map(other);
+    this.#future = this.#future.map(other);
+    this.#present = other(this.#present);
+  }
+
   push(state: T): void {
     this.#past.push(this.#present);
     if (this.#past.length > 200) this.#past.shift();

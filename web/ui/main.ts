@@ -2,11 +2,13 @@ import { readModel } from "../engine/index.ts";
 import { blendOf, motionsOf } from "./address.ts";
 import { blendingView } from "./blending_view.ts";
 import { filePicker, h } from "./dom.ts";
+import { exportPage } from "./export_page.ts";
 import { polishAt } from "./polishing.ts";
 import { posingView } from "./posing_view.ts";
 import { readable, AppShell } from "./app_shell.ts";
 import { Server } from "./server.ts";
 import { fromFile, ownModel, type Source } from "./source.ts";
+import type { View } from "./view.ts";
 import { Workspace } from "./workspace.ts";
 import "./panel.css";
 import "./style.css";
@@ -22,6 +24,9 @@ declare global {
   }
 }
 
+/** Why kept points stay soft in a model that was opened in the page of a server. */
+const NOT_SERVED =
+  "Kept points stay soft: the server does not have this model. Start `snapspace view` with its file, and it can improve it.";
 const started = performance.now();
 window.snapspace = {};
 document.getElementById("panel")!.append(h("footer", {}, opener()));
@@ -32,7 +37,8 @@ const workspace = server && new Workspace(shell, server);
 /** Shows a model in place of the present one. If it cannot be read, a message says so and the present one stays. */
 async function open(source: () => Promise<Source | null>, file?: File): Promise<void> {
   try {
-    if (source === ownModel && workspace && ((await workspace.begun)?.kind ?? "model") !== "model") return;
+    const begun = source === ownModel && workspace ? await workspace.begun : null;
+    if (begun && (begun.kind !== "model" || begun.has_model)) return; // the workspace shows something else
     const given = await source();
     if (!given) {
       if (!workspace) shell.showMessage("Drop a .snapspace file here, or open one.", false, opener());
@@ -44,19 +50,26 @@ async function open(source: () => Promise<Source | null>, file?: File): Promise<
     const { stage } = shell;
     shell.clear();
     // the server knows its own model, as number 0, and no file that was dropped here
-    const polish = server && source === ownModel ? polishAt(server, () => 0) : undefined;
+    const isOwn = source === ownModel;
+    const polish = server && isOwn ? polishAt(server, () => workspace!.shownModel) : undefined;
     const choose = workspace && (() => (file ? void workspace.upload(file) : workspace.edit()));
     // the address is of the page's own model
-    const hash = source === ownModel ? location.hash : "";
+    const hash = isOwn ? location.hash : "";
     const options = { ...shell.options(model.up), polish, motions: motionsOf(hash), blend: blendOf(hash) };
     if (choose) Object.assign(options, { choose });
-    if (server && source === ownModel) Object.assign(options, { page: server.address("page", {}) });
-    const view =
-      model.kind === "posing"
-        ? await posingView(stage, module, model, options)
-        : await blendingView(stage, module, model, options);
-    const now = performance.now();
-    shell.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
+    if (workspace) Object.assign(options, { improving: isOwn ? workspace.improving : NOT_SERVED });
+    if (server && isOwn) {
+      const page = (timeline: string | null) =>
+        exportPage(server, { model: workspace!.shownModel, name: model.name, up: stage.up, timeline });
+      Object.assign(options, { page });
+    }
+    const show = (view: View) => {
+      const now = performance.now();
+      shell.show(view, model.name, { openedIn: now - arrived, startedIn: now - started });
+    };
+    if (model.kind === "interpolation") return show(await blendingView(stage, module, model, options));
+    const view = await posingView(stage, module, model, options);
+    show(workspace && isOwn ? workspace.adopt(model, view) : view);
   } catch (error) {
     shell.showMessage(readable(error), true, opener());
   }

@@ -67,9 +67,10 @@ export class Polishing {
     this.#posing.stage.draw();
   }
 
-  /** Asks for the present frame; the answer is dropped if another frame came meanwhile. */
+  /** Asks for the present frame; the answer is dropped if another frame came meanwhile. Pulled shapes stay as they are:
+   * the server knows nothing of soft points. */
   async ask(): Promise<void> {
-    if (!this.#isOn) return;
+    if (!this.#isOn || this.#posing.pulled) return;
     const ticket = ++this.#ticket;
     const { session, surface, stage } = this.#posing;
     const handles = session.model.handles.map((_, handle) => session.motion(handle) as HandleMotion);

@@ -1,4 +1,5 @@
 import type { Dynamics, FrameReport, Motion, PosingSession } from "../engine/index.ts";
+import type { Continued } from "./continued.ts";
 import { HandlePaint } from "./handle_paint.ts";
 import { carriedOver, ShapeTransition } from "./shape_transition.ts";
 import { History } from "./history.ts";
@@ -39,7 +40,7 @@ export class Posing {
   /** What pulls on points of the surface. */
   pulled: Pulled | null = null;
   #isPulledAnew = false;
-  #history: History<Motion[]>;
+  #history: History<readonly Motion[]>;
   /** Where the handles were when the present drag began. */
   #beforeDrag: readonly Motion[] | null = null;
   #isCancelled = false;
@@ -72,17 +73,21 @@ export class Posing {
     return this.#surface;
   }
 
-  /** Continues with another model of the same handles: their motions, the selection and the history stay.
+  /** Continues with another model of these handles and perhaps more: motions, selection and history stay.
    *
    * The shape moves smoothly to that of the new model, if this knows the modes of the one before. */
-  replace(session: PosingSession, surface: Surface): void {
-    const [motions, shown, { fromBefore }] = [this.motions, this.#shown, session.model];
-    [this.#session, this.#surface] = [session, surface];
+  replace(session: PosingSession, surface: Surface, { motions, all, pulled }: Continued): void {
+    const [shown, { fromBefore }] = [this.#shown, session.model];
+    [this.#session, this.#surface, this.pulled] = [session, surface, pulled];
+    this.#history.map(all);
+    this.#beforeDrag &&= all(this.#beforeDrag);
     this.#paint = new HandlePaint(surface, session.model, this.#selected);
     this.#transition = null;
-    this.#solved(approach(session, motions));
+    const own = approach(session, motions);
+    if (pulled) pulled.q = session.q;
+    this.#solved(own);
     if (fromBefore?.length === session.q.length * shown.length) {
-      this.#transition = new ShapeTransition(carriedOver(fromBefore, shown), session.q);
+      this.#transition = new ShapeTransition(carriedOver(fromBefore, shown), pulled?.q ?? session.q);
       this.#show();
     }
     this.onChange();
@@ -98,6 +103,11 @@ export class Posing {
   /** Motions of all handles, from rest. */
   get motions(): Motion[] {
     return this.session.model.handles.map((_, handle) => this.session.motion(handle));
+  }
+
+  /** Motions in all steps of the history. */
+  get states(): readonly (readonly Motion[])[] {
+    return this.#history.states;
   }
 
   get selected(): number {
@@ -200,7 +210,7 @@ export class Posing {
   cancelDrag(): void {
     const before = this.#beforeDrag;
     if (!before || this.#isCancelled) return;
-    this.#goTo([...before]);
+    this.#goTo(before);
     this.#isCancelled = true;
     this.onCancelled();
   }
@@ -263,7 +273,7 @@ export class Posing {
     return report;
   }
 
-  #goTo(motions: Motion[] | undefined): void {
+  #goTo(motions: readonly Motion[] | undefined): void {
     if (!motions) return;
     this.#wishes.clear();
     this.#solved(this.session.moveAll(new Map(motions.entries())));

@@ -1,4 +1,5 @@
 import { PosingSession, type PosingModel } from "../engine/index.ts";
+import type { Continued } from "./continued.ts";
 import { OwnLook } from "./own_look.ts";
 import { Posing } from "./posing.ts";
 import { HandleDrag } from "./posing_drag.ts";
@@ -66,14 +67,14 @@ export class PosingScene {
     this.#marks.update();
   }
 
-  /** A session of a better model of the same handles; null if the scene is disposed meanwhile. */
+  /** A session of a better model; null if the scene is disposed meanwhile. */
   async sessionOf(better: PosingModel): Promise<PosingSession | null> {
     const session = await PosingSession.create(this.#module, better);
     return this.#stop.signal.aborted ? null : session;
   }
 
   /** Continues with that session, also in the middle of a drag. */
-  replace(session: PosingSession): void {
+  replace(session: PosingSession, continued: Continued): void {
     const { stage } = this.posing;
     const [before] = this.surfaces;
     this.#model = session.model;
@@ -82,7 +83,7 @@ export class PosingScene {
     surface.lookAs(before);
     stage.root.add(surface.object);
     this.#marks.dispose();
-    this.posing.replace(session, surface);
+    this.posing.replace(session, surface, continued);
     this.drag.warmUp();
     this.#marks = new Marks(this.posing);
     before.object.removeFromParent();

@@ -1,12 +1,14 @@
-import type { PosingModel, PosingSession } from "../engine/index.ts";
+import type { Motion, PosingModel, PosingSession } from "../engine/index.ts";
 import { keepHash, poseHash } from "./address.ts";
 import { chooser, choice, enable, h, mark, section, setText, toggle } from "./dom.ts";
 import { handleButtons } from "./handle_buttons.ts";
 import { ExportPanel } from "./export_panel.ts";
+import { FurtherHandles } from "./further_handles.ts";
 import { Hud } from "./hud.ts";
 import { jigglePanel } from "./jiggle_panel.ts";
+import { handleStates } from "./key_states.ts";
 import { lookSection, qualitySection } from "./look_panel.ts";
-import type { Mode } from "./posing.ts";
+import type { Mode, Posing } from "./posing.ts";
 import { mirrorPose } from "./mirror_pose.ts";
 import { MotionFields } from "./motion_fields.ts";
 import { Polishing } from "./polishing.ts";
@@ -22,7 +24,7 @@ import type { Motions, View, ViewOptions } from "./view.ts";
 
 const HELP = "Drag a coloured part to move it, or Shift-drag to turn it. Drag elsewhere to look around.";
 
-/** A view whose model can be replaced by a better one of the same handles, also in the middle of a drag. */
+/** A view whose model can be replaced by a better one, of these handles and perhaps more, also in the middle of a drag. */
 export interface PosingView extends View {
   replace(model: PosingModel): Promise<void>;
   /** Where the handles are, by name. */
@@ -42,16 +44,18 @@ export async function posingView(
   const scene = await PosingScene.create(stage, module, model, options);
   const { posing, gizmo, drag, surfaces } = scene;
   const pulling = new Pulling(posing, module, scene.signal);
-  const pulls = pullRow(pulling);
+  const pulls = pullRow(pulling, options.improving);
   listenToKeys(posing, scene.signal);
 
   const hud = new Hud(
     model.name,
     `${model.space.vertices.toLocaleString("en")} surface vertices`,
-    () => posing.session,
+    // nothing is known of the error of pulled shapes
+    () => (posing.pulled ? { certificate: () => null, outside: posing.session.outside } : posing.session),
   );
   hud.dimension(model.dimension, model.dimension);
-  const list = handleButtons(posing);
+  let list = handleButtons(posing);
+  const listed = h("div", { className: "list" }, ...list);
   const modes = choice<Mode>(
     "What a drag does",
     [
@@ -106,7 +110,7 @@ export async function posingView(
     if (!posing.jiggle.moves) void polishing?.ask();
   };
   const motions = () =>
-    new Map(posing.motions.map((motion, handle) => [model.handles[handle].name, motion] as const));
+    new Map(posing.motions.map((motion, handle) => [namesOf(posing)[handle], motion] as const));
   const readout = new Readout(
     () =>
       [
@@ -171,10 +175,23 @@ export async function posingView(
   let quality = qualityOf(model.dimension);
   const replace = async (better: PosingModel) => {
     const session = await scene.sessionOf(better);
-    if (!session) return; // the view was left meanwhile
-    pulling.dispose();
+    const before = posing.session.model;
+    const further = await FurtherHandles.between(module, before, better, pulling.points);
+    await further.prepare(() => [...posing.states, ...timeline.states]);
+    const pulled = session && (await pulling.pullsIn(session));
+    if (!session || scene.signal.aborted) return; // the view was left meanwhile
     ghosts.clear();
-    scene.replace(session);
+    const { q } = posing.pulled ?? posing.session;
+    const all = (motions: readonly Motion[]) => further.all(motions);
+    scene.replace(session, {
+      motions: further.inShape(posing.motions, q, posing.session.carriedBy),
+      all,
+      pulled: pulling.become(session, pulled),
+    });
+    timeline.become(handleStates(namesOf(posing)), all);
+    if (list.length < better.handles.length) listed.replaceChildren(...(list = handleButtons(posing)));
+    posing.onChange();
+    pulling.onChange();
     hud.dimension(better.dimension, better.dimension);
     const next = qualityOf(better.dimension);
     quality.replaceWith(next);
@@ -192,16 +209,17 @@ export async function posingView(
   const takeAway = new ExportPanel(stage, {
     name: model.name,
     faces: model.faces,
-    page: options.page,
+    page: options.page && (() => options.page!(timeline.content)),
     shape: () => shownShape(posing),
     bare,
   });
   const { panel: timeline, ghosts } = posingTimeline(posing, model.name, () => scene.anotherSurface(), bare);
-  if (model.timeline !== undefined) timeline.load(model.timeline);
+  if (options.timeline) timeline.read(options.timeline);
+  else if (model.timeline !== undefined) timeline.load(model.timeline);
   const panel = [
     section(
       "Handles",
-      h("div", { className: "list" }, ...list),
+      listed,
       modes.element,
       figures,
       fields.element,
@@ -256,6 +274,8 @@ export async function posingView(
     },
   };
 }
+
+const namesOf = ({ session }: Posing) => session.model.handles.map(({ name }) => name);
 
 function warningOf({ outside, model }: PosingSession): string {
   const parts = outside.map(({ handle, how }) => `${model.handles[handle].name}, ${how}`);

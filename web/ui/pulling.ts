@@ -1,18 +1,33 @@
 import { Mesh, MeshBasicMaterial, Plane, Raycaster, SphereGeometry, Vector2, Vector3 } from "three";
 
-import { placeOf, type FrameReport, type Hit, type PulledPoint, type Pulls } from "../engine/index.ts";
+import {
+  placeOf,
+  reachOf,
+  type FrameReport,
+  type Hit,
+  type PosingSession,
+  type PulledPoint,
+  type Pulls,
+} from "../engine/index.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
 import type { Posing } from "./posing.ts";
 
 const DOT = 0.008; // of the diagonal
 
+/** A point that is pulled, with the name that it has as a handle. */
+export interface KeptPoint extends PulledPoint {
+  readonly name: string;
+}
+
 /** Solves for the handles and for points that are pulled. */
 export interface Pulled {
-  readonly q: Float64Array;
+  get q(): Float64Array;
+  set q(q: ArrayLike<number>);
   solve(): FrameReport;
 }
 
-/** Pulls on any point of the surface: press, pull, and let go or keep. Kept points hold the surface like handles. */
+/** Pulls on any point of the surface: press, pull, and let go or keep. Kept points hold the surface like handles, until
+ * a better model has them as handles. */
 export class Pulling {
   /** Whether points stay where they were pulled to. */
   keeps = false;
@@ -22,7 +37,9 @@ export class Pulling {
   readonly #module: WebAssembly.Module;
   readonly #canvas: HTMLCanvasElement;
   readonly #caster = new Raycaster();
-  #kept: readonly PulledPoint[] = [];
+  #kept: readonly KeptPoint[] = [];
+  /** Those that are pulled now: the kept ones, and the one in hand. */
+  #points: readonly KeptPoint[] = [];
   #pulls: Pulls | null = null;
   #drag: { pointer: number; plane: Plane } | null = null;
   #dots: Mesh[] = [];
@@ -41,9 +58,38 @@ export class Pulling {
     listenToPointers(this.#canvas, acts, signal);
   }
 
-  /** Number of points that are kept. */
-  get kept(): number {
-    return this.#kept.length;
+  /** The points that are kept, and how far from rest they are, see `reachOf`. */
+  get kept(): (KeptPoint & { reach: readonly [number, number, number] })[] {
+    const { model, carriedBy } = this.#posing.session;
+    return this.#kept.map((point) => ({ ...point, reach: reachOf(model, point, carriedBy) }));
+  }
+
+  /** All points that are pulled now. */
+  get points(): readonly KeptPoint[] {
+    const targets = this.#pulls?.points;
+    return this.#points.map((point, k) => ({ ...point, target: targets?.[k].target ?? point.target }));
+  }
+
+  /** Pulls for a better model: of the points that are no handles there. */
+  async pullsIn(session: PosingSession): Promise<Pulls | null> {
+    for (;;) {
+      const turn = this.#turn;
+      const points = this.points.filter(isFreeIn(session));
+      const pulls = points.length > 0 ? await session.pulls(this.#module, points) : null;
+      if (turn === this.#turn) return pulls;
+    }
+  }
+
+  /** Takes those pulls, before that model is shown; `posing` continues with what this returns. */
+  become(session: PosingSession, pulls: Pulls | null): Pulled | null {
+    const held = this.points;
+    this.#kept = this.#kept.filter(isFreeIn(session));
+    this.#points = held.filter(isFreeIn(session));
+    const inHand = this.#drag && held.at(-1);
+    if (inHand && pulls) pulls.target = inHand.target;
+    this.#pulls = pulls;
+    this.#showDots(pulls?.points ?? []);
+    return pulls && pulledBy(session, pulls);
   }
 
   /** Lets go of all points. */
@@ -76,7 +122,7 @@ export class Pulling {
     const where = { corners: hit.corners, shares: sharesOf(hit, surface.positions()) };
     const now = this.#posing.pulled?.q ?? session.q;
     const target = placeOf(session.model, { ...where, target: [0, 0, 0] }, now, session.carriedBy);
-    await this.#use([...this.#kept, { ...where, target }]);
+    await this.#use([...this.#kept, { ...where, target, name: this.#freeName() }]);
   }
 
   #move(event: PointerEvent): void {
@@ -93,34 +139,28 @@ export class Pulling {
     if (event.pointerId !== this.#drag?.pointer) return;
     this.#drag = null;
     this.#posing.stage.controls.enabled = true;
-    if (this.keeps && this.#pulls) this.#kept = this.#pulls.points;
+    if (this.keeps && this.#pulls) this.#kept = this.points;
     else await this.#use(this.#kept);
     this.onChange();
   }
 
   /** Pulls on these points only. */
-  async #use(points: readonly PulledPoint[]): Promise<void> {
+  async #use(points: readonly KeptPoint[]): Promise<void> {
     const turn = ++this.#turn;
     const { session } = this.#posing;
     const pulls = points.length > 0 ? await session.pulls(this.#module, points) : null;
-    if (turn !== this.#turn || session !== this.#posing.session) return; // a later one came first
+    if (turn !== this.#turn) return; // a later one came first
+    const isOther = session !== this.#posing.session; // a better model came meanwhile
+    if (isOther) return this.#use(points.filter(isFreeIn(this.#posing.session)));
     if (pulls) pulls.q = this.#posing.pulled?.q ?? session.q;
-    this.#pulls = pulls;
+    [this.#pulls, this.#points] = [pulls, points];
     if (!this.#drag) this.#kept = points;
     this.#take(pulls);
     if (points.length === 0) this.onChange();
   }
 
   #take(pulls: Pulls | null): void {
-    const { session } = this.#posing;
-    this.#posing.pull(
-      pulls && {
-        get q() {
-          return pulls.q;
-        },
-        solve: () => session.solvePulled(pulls),
-      },
-    );
+    this.#posing.pull(pulls && pulledBy(this.#posing.session, pulls));
     this.#showDots(pulls?.points ?? []);
   }
 
@@ -142,11 +182,38 @@ export class Pulling {
     points.forEach(({ target: [x, y, z] }, k) => this.#dots[k].position.set(x, y, z));
   }
 
+  /** A name that no handle and no point has. */
+  #freeName(): string {
+    const handles = this.#posing.session.model.handles.map(({ name }) => name);
+    const names = new Set([...handles, ...this.#kept.map(({ name }) => name)]);
+    let number = 1;
+    while (names.has(`point ${number}`)) number++;
+    return `point ${number}`;
+  }
+
   #aim(event: PointerEvent): void {
     const box = this.#canvas.getBoundingClientRect();
     const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
     this.#caster.setFromCamera(new Vector2(2 * x - 1, 1 - 2 * y), this.#posing.stage.camera);
   }
+}
+
+/** Whether a point is no handle of a session's model. */
+function isFreeIn({ model }: PosingSession): (point: KeptPoint) => boolean {
+  const names = new Set(model.handles.map(({ name }) => name));
+  return ({ name }) => !names.has(name);
+}
+
+function pulledBy(session: PosingSession, pulls: Pulls): Pulled {
+  return {
+    get q(): Float64Array {
+      return pulls.q;
+    },
+    set q(q: ArrayLike<number>) {
+      pulls.q = q;
+    },
+    solve: () => session.solvePulled(pulls),
+  };
 }
 
 /** Barycentric shares of a point in its triangle. */

@@ -57,6 +57,14 @@ export class Timeline<State> {
     return this.#changed(number, { easing });
   }
 
+  /** The same keys with other states. */
+  map(other: (state: State) => State): Timeline<State> {
+    return new Timeline(
+      this.keys.map((key) => ({ ...key, state: other(key.state) })),
+      this.loop,
+    );
+  }
+
   looping(loop: boolean): Timeline<State> {
     return new Timeline(this.keys, loop);
   }

@@ -31,6 +31,7 @@ export class TimelinePanel<State> {
   readonly element: HTMLElement;
   readonly #stage: Stage;
   readonly #animated: Animated<State>;
+  #states: States<State>;
   #timeline = new Timeline<State>();
   #time = 0;
   #isPlaying = false;
@@ -51,7 +52,7 @@ export class TimelinePanel<State> {
   readonly #fault = h("p", { className: "figures", role: "status" });
 
   constructor(stage: Stage, animated: Animated<State>) {
-    [this.#stage, this.#animated] = [stage, animated];
+    [this.#stage, this.#animated, this.#states] = [stage, animated, animated.states];
     this.#play.id = "play-keys";
     const add = h(
       "button",
@@ -95,16 +96,36 @@ export class TimelinePanel<State> {
 
   /** The content of a file; null without keys. */
   get content(): string | null {
-    return this.#timeline.keys.length > 0 ? timelineFile(this.#timeline, this.#animated.states) : null;
+    return this.#timeline.keys.length > 0 ? timelineFile(this.#timeline, this.#states) : null;
+  }
+
+  /** Continues with states of another kind, for instance of more handles, which `other` makes of those before. */
+  become(states: States<State>, other: (state: State) => State): void {
+    this.#states = states;
+    for (const { state } of this.#timeline.keys) {
+      const picture = this.#pictures.get(state);
+      if (picture) this.#pictures.set(other(state), picture);
+    }
+    this.#take(this.#timeline.map(other));
   }
 
   /** Takes the timeline that a model came with; the shape stays. */
   load(content: unknown): void {
     try {
-      this.#take(timelineOf(content, this.#animated.states));
+      this.#take(timelineOf(content, this.#states));
     } catch (error) {
       this.#fault.textContent = (error as Error).message;
     }
+  }
+
+  /** Takes the content of a file in the same way. */
+  read(text: string): void {
+    this.load(JSON.parse(text));
+  }
+
+  /** The states of all keys. */
+  get states(): State[] {
+    return this.#timeline.keys.map(({ state }) => state);
   }
 
   get isPlaying(): boolean {
@@ -180,7 +201,7 @@ export class TimelinePanel<State> {
     const between = this.#timeline.at(time);
     if (between) {
       const { from, to, share } = between;
-      this.#animated.show(share === 0 ? from : this.#animated.states.between(from, to, share));
+      this.#animated.show(share === 0 ? from : this.#states.between(from, to, share));
     }
     if (isJump) this.#animated.settle();
     this.#showTime();
@@ -240,13 +261,13 @@ export class TimelinePanel<State> {
 
   #give(): void {
     const name = `${this.#animated.name || "snapspace"}.timeline.json`;
-    download(timelineFile(this.#timeline, this.#animated.states), name, "application/json");
+    download(timelineFile(this.#timeline, this.#states), name, "application/json");
     this.#fault.textContent = `${name} is in your downloads; snapspace animate takes it.`;
   }
 
   async #open(file: File): Promise<void> {
     try {
-      const timeline = readTimeline(await file.text(), this.#animated.states);
+      const timeline = readTimeline(await file.text(), this.#states);
       this.play(false);
       this.#time = timeline.keys[0].time;
       this.#take(timeline);

@@ -1,5 +1,6 @@
 import type { Motion } from "../engine/index.ts";
 import type { Hud } from "./hud.ts";
+import type { Improving } from "./improving.ts";
 import type { Polish } from "./polishing.ts";
 import type { Axis } from "./stage.ts";
 
@@ -26,8 +27,12 @@ export interface ViewOptions {
   readonly blend?: { readonly names: readonly string[]; readonly weights: readonly number[] };
   /** Goes to the view in which handles are chosen on the model's body; missing without a server. */
   readonly choose?: () => void;
-  /** Where the server has a page in one file with the model; missing without a server. */
-  readonly page?: URL | undefined;
+  /** Gives the user a page in one file with the model and the content of a timeline; missing without a server. */
+  readonly page?: (timeline: string | null) => Promise<void>;
+  /** Content of a timeline file, in place of that of the model. */
+  readonly timeline?: string | null;
+  /** Improves the model for points that are kept, or why that is not possible; missing without a server. */
+  readonly improving?: Improving | string;
   /** Improves frames when a handle is let go. */
   readonly polish?: Polish;
 }
