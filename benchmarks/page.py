@@ -5,7 +5,8 @@
 Solve times are those of the same drag in the page (WebAssembly) and in the native engine (one
 thread), in one run. The drag goes straight from one random motion of the handles to the next, 60
 frames each. Work per frame (main_thread.py) is what the main thread does besides drawing while a
-pointer moves over the shape, grabs a handle, drags it and releases it, several times.
+pointer moves over the shape, grabs a handle, drags it and releases it, several times; and while a
+timeline plays, whose keys are random motions a second apart.
 """
 
 from __future__ import annotations
@@ -93,6 +94,46 @@ def pointer_drag(page: Any, handle: int, steps: int) -> None:
     page.evaluate(DRAWN)
 
 
+def timeline(model: ss.PosingModel, seconds: int) -> dict[str, Any]:
+    """Keys of random motions, one per second, as a file for the page."""
+    names = model.problem.handles.names[1:]
+    ends = ss.sample(model.problem.domain, seconds + 1, seed=11).reshape(seconds + 1, -1, 6)
+    keys = [
+        {
+            "time": time,
+            "handles": {
+                name: {"degrees": np.rad2deg(row[3:]).tolist(), "translation": row[:3].tolist()}
+                for name, row in zip(names, rows, strict=True)
+            },
+        }
+        for time, rows in enumerate(ends)
+    ]
+    return {"format": "snapspace-timeline", "version": 1, "kind": "posing", "keys": keys}
+
+
+def played(page: Any, model: ss.PosingModel, seconds: int) -> list[main_thread.Picture]:
+    """Work of the pictures while a timeline plays."""
+    content = json.dumps(timeline(model, seconds)).encode()
+    file = {"name": "keys.json", "mimeType": "application/json", "buffer": content}
+    page.locator("input[accept='.json']").set_input_files(file)
+    while page.evaluate("snapspace.timeline.timeline.keys.length") <= seconds:
+        page.wait_for_timeout(50)
+    thread = main_thread.MainThread(page)
+    page.evaluate("snapspace.timeline.play(true)")
+    while page.evaluate("snapspace.timeline.isPlaying"):
+        page.wait_for_timeout(1000)
+    return thread.pictures()
+
+
+def opened_page(browser: Any, address: str) -> Any:
+    """A page that has shown its model."""
+    page = browser.new_page(viewport={"width": 640, "height": 400})
+    page.goto(address)
+    page.evaluate(READY)
+    page.evaluate(DRAWN)
+    return page
+
+
 def summary(values: list[float]) -> dict[str, float]:
     return {
         "median": float(np.median(values)),
@@ -108,10 +149,7 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         sys.exit(f"{path}: this benchmark takes posing models")
     with tempfile.TemporaryDirectory() as folder:
         html = export_html(model, Path(folder) / "model.html")
-        page = browser.new_page(viewport={"width": 640, "height": 400})
-        page.goto(html.as_uri() + args.query)
-        page.evaluate(READY)
-        page.evaluate(DRAWN)
+        page = opened_page(browser, html.as_uri() + args.query)
         opened = page.evaluate("[snapspace.openedIn, snapspace.startedIn]")
         thread = main_thread.MainThread(page)
         moving = [h for h in range(len(model.problem.handles.names)) if h != 0]
@@ -122,6 +160,9 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         path_of_drag = drag_path(model, args.frames, seed=7)
         solves = page.evaluate(SOLVES, [motions(model, w) for w in path_of_drag])
         shown = page.evaluate("snapspace.session.model.space.vertices")
+        page.close()
+        page = opened_page(browser, html.as_uri() + args.query)
+        film = played(page, model, args.seconds)
         page.close()
     return {
         "model": path.name,
@@ -138,12 +179,16 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         "cpu_painting": summary([picture.painting.cpu for picture in pictures]),
         "cpu_thread": summary([picture.thread.cpu for picture in pictures]),
         "frames": len(pictures),
+        "timeline_frames": len(film),
+        "timeline_work": summary([picture.own.wall for picture in film]),
+        "timeline_cpu_work": summary([picture.own.cpu for picture in film]),
     }
 
 
 def rows(figures: dict[str, Any]) -> list[tuple[str, Any, str]]:
     solve, native_solve = figures["solve"], figures["native_solve"]
     work, cpu = figures["work"], figures["cpu_work"]
+    film, film_cpu = figures["timeline_work"], figures["timeline_cpu_work"]
     goal = "<= 1.5 at d = 40" if figures["dimension"] <= 40 else ""
     return [
         ("surface vertices", figures["surface_vertices"], ""),
@@ -160,6 +205,9 @@ def rows(figures: dict[str, Any]) -> list[tuple[str, Any, str]]:
         ("the same, its processor time, ms, median", cpu["median"], "<= 3 at 25k"),
         ("... 95 %", cpu["p95"], "<= 3 at 25k"),
         ("... worst", cpu["worst"], "<= 3 at 25k"),
+        ("a timeline's frame besides drawing, ms, median", film["median"], "<= 3 at 25k"),
+        ("its processor time, ms, median", film_cpu["median"], "<= 3 at 25k"),
+        ("... 95 %", film_cpu["p95"], "<= 3 at 25k"),
         ("not included: the tester's listeners, median", figures["cpu_tester"]["median"], ""),
         ("not included: the browser's painting, median", figures["cpu_painting"]["median"], ""),
         ("all work of the thread besides drawing, median", figures["cpu_thread"]["median"], ""),
@@ -174,6 +222,7 @@ def main() -> None:
     parser.add_argument("--frames", type=int, default=300, help="frames of the simulated drag")
     parser.add_argument("--drags", type=int, default=6, help="number of drags by the pointer")
     parser.add_argument("--steps", type=int, default=30, help="steps of each of these drags")
+    parser.add_argument("--seconds", type=int, default=10, help="length of the timeline")
     parser.add_argument("--query", default="", help="query of the address, such as ?deform=cpu")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -25,6 +25,7 @@ from ..mesh import (
     tet_volumes,
 )
 from ..mesh.correspondence import check_same_faces, check_same_tets
+from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..problem import Poses
 from ..registration import ScalePolicy, matched_scales, scale_factors
@@ -139,7 +140,10 @@ def _from_surfaces(
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     mesh = _tets_of(targets[0], faces, options, cache)
-    surface = replace(embed_surface(targets[0], faces, mesh), source=open_surface(files[0]))
+    # tets that were made in the surface carry all of it, also small parts that filling left out
+    farthest = WHOLE_DIAGONAL if options.tets is None else 0.02
+    embedded = embed_surface(targets[0], faces, mesh, farthest=farthest)
+    surface = replace(embedded, source=open_surface(files[0]))
     seconds["tets"] = time.perf_counter() - begin
 
     begin = time.perf_counter()

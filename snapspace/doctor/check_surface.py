@@ -8,15 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..mesh.closed_surface import enclosed_volume
+from ..mesh.closed_surface import enclosed_volume, is_flat
+from ..mesh.edges import edges_of
 from ..mesh.surface_file.surface_file import checked_surface
 from .cleaned import cleaned
 from .edge_findings import copy_findings, edge_findings
-from .edges import edges_of
 from .finding import Finding
 from .shape_findings import (
     crossing_finding,
     face_areas,
+    flat_finding,
     place_finding,
     sliver_finding,
     thin_finding,
@@ -103,12 +104,17 @@ def check_surface(vertices: ArrayLike, faces: ArrayLike) -> SurfaceReport:
     areas, shapes = face_areas(scaled, clean.faces)
     area = float(areas.sum())
     volume = None
+    flat = not len(clean.faces) or is_flat(scaled, clean.faces)
+    if flat:
+        findings.append(flat_finding())
     if len(clean.faces):
-        findings += edge_findings(scaled, clean, 1.0)
-        if not edges_of(clean.faces).balance.any():
+        edges = edges_of(clean.faces)
+        found = edge_findings(points, clean.faces, edges)
+        findings += [one for one in found if not (flat and one.name == "holes")]
+        if not edges.balance.any():
             volume = enclosed_volume(scaled, clean.faces)
             findings += _inward(volume)
-            findings += thin_finding(volume, area, 1.0)
+            findings += [] if flat else thin_finding(volume, area, 1.0)
         findings += crossing_finding(scaled, clean.faces)
     findings += sliver_finding(shapes) + place_finding(center, diagonal or 1.0)
     return SurfaceReport(

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.arrays import IndexArray
+from ..mesh.edges import edges_of
+from ..mesh.equal_faces import equal_faces
 from ..mesh.surface_file.weld import equal_points
-from .edges import IndexArray, edges_of
 
 FloatArray = NDArray[np.float64]
 
@@ -20,7 +22,7 @@ class Cleaned:
     faces : (g, 3), without degenerate and duplicate ones; the indices are those of the input
     merged : number of points that became another one, because the surface is closed only so
     degenerate : number of faces with a repeated vertex, which were left out
-    duplicate : number of faces with the vertices of an earlier one, which were left out
+    duplicate : number of faces with the vertices of another one, which were left out
     """
 
     faces: IndexArray
@@ -40,8 +42,10 @@ def cleaned(vertices: FloatArray, faces: IndexArray) -> Cleaned:
         faces = target[faces]
     repeated = (faces == np.roll(faces, 1, axis=1)).any(axis=1)
     kept = faces[~repeated]
-    again = repeated_faces(kept)
-    return Cleaned(kept[~again], merged, int(repeated.sum()), int(again.sum()))
+    useless = repeated_faces(kept)
+    if useless.any():
+        useless |= _walls(kept)
+    return Cleaned(kept[~useless], merged, int(repeated.sum()), int(useless.sum()))
 
 
 def _open(faces: IndexArray) -> bool:
@@ -51,9 +55,28 @@ def _open(faces: IndexArray) -> bool:
 
 def repeated_faces(faces: IndexArray) -> NDArray[np.bool_]:
     """Which faces have the same three vertices as an earlier one."""
-    corners = np.sort(faces, axis=1)
-    order = np.lexsort((corners[:, 2], corners[:, 1], corners[:, 0]))
-    same = (np.diff(corners[order], axis=0) == 0).all(axis=1)
-    again = np.zeros(len(faces), np.bool_)
-    again[order[1:][same]] = True
-    return again
+    copy = _copies(faces)
+    first = np.full(len(faces), len(faces))
+    np.minimum.at(first, copy, np.arange(len(faces)))
+    return np.asarray(first[copy] != np.arange(len(faces)))
+
+
+def _walls(faces: IndexArray) -> NDArray[np.bool_]:
+    """Which faces have as many copies that run the other way, and leave no hole if all go.
+
+    They are both sides of a wall between solids, or of a sheet: neither side says what is inside.
+    """
+    copy = _copies(faces)
+    # +1 where the vertices ascend cyclically, -1 where they descend
+    way = np.sign(np.diff(faces, axis=1, append=faces[:, :1])).sum(axis=1)
+    edges = edges_of(faces)
+    even = (edges.uses[edges.of_face] % 2 == 0).all(axis=1)
+    return np.asarray((np.bincount(copy, way)[copy] == 0) & even)
+
+
+def _copies(faces: IndexArray) -> NDArray[np.intp]:
+    """A number for each face, (f,), the same for faces with the same three vertices."""
+    order, same = equal_faces(faces)
+    copy = np.zeros(len(faces), np.intp)
+    copy[order[1:]] = np.cumsum(~same)
+    return copy

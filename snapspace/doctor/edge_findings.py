@@ -5,23 +5,25 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh.arrays import FloatArray, IndexArray
+from ..mesh.edges import Edges
 from .cleaned import Cleaned
-from .components import face_components, orientation
-from .edges import edges_of
+from .components import face_components, orientation, parts_apart
 from .fill_holes import fillable
 from .finding import Finding
 from .holes import Hole, holes_of
 
-FloatArray = NDArray[np.float64]
+#: Parts with a smaller share of the area are dust, which filling leaves out.
+DUST = 1e-3
 
 
-def edge_findings(vertices: FloatArray, clean: Cleaned, diagonal: float) -> list[Finding]:
+def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list[Finding]:
     """All findings about edges; none for a closed surface in one part, oriented alike."""
-    edges = edges_of(clean.faces)
+    diagonal = float(np.linalg.norm(np.ptp(vertices[faces].reshape(-1, 3), axis=0)))
     holes = holes_of(vertices, edges)
     turn, _, twisted = orientation(edges)
     fans = int((edges.uses > 2).sum())
-    parts = int(face_components(clean.faces, len(vertices)).max()) + 1
+    parts = int(face_components(faces, len(vertices)).max()) + 1
     found: list[Finding] = []
     if holes:
         found.append(_holes(holes, diagonal))
@@ -42,18 +44,7 @@ def edge_findings(vertices: FloatArray, clean: Cleaned, diagonal: float) -> list
             )
         )
     if parts > 1:
-        found.append(
-            Finding(
-                name="components",
-                fault=False,
-                count=parts,
-                text=f"it has {parts} parts without a common vertex",
-                meaning="overlapping parts become one solid with fTetWild; parts apart from the "
-                "body are refused by filling, because one solid is needed",
-                cure="join them, or remove those that are apart; eyes and clothes can follow the "
-                "body with `snapspace pose --surface FILE`",
-            )
-        )
+        found.append(_parts(parts, *parts_apart(vertices, faces)))
     return found
 
 
@@ -75,7 +66,7 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
         )
     for name, count, what in (
         ("degenerate faces", clean.degenerate, "name a vertex twice"),
-        ("duplicate faces", clean.duplicate, "have the same vertices as an earlier face"),
+        ("duplicate faces", clean.duplicate, "have the same vertices as another face"),
     ):
         if count:
             found.append(
@@ -133,6 +124,28 @@ def _holes(holes: list[Hole], diagonal: float) -> Finding:
                 for hole in holes
             ]
         },
+    )
+
+
+def _parts(count: int, group: NDArray[np.intp], share: FloatArray) -> Finding:
+    large = int((share > DUST).sum())
+    dust = len(share) - large
+    text = f"it has {count} parts without a common vertex"
+    if large > 1:
+        first = int(np.flatnonzero(group == 1)[0])
+        text += f"; {large} of them are apart (face {first} is in the second largest)"
+    if dust:
+        text += f"; {dust} are apart and small"
+    return Finding(
+        name="components",
+        fault=large > 1,
+        count=count,
+        text=text,
+        meaning="filling needs one solid: it refuses large parts that are apart, leaves out those "
+        f"below {DUST:.1%} of the area, and makes one solid of overlapping ones with fTetWild",
+        cure="join them, or remove those that are apart; eyes and clothes can follow the body with "
+        "`snapspace pose --surface FILE`",
+        details={"areas": share[:100].tolist()},
     )
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from .edges import Edges
+from ..mesh.edges import Edges
 
 FloatArray = NDArray[np.float64]
 

@@ -43,7 +43,7 @@ def crossing_faces(vertices: FloatArray, faces: IndexArray) -> Pairs:
             for _ in range(2):  # most pairs end here
                 cut = _cut_by_plane(corners, normals, size, one, other)
                 one, other = other[cut], one[cut]
-            found.append(_crossing(corners, faces, one, other))
+            found.append(_crossing(corners, faces, size, one, other))
     pairs = np.concatenate(found)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
 
@@ -63,7 +63,9 @@ def _cut_by_plane(
     return above & below
 
 
-def _crossing(corners: FloatArray, faces: IndexArray, first: Pairs, second: Pairs) -> Pairs:
+def _crossing(
+    corners: FloatArray, faces: IndexArray, size: FloatArray, first: Pairs, second: Pairs
+) -> Pairs:
     """The pairs that cross, the lower face first."""
     shared = faces[first][:, :, None] == faces[second][:, None, :]
     common = shared.sum(axis=(1, 2))
@@ -76,17 +78,24 @@ def _crossing(corners: FloatArray, faces: IndexArray, first: Pairs, second: Pair
             # an edge with a shared corner only touches the other face there
             test = np.flatnonzero(~crosses & (common < 2) & ~mine[:, a] & ~mine[:, b])
             crosses[test] = _passes(
-                corners[one[test], a], corners[one[test], b], corners[other[test]]
+                corners[one[test], a],
+                corners[one[test], b],
+                corners[other[test]],
+                np.maximum(size[one[test]], size[other[test]]),
             )
     return np.sort(np.stack([first[crosses], second[crosses]], axis=1), axis=1)
 
 
-def _passes(p: FloatArray, q: FloatArray, triangle: FloatArray) -> NDArray[np.bool_]:
-    """Whether the segments p q (k, 3) pass through the insides of triangles (k, 3, 3)."""
+def _passes(
+    p: FloatArray, q: FloatArray, triangle: FloatArray, scale: FloatArray
+) -> NDArray[np.bool_]:
+    """Whether the segments p q (k, 3) pass through the insides of triangles (k, 3, 3).
+
+    `scale` (k,) is their size along an axis.
+    """
     a, b, c = (triangle[:, corner] - p for corner in range(3))
     ray = q - p
     normal = np.cross(triangle[:, 1] - triangle[:, 0], triangle[:, 2] - triangle[:, 0])
-    scale = np.maximum(np.abs(ray).max(axis=1), np.ptp(triangle, axis=1).max(axis=1))
     least = _ROUNDING * scale**3
     start = -_dot(normal, a)
     end = start + _dot(normal, ray)

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..mesh.arrays import IndexArray
 from ..mesh.closed_surface import enclosed_volume
+from ..mesh.edges import edges_of
 from ..mesh.surface import compact_surface
 from ..mesh.surface_file.surface_file import checked_surface
 from .cleaned import cleaned, repeated_faces
 from .components import orientation
-from .edges import IndexArray, edges_of
 from .fill_holes import fillable, hole_triangles
 from .holes import holes_of
 
@@ -41,10 +42,11 @@ def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
     """Makes a surface closed and oriented, as far as that is safe.
 
     In this order, it merges vertices with equal positions if the surface is not closed without
-    that; drops faces that name a vertex twice or repeat another face; drops vertices without
-    faces; turns faces round until neighbours agree; closes holes that are simple loops and flat
-    (within 15 % of their diameter) or small (5 % of the diagonal), with the triangles of least
-    area between their vertices; and turns all faces outward.
+    that; drops faces that name a vertex twice or repeat another face, and both sides of walls
+    between solids; drops vertices without faces; turns faces round until neighbours agree; closes
+    holes that are simple loops and flat (within 15 % of their diameter) or small (5 % of the
+    diagonal), with the triangles of least area between their vertices; and turns all faces
+    outward.
 
     Parameters
     ----------
@@ -66,7 +68,8 @@ def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
     clean = cleaned(points, triangles)
     if not len(clean.faces):
         raise ValueError(
-            f"mend_surface: no face would be left: all {len(triangles)} name a vertex twice"
+            f"mend_surface: no face would be left: all {len(triangles)} name a vertex twice, or "
+            "are covered by one that runs the other way"
         )
     notes = []
     if clean.merged:
@@ -74,7 +77,7 @@ def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
     if clean.degenerate:
         notes.append(f"dropped {clean.degenerate} faces with a repeated vertex")
     if clean.duplicate:
-        notes.append(f"dropped {clean.duplicate} faces with the vertices of an earlier one")
+        notes.append(f"dropped {clean.duplicate} faces with the vertices of another one")
     used, mended = compact_surface(points, clean.faces)
     unused = len(points) - len(used) - clean.merged
     if unused > 0:

@@ -52,16 +52,7 @@ def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
     if thickness >= _THIN:
         return []
     if thickness < 1e-9:
-        return [
-            Finding(
-                name="flat",
-                fault=True,
-                count=1,
-                text="the surface encloses no volume",
-                meaning="tets fill solids; a sheet has no inside",
-                cure="give it a thickness (Blender: the modifier Solidify)",
-            )
-        ]
+        return [flat_finding()]
     return [
         Finding(
             name="thin",
@@ -73,6 +64,18 @@ def thin_finding(volume: float, area: float, diagonal: float) -> list[Finding]:
             details={"thickness": thickness},
         )
     ]
+
+
+def flat_finding() -> Finding:
+    """A surface without an inside."""
+    return Finding(
+        name="flat",
+        fault=True,
+        count=1,
+        text="the surface encloses no volume",
+        meaning="tets fill solids; a sheet has no inside",
+        cure="give it a thickness (Blender: the modifier Solidify)",
+    )
 
 
 def place_finding(center: FloatArray, diagonal: float) -> list[Finding]:

@@ -9,11 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..doctor import mend_surface
+from ..doctor.components import parts_apart
+from ..doctor.edge_findings import DUST
 from ..input_error import InputError
 from ..mesh import MeshNotice, compact_surface
 from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
-from ..mesh.closed_surface import check_closed, enclosed_volume
+from ..mesh.closed_surface import check_closed, enclosed_volume, is_flat
 from ..mesh.validation import check_indices, check_points
+
+
+class NoSolidError(ValueError):
+    """A surface that no method can fill: it is flat, or has parts that are apart."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +52,8 @@ def closed_input(
     triangles = as_indices(faces, corners=3, who=who, what="faces")
     check_points(points, who=who)
     check_indices(triangles, len(points), who=who, what="face")
+    if len(triangles) and is_flat(points, triangles):
+        raise _no_volume(triangles, who=who)
     closed = True
     try:
         check_closed(triangles, who=who)
@@ -53,6 +61,7 @@ def closed_input(
         if not mend or not len(triangles):
             raise
         points, triangles, closed = _mended(points, triangles, error, leave_open=leave_open)
+    triangles = _one_part(points, triangles, who=who)
     points, triangles = compact_surface(points, triangles)
     center = (points.min(axis=0) + points.max(axis=0)) / 2.0
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
@@ -60,10 +69,7 @@ def closed_input(
     scaled = (points - center) / (diagonal or 1.0)
     volume = enclosed_volume(scaled, triangles)
     if closed and abs(volume) < np.finfo(np.float64).eps:
-        raise ValueError(
-            f"{who}: the surface encloses no volume ({len(triangles)} faces), but a solid "
-            "is needed; check that the surface is neither flat nor doubly covered"
-        )
+        raise _no_volume(triangles, who=who)
     outward = triangles if volume > 0 else np.ascontiguousarray(triangles[:, ::-1])
     return ClosedInput(vertices=scaled, faces=outward, center=center, diagonal=diagonal)
 
@@ -84,6 +90,35 @@ def _mended(
         done += f"; {left.fault.partition(':')[0]}, so inside is where the winding number says"
     warnings.warn(f"{done}; `snapspace check` says more", MeshNotice, stacklevel=4)
     return mended.vertices, mended.faces, closed
+
+
+def _no_volume(triangles: IndexArray, *, who: str) -> NoSolidError:
+    return NoSolidError(
+        f"{who}: the surface encloses no volume ({len(triangles)} faces), but a solid "
+        "is needed; check that the surface is neither flat nor doubly covered"
+    )
+
+
+def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexArray:
+    """The triangles without small parts that are apart; ValueError for large ones."""
+    group, share = parts_apart(points, triangles)
+    large = int((share > DUST).sum())
+    if large > 1:
+        faces = np.bincount(group)[1]
+        low, high = (pick(points[triangles[group == 1]], axis=(0, 1)) for pick in (np.min, np.max))
+        center = ", ".join(f"{x:.4g}" for x in (low + high) / 2.0)
+        raise NoSolidError(
+            f"{who}: the surface has {large} parts that are apart (the second largest: {faces} "
+            f"faces around ({center})), but one solid is needed; join them, or remove all but one"
+        )
+    if len(share) > 1:
+        warnings.warn(
+            f"{len(share) - 1} small parts of the surface are apart and were left out of the tets; "
+            "they follow the nearest tets",
+            MeshNotice,
+            stacklevel=4,
+        )
+    return triangles[group == 0]
 
 
 def check_share(value: float, name: str, *, largest: float, who: str) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from numpy.typing import ArrayLike
 
 from ..mesh import TetMesh
+from .closed_input import NoSolidError
 from .fill_surface import fill_surface
 from .stuff_surface import stuff_surface
 
@@ -45,6 +46,8 @@ class SurfaceFilling:
                     progress=lambda part, done, total: stage(f"filling {part}", done, total),
                     **sized,
                 )
+            except NoSolidError:
+                raise
             except ValueError:  # the next stage shows on the page that the method has changed
                 pass
         stage(EXACTLY)

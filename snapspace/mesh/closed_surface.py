@@ -6,6 +6,7 @@ import numpy as np
 
 from ..input_error import InputError
 from .arrays import FloatArray, IndexArray
+from .edges import edges_of
 
 
 def check_closed(faces: IndexArray, *, who: str) -> None:
@@ -26,19 +27,19 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
     """
     if not len(faces):
         raise InputError(who, "the surface has no faces; at least four are needed")
-    edges, balance, uses = _edge_balance(faces)
-    boundary = np.flatnonzero(uses % 2 == 1)
+    edges = edges_of(faces)
+    boundary = np.flatnonzero(edges.uses % 2 == 1)
     if boundary.size:
-        first, second = edges[boundary[0]]
+        first, second = edges.ends[boundary[0]]
         raise InputError(
             who,
             f"the surface is not closed, it has {boundary.size} boundary edges (the first "
             f"between vertices {first} and {second}): fill its holes, and merge vertices that "
             "coincide",
         )
-    turned = np.flatnonzero(balance)
+    turned = np.flatnonzero(edges.balance)
     if turned.size:
-        first, second = edges[turned[0]]
+        first, second = edges.ends[turned[0]]
         raise InputError(
             who,
             f"neighbouring faces have opposite orientations at {turned.size} edges (the "
@@ -46,16 +47,14 @@ def check_closed(faces: IndexArray, *, who: str) -> None:
         )
 
 
-def _edge_balance(faces: IndexArray) -> tuple[IndexArray, IndexArray, IndexArray]:
-    """Undirected edges (e, 2), their upward less their downward uses (e,), and all uses (e,)."""
-    directed = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    edges, edge = np.unique(np.sort(directed, axis=1), axis=0, return_inverse=True)
-    upward = np.where(directed[:, 0] < directed[:, 1], 1, -1)
-    # the inverse had the shape of its input in one version of NumPy
-    edge = edge.reshape(-1)
-    balance = np.zeros(len(edges), np.int32)
-    np.add.at(balance, edge, upward)
-    return edges, balance, np.bincount(edge, minlength=len(edges)).astype(np.int32)
+def is_flat(vertices: FloatArray, faces: IndexArray) -> bool:
+    """Whether faces (f, 3), f > 0, lie in a plane, up to 1e-9 of their extent."""
+    used = np.zeros(len(vertices), np.bool_)
+    used[faces] = True
+    points = vertices[used]
+    offset = points - points.mean(axis=0)
+    normal = np.linalg.eigh(offset.T @ offset)[1][:, 0]
+    return float(np.abs(offset @ normal).max()) <= 1e-9 * float(np.abs(offset).max())
 
 
 def enclosed_volume(vertices: FloatArray, faces: IndexArray) -> float:

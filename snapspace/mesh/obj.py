@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import repeat
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import FloatArray, IndexArray
 from .file_content import FileContent
 from .polygons import corner_array, surface_content
+
+IndexArray64 = NDArray[np.int64]
 
 
 def read_obj(data: bytes) -> FileContent:
@@ -17,10 +21,8 @@ def read_obj(data: bytes) -> FileContent:
     Faces may have the forms `i`, `i/t`, `i/t/n`, `i//n`, with negative (relative) indices.
     """
     coordinates: list[list[str]] = []
-    corners: list[int] = []
-    normals: list[int] = []
+    faces = _Faces()
     normals_so_far = 0
-    sizes: list[int] = []
     text = data.decode("utf-8", errors="replace").replace("\\\n", " ")
     for number, line in enumerate(text.splitlines(), start=1):
         words = line.partition("#")[0].split()
@@ -31,20 +33,14 @@ def read_obj(data: bytes) -> FileContent:
                 raise ValueError(f"line {number}: a vertex needs three coordinates")
             coordinates.append(words[1:4])
         elif words[0] == "f":
-            polygon = [_corner(word, len(coordinates), number) for word in words[1:]]
-            corners += polygon
-            normals += [corner_attribute(word, 2, normals_so_far) for word in words[1:]]
-            sizes.append(len(polygon))
+            faces.add(words[1:], number, len(coordinates), normals_so_far)
         elif words[0] == "vn":
             normals_so_far += 1
     try:
         vertices = np.array(coordinates, dtype=np.float64).reshape(-1, 3)
     except ValueError:
         raise ValueError("a vertex has a coordinate that is not a number") from None
-    # a normal that does not exist is none
-    used = np.array(normals, dtype=np.int64)
-    used[(used < 0) | (used >= normals_so_far)] = -1
-    return surface_content(vertices, corner_array(corners), sizes, used)
+    return surface_content(vertices, faces.corners(), faces.sizes, faces.normals(normals_so_far))
 
 
 def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
@@ -54,15 +50,60 @@ def write_obj(path: Path, vertices: FloatArray, faces: IndexArray) -> None:
     path.write_text("\n".join(lines) + "\n", encoding="ascii", newline="\n")
 
 
-def _corner(word: str, vertices_so_far: int, line: int) -> int:
-    try:
-        index = int(word.split("/", 1)[0])
-    except ValueError:
-        raise ValueError(f"line {line}: {word[:40]!r} is not a corner of a face") from None
-    if index == 0:
-        raise ValueError(f"line {line}: a face has vertex index 0, but OBJ counts from 1")
-    # a relative index that reaches before the first vertex stays negative and is refused later
-    return index - 1 if index > 0 else vertices_so_far + index
+class _Faces:
+    """The `f` lines; their corners are converted together, because files have millions."""
+
+    def __init__(self) -> None:
+        self.sizes: list[int] = []
+        self._words: list[str] = []
+        self._lines: list[int] = []
+        self._vertices: list[int] = []
+        self._normals: list[int] = []
+
+    def add(self, words: list[str], line: int, vertices_so_far: int, normals_so_far: int) -> None:
+        self.sizes.append(len(words))
+        self._words += words
+        self._lines.append(line)
+        self._vertices.append(vertices_so_far)
+        self._normals.append(normals_so_far)
+
+    def corners(self) -> IndexArray64:
+        """The vertex of each corner; ValueError if one is no index.
+
+        A relative index that reaches before the first vertex stays negative and is refused later.
+        """
+        try:
+            given = [int(word.partition("/")[0]) for word in self._words]
+        except ValueError:
+            raise ValueError(self._first_fault()) from None
+        if 0 in given:
+            line = self._line(given.index(0))
+            raise ValueError(f"line {line}: a face has vertex index 0, but OBJ counts from 1")
+        indices = corner_array([index - 1 if index > 0 else index for index in given])
+        so_far = np.repeat(np.array(self._vertices, np.int64), self.sizes)
+        return np.where(indices < 0, indices + so_far, indices)
+
+    def normals(self, count: int) -> IndexArray64 | None:
+        """The normal of each corner, -1 for none or one that does not exist; None without any."""
+        if not count:
+            return None
+        so_far = np.repeat(self._normals, self.sizes).tolist()
+        attributes = map(corner_attribute, self._words, repeat(2), so_far)
+        used = np.fromiter(attributes, np.int64, len(self._words))
+        used[(used < 0) | (used >= count)] = -1
+        return used
+
+    def _first_fault(self) -> str:
+        for place, word in enumerate(self._words):
+            try:
+                int(word.partition("/")[0])
+            except ValueError:
+                return f"line {self._line(place)}: {word[:40]!r} is not a corner of a face"
+        raise AssertionError("all corners are indices")
+
+    def _line(self, corner: int) -> int:
+        ends = np.cumsum(self.sizes)
+        return self._lines[int(np.searchsorted(ends, corner, side="right"))]
 
 
 def corner_attribute(word: str, place: int, so_far: int) -> int:

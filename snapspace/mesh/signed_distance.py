@@ -9,6 +9,8 @@ from scipy.spatial import cKDTree
 from .arrays import FloatArray, IndexArray
 from .box_tree import BoxTree
 from .closest_point import closest_on_triangles
+from .edges import edges_of
+from .least_of_each import least_of_each
 
 _BLOCK = 4096  # points at a time: their candidates fit into the cache
 _EDGE = 1e-7  # barycentric coordinates below this are on an edge or at a corner
@@ -59,8 +61,7 @@ class SignedDistance:
         point, face = self._tree.within(points, reach)
         closest = closest_on_triangles(points[point], self._corners[face])
         squared = ((closest - points[point]) ** 2).sum(axis=1)
-        order = np.lexsort((face, squared, point))
-        best = order[np.diff(point[order], prepend=-1) > 0]
+        best = least_of_each(point, squared, face)
         face, closest = face[best], closest[best]
         normals = self._normals(face, closest)
         outward = np.einsum("ij,ij->i", points - closest, normals) >= 0
@@ -104,12 +105,9 @@ def _barycentric(corners: FloatArray, points: FloatArray) -> FloatArray:
 
 def _edge_normals(faces: IndexArray, face_normals: FloatArray) -> FloatArray:
     """Sums of the normals of the faces at each edge, (f, 3, 3): by face and opposite corner."""
-    edges = np.sort(faces[:, [[1, 2], [2, 0], [0, 1]]], axis=2).reshape(-1, 2)
-    _, edge = np.unique(edges, axis=0, return_inverse=True)
-    edge = edge.ravel()
-    sums = np.zeros((edge.max() + 1, 3))
-    np.add.at(sums, edge, np.repeat(face_normals, 3, axis=0))
-    normals: FloatArray = sums[edge].reshape(-1, 3, 3)
+    edge = edges_of(faces).of_face[:, [1, 2, 0]]  # opposite to the corners
+    sums = _sums(edge, np.repeat(face_normals[:, None], 3, axis=1), int(edge.max()) + 1)
+    normals: FloatArray = sums[edge]
     return normals
 
 
@@ -117,13 +115,20 @@ def _vertex_normals(
     count: int, faces: IndexArray, corners: FloatArray, face_normals: FloatArray
 ) -> FloatArray:
     """Normals of the faces around each vertex, weighted by their angles there."""
-    normals = np.zeros((count, 3))
+    weighted = np.empty((3, len(faces), 3))
     for k in range(3):
         first = _unit(corners[:, (k + 1) % 3] - corners[:, k])
         second = _unit(corners[:, (k + 2) % 3] - corners[:, k])
         angle = np.arccos(np.clip(np.einsum("ij,ij->i", first, second), -1.0, 1.0))
-        np.add.at(normals, faces[:, k], angle[:, None] * face_normals)
-    return normals
+        weighted[k] = angle[:, None] * face_normals
+    return _sums(faces.T, weighted, count)
+
+
+def _sums(index: NDArray[np.integer], vectors: FloatArray, count: int) -> FloatArray:
+    """Sums of the vectors (..., 3) with each index (...) below `count`, (count, 3)."""
+    flat, rows = index.ravel(), vectors.reshape(-1, 3)
+    columns = [np.bincount(flat, rows[:, axis], minlength=count) for axis in range(3)]
+    return np.stack(columns, axis=1)
 
 
 def _unit(vectors: FloatArray) -> FloatArray:

@@ -33,7 +33,8 @@ def triangle_count(data: bytes) -> int | None:
     count = int.from_bytes(data[80:HEADER], "little") if len(data) >= HEADER else -1
     if count >= 0 and len(data) == HEADER + count * TRIANGLE.itemsize:
         return count
-    if data[:512].lstrip()[:5].lower() == b"solid" and b"facet" in data[:2048].lower():
+    begin = data[:2048].lower()
+    if begin[:512].lstrip()[:5] == b"solid" and (b"facet" in begin or b"endsolid" in begin):
         return None
     if 0 < count <= (len(data) - HEADER) // TRIANGLE.itemsize:
         return count  # some programs add bytes at the end

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from .arrays import FloatArray, IndexArray
+from .equal_faces import equal_faces
 
 # Faces of a positive tet, counter-clockwise seen from outside.
 _FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
-# Three indices below this fit into one 64-bit number, which is sorted three times as fast.
-_MOST_IN_A_KEY = 1 << 21
 
 
 def boundary_faces(tets: IndexArray) -> IndexArray:
@@ -27,17 +26,9 @@ def boundary_faces(tets: IndexArray) -> IndexArray:
         often as its reverse.
     """
     faces = tets[:, _FACES].reshape(-1, 3)
-    corners = np.sort(faces, axis=1).astype(np.int64)
-    stride = int(faces.max()) + 1 if faces.size else 1
-    if stride < _MOST_IN_A_KEY:
-        keys = (corners[:, 0] * stride + corners[:, 1]) * stride + corners[:, 2]
-        order = np.argsort(keys)
-        changes = np.diff(keys[order]) != 0
-    else:
-        order = np.lexsort(corners.T)
-        changes = np.diff(corners[order], axis=0).any(axis=1)
+    order, same = equal_faces(faces)
     differs = np.ones(len(faces) + 1, dtype=np.bool_)
-    differs[1:-1] = changes
+    differs[1:-1] = ~same
     once = differs[:-1] & differs[1:]
     return np.ascontiguousarray(faces[np.sort(order[once])], dtype=np.int32)
 

@@ -5,16 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from .arrays import FloatArray, IndexArray
 from .box_tree import BoxTree
 from .closest_point import closest_on_triangles
+from .least_of_each import Integers, least_of_each
 from .surface import compact_surface
 from .tet_mesh import TetMesh
-
-Integers = NDArray[np.intp]
 
 _BLOCK = 4096  # points at a time: their candidates fit into the cache
 # Rounding may put a point outside its tet by this share of the diagonal.
@@ -69,7 +67,7 @@ def containing_tets(mesh: TetMesh, points: FloatArray) -> tuple[Integers, FloatA
         found = barycentric(corners[tet], here[point])
         depth = found.min(axis=1)
         keep = np.flatnonzero(depth >= -_ROUNDING)
-        best = keep[_first_of_each(point[keep], -depth[keep], tet[keep])]
+        best = keep[least_of_each(point[keep], -depth[keep], tet[keep])]
         tets[start + point[best]], weights[start + point[best]] = tet[best], found[best]
     return tets, weights
 
@@ -132,7 +130,7 @@ class FaceSearch:
             point, face = self._tree.within(here, reach[start : start + _BLOCK])
             offset = closest_on_triangles(here[point], self.triangles[face]) - here[point]
             distance = np.linalg.norm(offset, axis=1)
-            best = _first_of_each(point, distance, face)
+            best = least_of_each(point, distance, face)
             best = best[distance[best] <= limit]
             nearest[start + point[best]] = face[best]
             distances[start + point[best]] = distance[best]
@@ -170,7 +168,7 @@ def least_extrapolated(
         within = np.arange(len(point)) - np.repeat(np.cumsum(count) - count, count)
         tet = order[np.repeat(begin[vertices], count) + within] // 4
         found = barycentric(mesh.vertices[mesh.tets[tet]], points[point])
-        best = _first_of_each(point, np.abs(found).sum(axis=1), tet)
+        best = least_of_each(point, np.abs(found).sum(axis=1), tet)
         tets[point[best]], weights[point[best]] = tet[best], found[best]
     return tets, weights
 
@@ -178,12 +176,3 @@ def least_extrapolated(
 def _blocks(count: int) -> Iterator[Integers]:
     for start in range(0, count, _BLOCK):
         yield np.arange(start, min(start + _BLOCK, count))
-
-
-def _first_of_each(group: Integers, cost: FloatArray, index: Integers) -> Integers:
-    """Position of the least cost in each group; ties go to the least index."""
-    order = np.lexsort((index, cost, group))
-    first = np.ones(len(order), np.bool_)
-    first[1:] = group[order[1:]] != group[order[:-1]]
-    chosen: Integers = order[first]
-    return chosen

@@ -106,6 +106,8 @@ def stuff_unchecked(
         implicit, points, values, cuts, corner_count=lattice.corner_count, cell=cell
     )
     tets = clip_tets(tets, signs, lattice.odd_nodes(), cuts)
+    if not len(tets):  # all nodes inside were moved to the surface
+        raise ValueError(f"stuff: cell is {cell}, but no part of the shape is as thick")
     largest = largest_component(np.concatenate([points, cuts.points]), tets)
     return TetMesh(*morton_order(*largest))
 

@@ -79,10 +79,17 @@ def test_parts_that_overlap_become_one_solid() -> None:
 def test_separate_parts_are_refused_and_nothing_is_left_behind(
     capfd: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The C++ code prints, and writes a file into the current folder."""
+    """The C++ code prints, and writes a file into the current folder.
+
+    The bars lean, side by side: their boxes overlap, so only their tets show that they are apart.
+    """
     monkeypatch.chdir(tmp_path)
-    vertices, faces = surface_of(bar(1, 1, 1, length=1.0, width=1.0, height=1.0))
-    both = np.concatenate([vertices, vertices + 3.0]), np.concatenate([faces, faces + 8])
+    vertices, faces = surface_of(bar(1, 1, 1, length=3.0, width=1.0, height=1.0))
+    vertices[:, 1] += vertices[:, 0]
+    both = (
+        np.concatenate([vertices, vertices + np.array([0, 2, 0])]),
+        np.concatenate([faces, faces + 8]),
+    )
     with pytest.raises(ValueError, match="the tets form 2 separate solids, but one is needed"):
         fill_surface(*both, **COARSE)
     assert capfd.readouterr() == ("", "")

@@ -6,27 +6,33 @@ const LEAF = 4;
 
 /** Boxes in boxes around the triangles of a shape at rest, for rays (Kay and Kajiya 1986).
  *
- * Nodes are split in the middle of their triangles' centres, or by their number where that leaves one side empty. */
+ * Nodes are split in the middle of their triangles' centres, or by their number where that leaves one side empty; and
+ * only once a ray enters them: a page that opens a large mesh does not wait for the whole tree. */
 export class TriangleTree {
   readonly #shape: Float32Array;
   readonly #faces: Uint32Array;
-  /** Three corners each, node by node. */
+  readonly #centers: Float32Array;
+  /** Triangles, node by node. */
   readonly #order: Uint32Array;
   /** Six numbers per node: lowest and highest corner. */
   readonly #boxes: Float32Array;
-  /** Per node its range in #order if it is a leaf; else its first child, the second is the next node, and -1 less
+  /** Per node its range in #order until it is split; then its first child, the second is the next node, and -1 less
    * the axis that it was split along. */
   readonly #ranges: Int32Array;
   readonly #stack = new Int32Array(128);
+  #nodes = 1;
 
   constructor(shape: Float32Array, faces: Uint32Array) {
     const count = faces.length / 3;
     this.#shape = shape;
     this.#faces = faces;
-    this.#order = Uint32Array.from({ length: count }, (_, i) => i);
+    this.#centers = triangleCenters(shape, faces);
+    this.#order = new Uint32Array(count);
+    for (let i = 0; i < count; i++) this.#order[i] = i;
     this.#boxes = new Float32Array(6 * Math.max(2 * count, 1));
     this.#ranges = new Int32Array(2 * Math.max(2 * count, 1));
-    this.#build(count);
+    this.#ranges[1] = count;
+    this.#enclose(0);
   }
 
   /** The first triangle that a ray hits, and how far in lengths of the direction; null if there is none. */
@@ -60,6 +66,7 @@ export class TriangleTree {
       const leaves = Math.min(Math.max(x0, x1), Math.max(y0, y1), Math.max(z0, z1));
       // with NaN, from a ray in a face of the box, every comparison is false and the box is looked into
       if (enters > leaves || enters > along || leaves < from) continue;
+      if (this.#ranges[2 * node + 1] - this.#ranges[2 * node] > LEAF) this.#split(node);
       const start = this.#ranges[2 * node];
       const end = this.#ranges[2 * node + 1];
       if (end < 0) {
@@ -79,22 +86,15 @@ export class TriangleTree {
     return { face, along };
   }
 
-  #build(count: number): void {
-    const centers = triangleCenters(this.#shape, this.#faces);
-    const waiting: [node: number, start: number, end: number][] = [[0, 0, count]];
-    let nodes = 1;
-    for (let job = waiting.pop(); job; job = waiting.pop()) {
-      const [node, start, end] = job;
-      if (end - start <= LEAF) {
-        this.#ranges.set([start, end], 2 * node);
-        continue;
-      }
-      const [middle, axis] = splitInMiddle(this.#order, centers, start, end);
-      this.#ranges.set([nodes, -1 - axis], 2 * node);
-      waiting.push([nodes, start, middle], [nodes + 1, middle, end]);
-      nodes += 2;
-    }
-    for (let node = nodes - 1; node >= 0; node--) this.#enclose(node); // children have the higher numbers
+  #split(node: number): void {
+    const [start, end] = this.#ranges.subarray(2 * node, 2 * node + 2);
+    const [middle, axis] = splitInMiddle(this.#order, this.#centers, start, end);
+    const first = this.#nodes;
+    this.#nodes += 2;
+    this.#ranges.set([first, -1 - axis], 2 * node);
+    this.#ranges.set([start, middle, middle, end], 2 * first);
+    this.#enclose(first);
+    this.#enclose(first + 1);
   }
 
   #enclose(node: number): void {
@@ -103,13 +103,6 @@ export class TriangleTree {
     boxes.fill(Infinity, b, b + 3).fill(-Infinity, b + 3, b + 6);
     const start = this.#ranges[2 * node];
     const end = this.#ranges[2 * node + 1];
-    if (end < 0) {
-      for (let axis = 0; axis < 3; axis++) {
-        boxes[b + axis] = Math.min(boxes[6 * start + axis], boxes[6 * start + 6 + axis]);
-        boxes[b + axis + 3] = Math.max(boxes[6 * start + axis + 3], boxes[6 * start + axis + 9]);
-      }
-      return;
-    }
     for (let i = start; i < end; i++)
       for (let corner = 0; corner < 3; corner++) {
         const v = 3 * this.#faces[3 * this.#order[i] + corner];

@@ -44,7 +44,6 @@ export function choosingView(
     scales: new Float32Array(0),
   };
   const surface = new Surface(stage.renderer, space, mesh.faces, mesh.diagonal, true);
-  surface.show([]);
   surface.object.updateMatrix();
   stage.root.add(surface.object);
   if (!options.keepView) stage.place(mesh.shape, options.up);
@@ -72,7 +71,7 @@ export function choosingView(
   choosing.changed();
 
   const sheet = shortcutSheet(CHOOSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
-  const inside = space.vertices - new Set(mesh.faces).size;
+  const inside = insideCount(mesh);
   const counted =
     `${space.vertices.toLocaleString("en")} vertices` +
     (inside > 0 ? `, ${inside.toLocaleString("en")} of them inside` : "");
@@ -115,6 +114,13 @@ export function choosingView(
       surface.dispose();
     },
   };
+}
+
+/** How many vertices are in no triangle of the surface. */
+function insideCount({ shape, faces }: RestMesh): number {
+  const isInside = new Uint8Array(shape.length / 3).fill(1);
+  for (const vertex of faces) isInside[vertex] = 0;
+  return isInside.reduce((count, one) => count + one, 0);
 }
 
 function lookPanel(

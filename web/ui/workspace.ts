@@ -16,6 +16,7 @@ import { ConnectionNotice } from "./connection_notice.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import type { Improving } from "./improving.ts";
+import { nextTask } from "./next_task.ts";
 import type { PosingView } from "./posing_view.ts";
 import { readable, type AppShell } from "./app_shell.ts";
 import { ServedModels } from "./served_models.ts";
@@ -144,8 +145,7 @@ export class Workspace {
       return;
     }
     const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
-    const isThere = this.#mesh !== null && before?.id === given.id && before.mesh === given.mesh;
-    if (isThere) {
+    if (this.#mesh && before?.id === given.id && before.mesh === given.mesh) {
       models.job.set(given.job ?? 0, given.is_running ?? false); // the newest model and the progress follow
       models.update();
       return;
@@ -160,15 +160,17 @@ export class Workspace {
       return;
     }
     this.#isBack = false;
-    this.#mesh = readMesh(await this.#server.fetched(given.mesh));
-    this.#choice = choiceOf(given.handles, given.parts);
+    void this.#shell.stage; // made while the mesh comes
+    const mesh = readMesh(await this.#server.fetched(given.mesh));
+    await nextTask();
+    [this.#mesh, this.#choice] = [mesh, choiceOf(given.handles, given.parts)];
     this.#sampling = samplingOf(given);
     models.clear();
     models.job.set(given.job ?? 0, given.is_running ?? false);
     models.motions = motionsOf(location.hash); // after a reload
     this.#check?.dispose();
     this.#check = given.has_surface ? new CheckPanel(this.#shell.stage, this.#server) : null;
-    this.#choosing(true);
+    await this.#choosing(true);
   }
 
   /** Shows that there is no mesh: asks for one, or waits for it. */
@@ -180,11 +182,10 @@ export class Workspace {
     else this.#reading.wait(given);
   }
 
-  /** The view in which handles are chosen. */
-  #choosing(isNew = false): void {
+  /** The view in which handles are chosen; made and shown in two tasks for a new mesh, which may be large. */
+  async #choosing(isNew = false): Promise<void> {
     const [stage, mesh] = [this.#shell.stage, this.#mesh!];
     this.#leave();
-    const below = [...(this.#check?.elements ?? []), this.#models.panel.element];
     const onChoice = (choice: Choice) => {
       if (choice.handles !== this.#choice.handles || choice.parts !== this.#choice.parts)
         this.#models.panel.clear();
@@ -192,28 +193,26 @@ export class Workspace {
       this.#models.update();
       this.#keepSoon();
     };
-    const { up } = isNew ? this.#shell.options(mesh.up) : stage;
-    this.#shell.show(
-      choosingView(
-        stage,
-        mesh,
-        this.#choice,
-        this.#sampling!,
-        this.#given!,
-        below,
-        this.#server,
-        onChoice,
-        () => this.#keepSoon(),
-        { up, forceCpu: true, keepView: !isNew },
-      ),
-      mesh.name,
+    const view = choosingView(
+      stage,
+      mesh,
+      this.#choice,
+      this.#sampling!,
+      this.#given!,
+      [...(this.#check?.elements ?? []), this.#models.panel.element],
+      this.#server,
+      onChoice,
+      () => this.#keepSoon(),
+      { up: (isNew ? this.#shell.options(mesh.up) : stage).up, forceCpu: true, keepView: !isNew },
     );
+    if (isNew) await nextTask();
+    this.#shell.show(view, mesh.name);
     this.#check?.show();
     this.#models.update();
   }
 
-  #backToChoosing(): void {
-    this.#choosing();
+  async #backToChoosing(): Promise<void> {
+    await this.#choosing();
     keepHash(() => CHOOSING);
   }
 

@@ -14,7 +14,7 @@ from .slots import TextSlots
 # Spaces may include a line that goes on below.
 _GAP = rb"(?:[ \t\f\v]|\\\r?\n)+"
 _LINE = rb"(?:(?<=[\r\n])|\A)(?:[ \t\f\v]|\\\r?\n)*"
-_LIBRARY = re.compile(_LINE + rb"mtllib" + _GAP + rb"([^\r\n#]+)")
+_LIBRARY = re.compile(rb"mtllib" + _GAP + rb"([^\r\n#]+)")
 
 
 def obj_layout(data: bytes, content: FileContent) -> Layout:
@@ -24,7 +24,11 @@ def obj_layout(data: bytes, content: FileContent) -> Layout:
     directions: tuple[Directions, ...] = ()
     if polygons.normals is not None and (polygons.normals >= 0).any():
         directions = (Directions(_vectors(data, b"vn"), polygons.normals),)
-    libraries = [match[1].decode("utf-8", "replace").strip() for match in _LIBRARY.finditer(data)]
+    libraries = [
+        match[1].decode("utf-8", "replace").strip()
+        for match in _LIBRARY.finditer(data)
+        if _begins_line(data, match.start())
+    ]
     return Layout(
         data=data,
         points=_vectors(data, b"v"),
@@ -33,6 +37,12 @@ def obj_layout(data: bytes, content: FileContent) -> Layout:
         directions=directions,
         refers_to=tuple(dict.fromkeys(libraries)),
     )
+
+
+def _begins_line(data: bytes, place: int) -> bool:
+    """Whether only spaces are before a place in its line."""
+    start = max(data.rfind(end, 0, place) for end in (b"\n", b"\r")) + 1
+    return not data[start:place].strip()
 
 
 def _vectors(data: bytes, keyword: bytes) -> TextSlots:

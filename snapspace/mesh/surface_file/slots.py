@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -34,13 +35,15 @@ class TextSlots:
     starts: NDArray[np.int64]
     ends: NDArray[np.int64]
 
-    @property
+    @cached_property
     def values(self) -> FloatArray:
-        """The vectors in the file, (k, 3)."""
+        """The vectors in the file, (k, 3), read-only."""
         data = self.data
         spans = zip(self.starts.ravel().tolist(), self.ends.ravel().tolist(), strict=True)
         text = b" ".join([data[start:end] for start, end in spans]).decode("latin-1")
-        return parse_numbers(text, what="coordinates").reshape(-1, 3)
+        values = parse_numbers(text, what="coordinates").reshape(-1, 3)
+        values.setflags(write=False)
+        return values
 
     def patches(self, rows: NDArray[np.intp], values: FloatArray) -> list[Patch]:
         """All digits that reading needs to give the same numbers."""

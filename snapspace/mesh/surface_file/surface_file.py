@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -134,7 +135,7 @@ class SurfaceFile:
 
     def compact(self) -> SurfaceFile:
         """The same file without its vertices that no face uses."""
-        return replace(self, used_only=True)
+        return self._changed(used_only=True)
 
     def with_vertices(self, vertices: ArrayLike) -> bytes:
         """The file with other positions.
@@ -168,7 +169,7 @@ class SurfaceFile:
         if not rows.size:
             return self.data
         old = layout.points.values
-        world = layout.world_points()
+        world = layout.world_points().copy()
         world[rows] = new[vertex[rows]]
         points = old.copy()
         points[rows] = layout.local_points(world)[rows]
@@ -200,6 +201,13 @@ class SurfaceFile:
             rows, turned = carried(directions, values, old, new, triangles, corners)
             patches += directions.slots.patches(rows, turned)
         return patches
+
+    def _changed(self, **changes: Any) -> SurfaceFile:
+        """The same bytes with other fields; they are not read again."""
+        other = replace(self, **changes)
+        if "_layout" in vars(self):
+            vars(other)["_layout"] = self._layout
+        return other
 
     @cached_property
     def _layout(self) -> Layout:
@@ -248,7 +256,7 @@ def open_surface(path: str | os.PathLike[str]) -> SurfaceFile:
         surface = SurfaceFile(file.name, data)
         checked_surface(surface.vertices, surface.faces)
         beside = files_beside(surface._layout, file.parent)
-    return replace(surface, beside=beside) if beside else surface
+    return surface._changed(beside=beside) if beside else surface
 
 
 def checked_surface(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-IndexArray = NDArray[np.int32]
+from .arrays import IndexArray
 
 
 @dataclass(frozen=True, eq=False)
