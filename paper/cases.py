@@ -87,7 +87,7 @@ def scaled(problem: ss.PosingProblem, volume: float, *, stiffness: float) -> ss.
     scale = (volume / problem.mesh.volume) ** (1.0 / 3.0)
     bounds = problem.domain.bounds
     return ss.PosingProblem(
-        ss.TetMesh(scale * problem.mesh.vertices, problem.mesh.tets),
+        ss.TetMesh(scale * problem.mesh.vertices, problem.mesh.cells),
         problem.handles,
         domain=ss.HandleBox(
             translation=scale * bounds[:, :3], angle=bounds[:, 3:], moving=len(bounds)

@@ -49,7 +49,7 @@ def all_tets(model: Model, near: Model, parameters: FloatArray) -> Evaluation:
     if isinstance(model, ss.PosingModel):
         assert isinstance(near, ss.PosingModel) and not isinstance(near.elastic, FullEnergy)
         model = with_near_hessian(model, near.elastic)
-    return Evaluation("all tets", len(mesh.tets), adds, model, functions)
+    return Evaluation("all tets", len(mesh.elements), adds, model, functions)
 
 
 def exact(model: Model, parameters: FloatArray) -> Evaluation:

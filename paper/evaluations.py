@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import snapspace as ss
-from snapspace.mesh import mass_norms
+from snapspace.mesh import mass_norms, solid_of
 
 from . import evaluation_methods as methods
 from .cached import training, unseen
@@ -82,9 +82,9 @@ def run(*, quick: bool = False) -> Result:
 
 
 def _coarsened(problem: ss.PosingProblem | ss.InterpolationProblem) -> list[CoarseMesh]:
-    sizes = [size for size in methods.COARSE_TETS if size < len(problem.mesh.tets)]
+    sizes = [size for size in methods.COARSE_TETS if size < len(problem.mesh.elements)]
     poses = problem.poses.shapes if isinstance(problem, ss.InterpolationProblem) else None
-    return list(coarse_meshes(problem.mesh, sizes, poses=poses))
+    return list(coarse_meshes(solid_of(problem.mesh, who="evaluations"), sizes, poses=poses))
 
 
 def _add(

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 import snapspace as ss
+from snapspace.mesh import solid_of
 
 from .cached import training, unseen
 from .cases import Case, read
@@ -68,7 +69,7 @@ def _row(limit: str, case: Case, variant: str, **figures: Any) -> dict[str, Any]
 def _symmetry(case: Case, count: int, dimension: int) -> Iterator[dict[str, Any]]:
     problem = case.problem
     assert isinstance(problem, ss.PosingProblem)
-    mirror = mirror_of(problem.mesh)
+    mirror = mirror_of(solid_of(problem.mesh, who="limits"))
     if mirror.asymmetry > SYMMETRIC or partners(problem, mirror) is None:
         raise ValueError(f"limits: {case.shape} is not symmetric: {mirror.asymmetry:.2g}")
     reference = unseen(problem, UNSEEN)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 import snapspace as ss
-from snapspace.mesh import vertex_normals
+from snapspace.mesh import solid_of, vertex_normals
 
 FloatArray = NDArray[np.float64]
 
@@ -91,7 +91,8 @@ def mirrored(problem: ss.PosingProblem, shapes: FloatArray, mirror: Mirror) -> F
     """Mirror images (k, 3n) of shapes (k, 3n), at the vertices of the mesh."""
     mesh = problem.mesh
     images = mirror.points(mesh.vertices)
-    carrier = ss.embed_surface(images, mesh.surface, mesh, farthest=3 * SYMMETRIC)
+    solid = solid_of(mesh, who="symmetry")
+    carrier = ss.embed_surface(images, mesh.surface, solid, farthest=3 * SYMMETRIC)
     at_rest = carrier.vertices(mesh.vertices)
     result = np.empty_like(shapes)
     for row, shape in zip(result, shapes, strict=True):

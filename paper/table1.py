@@ -94,7 +94,7 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
 
     model, coefficients = timed(make)
     mesh = problem.mesh
-    size = {"vertices": len(mesh.vertices), "tets": len(mesh.tets)}
+    size = {"vertices": len(mesh.vertices), "tets": len(mesh.cells)}
     result.add(
         **{"shape": case.shape, "material": kind, "method": "ours"},
         **size,
@@ -104,7 +104,7 @@ def _add(result: Result, row: Row, kind: str, *, quick: bool) -> None:
         **_frames(drag(model)),
     )
     few, seconds = newton_samples(
-        snapshots, NEWTON_SMALL if len(mesh.tets) < SMALL_TETS else NEWTON
+        snapshots, NEWTON_SMALL if len(mesh.cells) < SMALL_TETS else NEWTON
     )
     is_exact = model.cubature is None  # frames of a cubature are solved by BFGS anyway
     result.add(

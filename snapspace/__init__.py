@@ -34,6 +34,7 @@ EXPORTS = {
         "EmbeddedSurface",
         "MeshNotice",
         "MirrorPlane",
+        "ShellMesh",
         "SurfaceFile",
         "TetMesh",
         "boundary_surface",

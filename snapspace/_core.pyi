@@ -21,7 +21,14 @@ class Material:
     def rows(self) -> int: ...
 
 def material_moduli() -> dict[str, list[str]]:
-    """Names of the moduli of every density, in the order of its rows."""
+    """
+    Names of the moduli of every density of solids, in the order of its rows.
+    """
+
+def shell_moduli(vertices: NDArray[numpy.float64], elements: NDArray[numpy.int32], moduli: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+    """
+    Rows of a shell's density (m, 13): mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest shapes.
+    """
 
 class Projection(enum.Enum):
     """The matrix that Newton's method uses for the Hessian of a tet."""
@@ -60,6 +67,11 @@ class ElasticEnergy:
     def lane_values_and_gradients(self, shapes: NDArray[numpy.float64], *, single: bool = False) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
         Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), one per lane; twice as many in single precision.
+        """
+
+    def scalar_diagonal(self) -> NDArray[numpy.float64]:
+        """
+        Diagonal (n,) of the scalar matrix that stands for the Hessian of x, y and z.
         """
 
     def inverted_tets(self, u: NDArray[numpy.float64]) -> int:
@@ -424,9 +436,9 @@ class FittingSystem:
         Displacements (3n,) that bring the surface to displacements (s, 3), and a report.
         """
 
-def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, threads: int) -> NDArray[numpy.float32]:
+def mode_gradients(vertices: NDArray[numpy.float64], modes: NDArray[numpy.float64], tets: NDArray[numpy.int32], *, shell: bool = False, threads: int) -> NDArray[numpy.float32]:
     """
-    Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4).
+    Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4), or in the triangles and hinges of a shell.
     """
 
 def training_columns(rows: NDArray[numpy.float32], stresses: NDArray[numpy.float32], along: NDArray[numpy.float32], columns: NDArray[numpy.float32], *, threads: int) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .disk import atomic_file
 from .gltf import fitted_targets, write_glb
-from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, write_surface, write_tets
+from .mesh import SURFACE_OUTPUTS, TET_OUTPUTS, EmbeddedSurface, solid_of, write_surface, write_tets
 from .reduction import ReducedModel
 
 #: Formats that ParaView reads, with a list of the files beside them.
@@ -104,7 +104,7 @@ def write_shape(path: Path, model: ReducedModel, vertices: NDArray[np.float64]) 
     elif suffix in SURFACE_OUTPUTS:
         write_surface(path, surface.vertices(vertices), surface.faces)
     else:
-        write_tets(path, model.problem.mesh, vertices=vertices)
+        write_tets(path, solid_of(model.problem.mesh, who=str(path)), vertices=vertices)
 
 
 def shape_suffixes(surface: EmbeddedSurface) -> tuple[str, ...]:

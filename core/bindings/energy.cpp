@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "element/rest_shell.h"
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
 #include "lanes/in_lanes.h"
@@ -7,12 +8,12 @@ namespace snapspace {
 
 namespace {
 
-RestShape rest_shape(const MatrixIn& vertices, const IndexMatrixIn& tets) {
+RestShape rest_shape(const MatrixIn& vertices, const IndexMatrixIn& tets, bool shell) {
   require(vertices.shape(1) == 3, "vertices must be (n, 3)");
   require(tets.shape(1) == 4, "tets must be (m, 4)");
   const auto n = static_cast<std::int32_t>(vertices.shape(0));
   require_below(tets, vertices.shape(0), "a tet has a vertex index out of range");
-  return {vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0))};
+  return {vertices.data(), n, tets.data(), static_cast<int>(tets.shape(0)), shell};
 }
 
 std::size_t size(const ElasticEnergy& energy) {
@@ -62,13 +63,34 @@ void bind_material(nb::module_& m) {
       [] {
         nb::typed<nb::dict, std::string, std::vector<std::string>> result;
         for (int kind = 0; kind < Densities::kCount; ++kind) {
+          if (is_of_shells(kind)) continue;
           std::vector<std::string> names;
           for (int k = 0; k < material_moduli(kind); ++k) names.emplace_back(modulus_name(kind, k));
           result[material_name(kind)] = nb::cast(names);
         }
         return result;
       },
-      "Names of the moduli of every density, in the order of its rows.");
+      "Names of the moduli of every density of solids, in the order of its rows.");
+  m.def(
+      "shell_moduli",
+      [](MatrixIn vertices, IndexMatrixIn elements, MatrixIn moduli) {
+        constexpr std::size_t kScaled = ShellStVK::kScaled, kCount = ShellStVK::kModuli;
+        require(vertices.shape(1) == 3 && elements.shape(1) == 4 &&
+                    moduli.shape(0) == elements.shape(0) && moduli.shape(1) == kScaled,
+                "needs vertices (n, 3), elements (m, 4) and moduli (m, 3)");
+        require_below(elements, vertices.shape(0), "an element has a vertex index out of range");
+        DoublesOut rows = new_array<double>({elements.shape(0), kCount});
+        std::fill_n(rows.data(), rows.size(), 0.0);
+        for (std::size_t e = 0; e < elements.shape(0); ++e) {
+          double* row = rows.data() + kCount * e;
+          std::copy_n(moduli.data() + kScaled * e, kScaled, row);
+          RestShellElement(vertices.data(), elements.data() + 4 * e).write_numbers(row + kScaled);
+        }
+        return rows;
+      },
+      nb::arg("vertices"), nb::arg("elements").noconvert(), nb::arg("moduli"),
+      "Rows of a shell's density (m, 13): mu, lam and bending (m, 3) of the triangles and hinges, "
+      "and the numbers of their rest shapes.");
   nb::enum_<Projection>(m, "Projection",
                         "The matrix that Newton's method uses for the Hessian of a tet.")
       .value("none", Projection::none)
@@ -88,7 +110,8 @@ void bind_energy(nb::module_& m) {
           "__init__",
           [](ElasticEnergy* self, MatrixIn vertices, IndexMatrixIn tets,
              const MaterialField& material) {
-            new (self) ElasticEnergy(rest_shape(vertices, tets), material);
+            const bool shell = is_of_shells(material.view().kind);
+            new (self) ElasticEnergy(rest_shape(vertices, tets, shell), material);
           },
           nb::arg("vertices"), nb::arg("tets").noconvert(), nb::arg("material"))
       .def(
@@ -141,6 +164,13 @@ void bind_energy(nb::module_& m) {
            nb::arg("single") = false,
            "Energies (k,) and gradients (k, 3n) at up to lane_count displacements (k, 3n), one per "
            "lane; twice as many in single precision.")
+      .def(
+          "scalar_diagonal",
+          [](const ElasticEnergy& self) {
+            const Eigen::VectorXd diagonal = self.scalar_matrix().diagonal();
+            return copy_to_array(diagonal.data(), {static_cast<std::size_t>(diagonal.size())});
+          },
+          "Diagonal (n,) of the scalar matrix that stands for the Hessian of x, y and z.")
       .def(
           "inverted_tets",
           [](const ElasticEnergy& self, VectorIn u) {

@@ -13,7 +13,7 @@ using FloatsOut = nb::ndarray<float, nb::ndim<2>, nb::c_contig, nb::device::cpu>
 void bind_training(nb::module_& m) {
   m.def(
       "mode_gradients",
-      [](MatrixIn vertices, MatrixIn modes, IndexMatrixIn tets, int threads) {
+      [](MatrixIn vertices, MatrixIn modes, IndexMatrixIn tets, bool shell, int threads) {
         require(vertices.shape(1) == 3 && modes.shape(1) == vertices.size(),
                 "vertices (n, 3) and modes (d, 3n) do not match");
         require(tets.shape(1) == 4, "tets must be (r, 4)");
@@ -21,12 +21,14 @@ void bind_training(nb::module_& m) {
         auto rows = new_array<float>({tets.shape(0), 9, modes.shape(0)});
         const nb::gil_scoped_release release;
         mode_gradients(vertices.data(), static_cast<int>(modes.shape(0)), modes.shape(1),
-                       modes.data(), static_cast<int>(tets.shape(0)), tets.data(), rows.data(),
-                       threads);
+                       modes.data(), shell, static_cast<int>(tets.shape(0)), tets.data(),
+                       rows.data(), threads);
         return rows;
       },
-      nb::arg("vertices"), nb::arg("modes"), nb::arg("tets"), nb::kw_only(), nb::arg("threads"),
-      "Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4).");
+      nb::arg("vertices"), nb::arg("modes"), nb::arg("tets"), nb::kw_only(),
+      nb::arg("shell") = false, nb::arg("threads"),
+      "Displacement gradients (r, 9, d), float32, of modes (d, 3n) in tets (r, 4), or in the "
+      "triangles and hinges of a shell.");
   m.def(
       "training_columns",
       [](FloatsIn rows, FloatsIn stresses, FloatsIn along, FloatsOut columns, int threads) {

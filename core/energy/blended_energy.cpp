@@ -1,6 +1,7 @@
 #include "energy/blended_energy.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "material/pose_blend.h"
 
@@ -22,6 +23,8 @@ bool collapses(int kind) {
 BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
                              const std::int32_t* tets, int tet_count,
                              const MaterialField& material) {
+  if (is_of_shells(material.view().kind))
+    throw std::invalid_argument("the poses of a shell cannot be blended");
   const std::size_t size = 3 * static_cast<std::size_t>(vertex_count);
   for (int k = 0; k < count; ++k) {
     const double* pose = poses + k * size;
@@ -74,6 +77,7 @@ void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) co
 template <class Density, class Real>
 Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
                                               Real P[3][3]) const {
+  if constexpr (kOfShells<Density>) return Sum<Real>(0.0);  // refused by the constructor
   using Blend = PoseBlend<Density>;
   constexpr int kNumbers = Blend::numbers();
   const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "material/signed_svd.h"
+#include "material/element_hessian.h"
 
 namespace snapspace {
 
@@ -36,6 +36,18 @@ void add_block(const PrincipalCurvature& H, const double (&U)[3][3], const doubl
     for (int c = 0; c < 3; ++c)
       block[3 * r + c] +=
           weight * (half[r][0] * U[c][0] + half[r][1] * U[c][1] + half[r][2] * U[c][2]);
+}
+
+/// The gradients of a tet's hat functions times a matrix with the given columns.
+void hat_gradients(const RestTet& tet, const double (&columns)[3][3], double (&b)[4][3]) {
+  for (int c = 0; c < 3; ++c) {
+    b[0][c] = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double* edge = tet.inverse_edges[k];
+      b[k + 1][c] = edge[0] * columns[0][c] + edge[1] * columns[1][c] + edge[2] * columns[2][c];
+      b[0][c] -= b[k + 1][c];
+    }
+  }
 }
 
 }  // namespace
@@ -80,22 +92,36 @@ void BlockHessian::add(const ElasticEnergy& energy, const double* u, Projection 
 void BlockHessian::add_tet(const ElasticEnergy& energy, int t, const double* u,
                            Projection projection, double threshold, double weight) {
   const RestTet& tet = energy.rest.tets[t];
-  double F[3][3];
+  if (energy.rest.shell) return add_shell_element(energy, t, u, projection, weight);
+  double F[3][3], b[4][3];  // b in the frame of V
   displacement_gradient(tet, u, F);
   for (int r = 0; r < 3; ++r) F[r][r] += 1.0;
   const SignedSvd svd(F);
   const PrincipalCurvature H =
       curvature_of(energy.material.view(), t, svd.s, projection, threshold);
-  double b[4][3] = {};  // gradients of the hat functions, in the frame of V
-  for (int k = 0; k < 3; ++k)
-    for (int c = 0; c < 3; ++c) {
-      const double* edge = tet.inverse_edges[k];
-      b[k + 1][c] = edge[0] * svd.V[0][c] + edge[1] * svd.V[1][c] + edge[2] * svd.V[2][c];
-      b[0][c] -= b[k + 1][c];
-    }
+  hat_gradients(tet, svd.V, b);
   for (int j = 0; j < 4; ++j)
     for (int k = 0; k < 4; ++k)
       add_block(H, svd.U, b[j], b[k], weight * tet.volume, blocks_[slots_[t][4 * j + k]].data());
+}
+
+void BlockHessian::add_shell_element(const ElasticEnergy& energy, int t, const double* u,
+                                     Projection projection, double weight) {
+  constexpr double kIdentity[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const RestTet& element = energy.rest.tets[t];
+  double G[3][3], H[9][9], b[4][3];
+  displacement_gradient(element, u, G);
+  element_hessian(energy.material.view(), t, G, H);
+  project(H, projection);
+  hat_gradients(element, kIdentity, b);
+  for (int j = 0; j < 4; ++j)
+    for (int k = 0; k < 4; ++k) {
+      double* block = blocks_[slots_[t][4 * j + k]].data();
+      for (int e = 0; e < 9; ++e)
+        for (int f = 0; f < 9; ++f)
+          block[3 * (e / 3) + f / 3] +=
+              weight * element.volume * b[j][e % 3] * H[e][f] * b[k][f % 3];
+    }
 }
 
 void BlockHessian::add_outer_product(int tet, const double (&forces)[4][3], double weight) {

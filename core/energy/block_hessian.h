@@ -42,6 +42,8 @@ class BlockHessian {
  private:
   void add_tet(const ElasticEnergy& energy, int tet, const double* u, Projection projection,
                double threshold, double weight);
+  void add_shell_element(const ElasticEnergy& energy, int element, const double* u,
+                         Projection projection, double weight);
 
   std::vector<std::int32_t> row_start_;        // n + 1
   std::vector<std::int32_t> columns_;          // one per block, ascending within a row

@@ -3,7 +3,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "material/principal_hessian.h"
+#include "element/rest_shell.h"
+#include "energy/shell_strain.h"
+#include "material/element_hessian.h"
+#include "material/matrix3.h"
 
 namespace snapspace {
 
@@ -17,7 +20,7 @@ ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
   lame_.resize(2 * rest.tets.size());
   for (int t = 0; t < tets(); ++t) {
     const double volume = rest.tets[t].volume;
-    for (int k = 0; k < count; ++k) moduli_[t * std::size_t(count) + k] = volume * view.of(t)[k];
+    scale_moduli(view.kind, view.of(t), volume, &moduli_[t * std::size_t(count)]);
     const Lame lame = view.small_strains(t);
     lame_[2 * t] = volume * lame.lam;
     lame_[2 * t + 1] = volume * lame.mu;
@@ -46,7 +49,7 @@ void ElasticEnergy::hessian_product(const double* u, const double* v, double* pr
     double G[3][3], dF[3][3], dP[3][3];
     displacement_gradient(tet, u, G);
     displacement_gradient(tet, v, dF);
-    PrincipalHessian(view, t, G).multiply(dF, dP);
+    hessian_times(view, t, G, dF, dP);
     for (auto& row : dP)
       for (double& entry : row) entry *= tet.volume;
     scatter_stress(tet, dP, product);
@@ -73,7 +76,29 @@ std::vector<double> ElasticEnergy::stiffnesses() const {
   return result;
 }
 
+Eigen::Matrix<double, 4, 3> ElasticEnergy::scalar_gradients(int t) const {
+  const RestTet& tet = rest.tets[t];
+  if (!rest.shell || is_triangle(tet.vertices)) return hat_gradients(tet);
+  const HingeVector hinge(rest_numbers(t) + 1);
+  Eigen::Matrix<double, 4, 3> result = Eigen::Matrix<double, 4, 3>::Zero();
+  for (int j = 0; j < 3; ++j) result(j + 1, 0) = hinge.row[j] * tet.inverse_edges[0][0];
+  result(0, 0) = -result.col(0).tail<3>().sum();
+  return result;
+}
+
+Eigen::SparseMatrix<double> ElasticEnergy::scalar_matrix() const {
+  const std::vector<double> stiffness = stiffnesses();
+  std::vector<Eigen::Matrix4d> locals;
+  locals.reserve(rest.tets.size());
+  for (int t = 0; t < tets(); ++t) {
+    const Eigen::Matrix<double, 4, 3> gradients = scalar_gradients(t);
+    locals.push_back(stiffness[t] * rest.tets[t].volume * gradients * gradients.transpose());
+  }
+  return rest.assembled(locals);
+}
+
 int ElasticEnergy::inverted_tets(const double* u) const {
+  if (rest.shell) return 0;
   return static_cast<int>(
       std::count_if(rest.tets.begin(), rest.tets.end(), [&](const RestTet& tet) {
         double G[3][3];

@@ -1,4 +1,6 @@
 #pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -13,9 +15,10 @@
 namespace snapspace {
 
 /// Elastic energy of a mesh: the sum over tets of volume * density, as a function of displacements
-/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Real is double, or a pack with one sample per lane.
-/// Templates over densities end at this class: its sums are compiled for every density and pack,
-/// and one is chosen for every few dozen tets. Solvers and other callers know no density.
+/// u (3n, x0 y0 z0 x1 ...) from the rest shape. Of a shell the tets are triangles and hinges. Real
+/// is double, or a pack with one sample per lane. Templates over densities end at this class: its
+/// sums are compiled for every density and pack, and one is chosen for every few dozen tets.
+/// Solvers and other callers know no density.
 class ElasticEnergy {
  public:
   /// @throws std::invalid_argument  if the material has moduli for a different number of tets
@@ -68,16 +71,34 @@ class ElasticEnergy {
   /// 2 mu + lam of each tet: the largest stiffness of its small strains.
   [[nodiscard]] std::vector<double> stiffnesses() const;
 
+  /// What the scalar matrix knows of a tet: the gradients of its hat functions, one per row. Of a
+  /// hinge it is the change of the angle in the plane by the heights of its corners, in the first
+  /// column.
+  [[nodiscard]] Eigen::Matrix<double, 4, 3> scalar_gradients(int tet) const;
+
+  /// The numbers of an element's rest shape, see ShellDensity; for shells only.
+  [[nodiscard]] const double* rest_numbers(int element) const {
+    return material.view().of(element) + scaled_moduli(material.view().kind);
+  }
+
+  /// The matrix, n x n, that stands for the Hessian of x, y and z: the sum over tets of stiffness *
+  /// volume * the products of scalar gradients. Of a solid it is the Laplacian (the cotangent
+  /// Laplacian of tets); of a shell that of its triangles, and the isometric bending of its hinges
+  /// [Bergou, Wardetzky, Harmon, Zorin, Grinspun 2006]. Positive semi-definite.
+  [[nodiscard]] Eigen::SparseMatrix<double> scalar_matrix() const;
+
   /// Energy of a strain of 1e-12 everywhere. Smaller decreases count as zero: where the minimum of
   /// an objective is zero, a tolerance relative to it can never be met.
   [[nodiscard]] double negligible() const { return negligible_; }
 
-  /// Number of elements with det F <= 0.
+  /// Number of elements with det F <= 0; none in a shell, which has no inside.
   [[nodiscard]] int inverted_tets(const double* u) const;
 
  private:
   template <class T>
   [[nodiscard]] const StreamedVector<T>& weighted_moduli() const;
+  template <class Real>
+  void add_shell_rest_product(const Real* v, Real* product) const;
 
   StreamedVector<double> moduli_;        // of each tet, times its volume
   StreamedVector<float> single_moduli_;  // the same in single precision

@@ -17,4 +17,8 @@ enum class Projection : int {
 /// semi-definite one, since the frame is orthonormal.
 [[nodiscard]] PrincipalCurvature projected(PrincipalCurvature curvature, Projection projection);
 
+/// Projects the Hessian of an element of a shell, which has no principal axes. `stretches` counts
+/// as `clamp`.
+void project(double (&hessian)[9][9], Projection projection);
+
 }  // namespace snapspace

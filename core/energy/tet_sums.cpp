@@ -36,6 +36,7 @@ template <class Real>
 void ElasticEnergy::rest_hessian_product(const Real* v, Real* product) const {
   using T = typename ScalarOf<Real>::type;
   std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
+  if (rest.shell) return add_shell_rest_product(v, product);
   const double* lame = lame_.data();
   for (const RestTetOf<T>& tet : rest.tets_in<T>()) {
     const Real lam(static_cast<T>(lame[0])), mu(static_cast<T>(lame[1]));
@@ -49,6 +50,24 @@ void ElasticEnergy::rest_hessian_product(const Real* v, Real* product) const {
     }
     scatter_stress(tet, P, product);
   }
+}
+
+template <class Real>
+void ElasticEnergy::add_shell_rest_product(const Real* v, Real* product) const {
+  using T = typename ScalarOf<Real>::type;
+  const auto& tets = rest.tets_in<T>();
+  Densities::with(material.view().kind, [&]<class Density>() {
+    if constexpr (kOfShells<Density>) {
+      const double* numbers = moduli_.data();
+      for (const RestTetOf<T>& tet : tets) {
+        Real G[3][3], P[3][3];
+        displacement_gradient(tet, v, G);
+        Density::rest_differential(numbers, G, P);
+        scatter_stress(tet, P, product);
+        numbers += Density::kModuli;
+      }
+    }
+  });
 }
 
 #define SNAPSPACE_DEFINED(Real)                                                                 \

@@ -4,6 +4,7 @@
 #include "material/arap.h"
 #include "material/corotational.h"
 #include "material/mooney_rivlin.h"
+#include "material/shell.h"
 #include "material/stable_neo_hookean.h"
 #include "material/stvk.h"
 #include "material/symmetric_dirichlet.h"
@@ -20,6 +21,9 @@ namespace snapspace {
 /// It is isotropic, stress-free at rest and linear in its moduli: moduli times a volume give the
 /// energy of that volume. A density whose sum over several poses collapses may declare a nested
 /// Blend, see PoseBlend; otherwise every pose is evaluated.
+///
+/// The densities of shells are functions of other elements, see ShellDensity. In place of curvature
+/// they have hessian(numbers, G, H), and numbers of the rest shape after their moduli.
 template <class... Density>
 struct DensityList {
   static constexpr int kCount = sizeof...(Density);
@@ -40,10 +44,15 @@ struct DensityList {
 };
 
 using Densities =
-    DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin>;
+    DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin,
+                ShellNeoHookean, ShellStVK, ShellNeoHookeanAngle, ShellStVKAngle>;
 
-/// The largest number of moduli that a density may have.
-inline constexpr int kMaxModuli = 4;
+/// Whether a density is one of shells.
+template <class Density>
+inline constexpr bool kOfShells = requires { Density::kScaled; };
+
+/// The largest number of moduli that a density may have, with the numbers of the rest shape.
+inline constexpr int kMaxModuli = 13;
 
 inline const char* material_name(int index) {
   return Densities::with(index, []<class Density>() { return Density::kName; });
@@ -55,6 +64,25 @@ inline int material_moduli(int index) {
     static_assert(Density::kModuli <= kMaxModuli);
     return Density::kModuli;
   });
+}
+
+/// Whether the density at an index is one of shells.
+inline bool is_of_shells(int index) {
+  return Densities::with(index, []<class Density>() { return kOfShells<Density>; });
+}
+
+/// How many of a density's numbers are energies: the others describe the rest shape.
+inline int scaled_moduli(int index) {
+  return Densities::with(index, []<class Density>() {
+    if constexpr (kOfShells<Density>) return Density::kScaled;
+    return Density::kModuli;
+  });
+}
+
+/// Moduli times a volume; the numbers of the rest shape are copied.
+inline void scale_moduli(int index, const double* moduli, double volume, double* result) {
+  const int count = material_moduli(index), scaled = scaled_moduli(index);
+  for (int k = 0; k < count; ++k) result[k] = k < scaled ? volume * moduli[k] : moduli[k];
 }
 
 inline const char* modulus_name(int index, int modulus) {

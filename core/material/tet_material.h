@@ -16,9 +16,15 @@ struct TetMaterial {
   [[nodiscard]] Lame small_strains(int tet) const {
     return Densities::with(kind, [&]<class Density>() { return Density::small_strains(of(tet)); });
   }
+  /// Not for shells.
   /// @param s  signed singular values of F
   [[nodiscard]] PrincipalCurvature curvature(int tet, const double s[3]) const {
-    return Densities::with(kind, [&]<class Density>() { return Density::curvature(of(tet), s); });
+    return Densities::with(kind, [&]<class Density>() {
+      if constexpr (kOfShells<Density>)
+        return PrincipalCurvature{};
+      else
+        return Density::curvature(of(tet), s);
+    });
   }
 };
 

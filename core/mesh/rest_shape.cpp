@@ -5,23 +5,33 @@
 #include <cmath>
 #include <utility>
 
+#include "element/rest_shell.h"
 #include "mesh/incidence.h"
 
 namespace snapspace {
 
-RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
-    : tets(m), single_tets(m), stops(sweep_stops(t, m, n)), vertex_count(n) {
+namespace {
+
+RestTet rest_tet(const double* v, const std::int32_t* corners) {
+  RestTet tet;
+  std::copy_n(corners, 4, tet.vertices);
+  const Eigen::Vector3d origin(v + 3 * tet.vertices[0]);
+  Eigen::Matrix3d edges;
+  for (int j = 0; j < 3; ++j) edges.col(j) = Eigen::Vector3d(v + 3 * tet.vertices[j + 1]) - origin;
+  tet.volume = std::abs(edges.determinant()) / 6.0;
+  const Eigen::Matrix3d inverse = edges.inverse();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) tet.inverse_edges[r][c] = inverse(r, c);
+  return tet;
+}
+
+}  // namespace
+
+RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m, bool of_shell)
+    : tets(m), single_tets(m), stops(sweep_stops(t, m, n)), vertex_count(n), shell(of_shell) {
   for (int i = 0; i < m; ++i) {
     RestTet& tet = tets[i];
-    std::copy_n(t + 4 * i, 4, tet.vertices);
-    const Eigen::Vector3d origin(v + 3 * tet.vertices[0]);
-    Eigen::Matrix3d edges;
-    for (int j = 0; j < 3; ++j)
-      edges.col(j) = Eigen::Vector3d(v + 3 * tet.vertices[j + 1]) - origin;
-    tet.volume = std::abs(edges.determinant()) / 6.0;
-    const Eigen::Matrix3d inverse = edges.inverse();
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) tet.inverse_edges[r][c] = inverse(r, c);
+    tet = shell ? RestShellElement(v, t + 4 * i).element() : rest_tet(v, t + 4 * i);
     RestTetOf<float>& single = single_tets[i];
     std::copy_n(tet.vertices, 4, single.vertices);
     std::copy_n(&tet.inverse_edges[0][0], 9, &single.inverse_edges[0][0]);
@@ -29,29 +39,17 @@ RestShape::RestShape(const double* v, int n, const std::int32_t* t, int m)
   }
 }
 
-double RestShape::volume() const {
-  double sum = 0.0;
-  for (const RestTet& tet : tets) sum += tet.volume;
-  return sum;
-}
-
 std::vector<float> RestShape::lumped_shares() const {
-  std::vector<float> shares(vertex_count, 0.0f);
-  const double whole = volume();
+  const int corners = shell ? 3 : 4;
+  const auto has_mass = [&](const RestTet& tet) { return !shell || is_triangle(tet.vertices); };
+  double whole = 0.0;
   for (const RestTet& tet : tets)
-    for (const std::int32_t vertex : tet.vertices)
-      shares[vertex] += static_cast<float>(0.25 * tet.volume / whole);
+    if (has_mass(tet)) whole += tet.volume;
+  std::vector<float> shares(vertex_count, 0.0f);
+  for (const RestTet& tet : tets)
+    for (int k = 0; k < corners && has_mass(tet); ++k)
+      shares[tet.vertices[k]] += static_cast<float>(1.0 / corners * tet.volume / whole);
   return shares;
-}
-
-Eigen::SparseMatrix<double> RestShape::laplacian(const std::vector<double>& stiffness) const {
-  std::vector<Eigen::Matrix4d> locals;
-  locals.reserve(tets.size());
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    const Eigen::Matrix<double, 4, 3> gradients = hat_gradients(tets[t]);
-    locals.push_back(stiffness[t] * tets[t].volume * gradients * gradients.transpose());
-  }
-  return assembled(locals);
 }
 
 Eigen::SparseMatrix<double> RestShape::assembled(const std::vector<Eigen::Matrix4d>& locals) const {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "material/principal_hessian.h"
+#include "material/element_hessian.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
@@ -13,10 +13,12 @@ Cubature::Cubature(int dimension, int tets, const float* rows, const double* wei
       kind_(material.kind),
       moduli_count_(material_moduli(material.kind)),
       moduli_(static_cast<std::size_t>(rows_.blocks()) * moduli_count_, Tets(0.0)) {
-  for (int tet = 0; tet < tets; ++tet)
+  double weighted[kMaxModuli];
+  for (int tet = 0; tet < tets; ++tet) {
+    scale_moduli(kind_, material.of(tet), weights[tet], weighted);
     for (int k = 0; k < moduli_count_; ++k)
-      moduli_[tet / TetRows::kWidth * moduli_count_ + k].set(tet % TetRows::kWidth,
-                                                             weights[tet] * material.of(tet)[k]);
+      moduli_[tet / TetRows::kWidth * moduli_count_ + k].set(tet % TetRows::kWidth, weighted[k]);
+  }
 }
 
 double Cubature::value_and_gradient(const double* q, double* gradient) {
@@ -43,15 +45,11 @@ void Cubature::block_curvatures(int block, Tets hessian[9][9]) const {
   rows_.gradients(block, G);
   for (int f = 0; f < 9; ++f) std::fill_n(hessian[f], 9, Tets(0.0));
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
-    double moduli[kMaxModuli], gradient[3][3], unit[3][3], column[3][3];
+    double moduli[kMaxModuli], gradient[3][3], curvature[9][9];
     for (int k = 0; k < moduli_count_; ++k) moduli[k] = moduli_[block * moduli_count_ + k][lane];
     for (int e = 0; e < 9; ++e) gradient[e / 3][e % 3] = G[e / 3][e % 3][lane];
-    const PrincipalHessian tet({kind_, 1, moduli}, 0, gradient);
-    for (int e = 0; e < 9; ++e) {
-      for (int f = 0; f < 9; ++f) unit[f / 3][f % 3] = e == f ? 1.0 : 0.0;
-      tet.multiply(unit, column);
-      for (int f = 0; f < 9; ++f) hessian[f][e].set(lane, column[f / 3][f % 3]);
-    }
+    element_hessian({kind_, 1, moduli}, 0, gradient, curvature);
+    for (int e = 0; e < 81; ++e) hessian[e / 9][e % 9].set(lane, curvature[e / 9][e % 9]);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "element/make_rest_tet.h"
+#include "element/make_rest_element.h"
 #include "element/tet.h"
 #include "online/reconstruct.h"
 
@@ -32,7 +32,8 @@ ResidualProbe::ResidualProbe(const ProbeBody& body, const ProbeSample& sample,
   tets_.reserve(static_cast<std::size_t>(rests_) * body.tets);
   for (int k = 0; k < rests_; ++k)
     for (int t = 0; t < body.tets; ++t)
-      tets_.push_back(make_rest_tet(rest_shapes_.data() + k * size, body.tet_corners + 4 * t));
+      tets_.push_back(make_rest_element(is_of_shells(kind_), rest_shapes_.data() + k * size,
+                                        body.tet_corners + 4 * t));
   for (auto* numbers : {&shape_, &displacement_, &gradient_}) numbers->resize(size);
 }
 
@@ -60,7 +61,7 @@ void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, d
     const RestTet* const end = tets + tets_.size() / rests_;
     for (const RestTet* tet = tets; tet != end; ++tet, moduli += moduli_per_tet_) {
       double weighted[Density::kModuli], G[3][3], P[3][3];
-      for (int i = 0; i < Density::kModuli; ++i) weighted[i] = weight * tet->volume * moduli[i];
+      scale_moduli(kind_, moduli, weight * tet->volume, weighted);
       displacement_gradient(*tet, displacement_.data(), G);
       Density::value_and_stress(weighted, G, P);
       scatter_stress(*tet, P, gradient_.data());

@@ -80,10 +80,12 @@ inline int read_material(const snapspace_material& given, int tets, TetMaterial&
   const int kind = material_index(given.kind);
   if (kind < 0) return SNAPSPACE_UNKNOWN_MATERIAL;
   if (!given.moduli || (given.count != 1 && given.count != tets)) return SNAPSPACE_BAD_ARGUMENT;
-  const std::size_t size = static_cast<std::size_t>(given.count) * material_moduli(kind);
+  const int columns = material_moduli(kind), energies = scaled_moduli(kind);
+  const std::size_t size = static_cast<std::size_t>(given.count) * columns;
   if (!all_finite(given.moduli, size)) return SNAPSPACE_NOT_FINITE;
-  if (std::any_of(given.moduli, given.moduli + size, [](double x) { return x < 0.0; }))
-    return SNAPSPACE_BAD_ARGUMENT;
+  for (std::size_t i = 0; i < size; ++i)
+    if (i % columns < static_cast<std::size_t>(energies) && given.moduli[i] < 0.0)
+      return SNAPSPACE_BAD_ARGUMENT;
   result = {kind, given.count, given.moduli};
   return SNAPSPACE_OK;
 }

@@ -68,7 +68,9 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
                                            const double* K, const double* L, const double* S,
                                            const snapspace_basis* basis, int* error);
 
-/* The material of tets. Moduli are energies per volume, and not negative. */
+/* The material of tets. Moduli are energies per volume, and not negative. The elements of a shell,
+ * triangles and hinges, count as tets; rows of their moduli are followed by numbers of the rest
+ * shape, see core/material/shell.h. They cannot be blended. */
 typedef struct snapspace_material {
   const char* kind;     /* name of the density, such as "stable-neo-hookean" */
   int count;            /* rows of moduli: 1 if all tets share them, or one per tet */
@@ -95,8 +97,9 @@ typedef struct snapspace_cubature {
   snapspace_material material;
 } snapspace_cubature;
 
-/* Computes the rows of a cubature. points (tets x 4 x 3) are the corners of its tets at rest, no
- * tet without volume, and modes (tets x 4 x 3 x dimension) the displacements of the corners. */
+/* Computes the rows of a cubature of tets. points (tets x 4 x 3) are the corners of its tets at
+ * rest, no tet without volume, and modes (tets x 4 x 3 x dimension) the displacements of the
+ * corners. */
 int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
                                 float* rows);
 

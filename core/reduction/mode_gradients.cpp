@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "element/make_rest_tet.h"
+#include "element/make_rest_element.h"
 #include "threads/parallel.h"
 
 namespace snapspace {
@@ -29,12 +29,13 @@ void one_gradient(const RestTet& tet, const double* mode, std::size_t stride, fl
 }  // namespace
 
 void mode_gradients(const double* vertices, int dimension, std::size_t size, const double* modes,
-                    int tets, const std::int32_t* corners, float* rows, int threads) {
+                    bool shell, int tets, const std::int32_t* corners, float* rows, int threads) {
   const auto d = static_cast<std::size_t>(dimension);
   parallel_for((tets + kChunk - 1) / kChunk, threads, [&](int chunk) {
     const int begin = chunk * kChunk, end = std::min(begin + kChunk, tets);
     std::vector<RestTet> rest;
-    for (int t = begin; t < end; ++t) rest.push_back(make_rest_tet(vertices, corners + 4 * t));
+    for (int t = begin; t < end; ++t)
+      rest.push_back(make_rest_element(shell, vertices, corners + 4 * t));
     for (std::size_t i = 0; i < d; ++i)
       for (int t = begin; t < end; ++t)
         one_gradient(rest[t - begin], modes + i * size, d, rows + 9 * d * t + i);

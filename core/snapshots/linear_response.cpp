@@ -17,11 +17,13 @@ using ResponsePack = SingleLanes<kLanes>;
 using ResponseSums = Lanes<kLanes>;
 using ResponseColumn = StreamedVector<ResponsePack>;
 
-constexpr int kMaxResponseSteps = 200;
+constexpr int kMaxResponseSteps = 400;
 /// The solve ends when a step decreases the energy by less than this share of the decrease in all
 /// steps except the first, which moves the handles. The Dragon takes 20 steps; starts from exact
 /// responses need as many evaluations.
 constexpr double kMinGain = 3e-4;
+/// The same for shells, where bending has little of the energy and most of the displacement.
+constexpr double kMinShellGain = 1e-6;
 
 /// The quotient lane by lane; zero where the divisor is not positive.
 ResponseSums quotient(ResponseSums a, ResponseSums b) {
@@ -31,9 +33,9 @@ ResponseSums quotient(ResponseSums a, ResponseSums b) {
   return result;
 }
 
-bool negligible(ResponseSums gain, ResponseSums all) {
+bool negligible(ResponseSums gain, ResponseSums all, double least) {
   for (int lane = 0; lane < kLanes; ++lane)
-    if (gain[lane] > kMinGain * all[lane]) return false;
+    if (gain[lane] > least * all[lane]) return false;
   return true;
 }
 
@@ -45,6 +47,7 @@ void solve(const PosingSystem& system, ResponseColumn& residual, ResponseColumn&
       product(size, ResponsePack(0));
   Scratch scratch;
   ResponseSums norm(0.0), all(0.0);
+  const double least = system.energy.rest.shell ? kMinShellGain : kMinGain;
   for (int step = 0; step < kMaxResponseSteps; ++step) {
     const ResponseSums next = system.inverse.apply(residual.data(), preconditioned.data(), scratch);
     const ResponsePack ratio = cast<float>(quotient(next, norm));
@@ -61,7 +64,7 @@ void solve(const PosingSystem& system, ResponseColumn& residual, ResponseColumn&
     }
     if (step == 0) continue;
     all += length * norm;
-    if (negligible(length * norm, all)) break;
+    if (negligible(length * norm, all, least)) break;
   }
 }
 

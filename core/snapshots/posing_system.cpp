@@ -19,7 +19,7 @@ std::vector<std::int32_t> renumbered(std::vector<std::int32_t> vertices,
 Eigen::SparseMatrix<double> scalar_matrix(const ElasticEnergy& energy,
                                           const std::vector<std::int32_t>& pinned,
                                           const std::vector<double>& weights) {
-  Eigen::SparseMatrix<double> A = energy.rest.laplacian(energy.stiffnesses());
+  Eigen::SparseMatrix<double> A = energy.scalar_matrix();
   for (std::size_t k = 0; k < pinned.size(); ++k)
     A.coeffRef(pinned[k], pinned[k]) += 2.0 * weights[k];
   return A;
@@ -95,9 +95,10 @@ PosingSystem::PosingSystem(const LocalMesh& mesh, const MaterialField& material,
                            const std::vector<double>& pin_weights, InverseKind kind)
     : PosingSystem(
           mesh,
-          ElasticEnergy(RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()),
-                                  mesh.tets.data(), static_cast<int>(mesh.tets.size() / 4)),
-                        material.reordered(mesh.tet_order)),
+          ElasticEnergy(
+              RestShape(mesh.vertices.data(), static_cast<int>(mesh.order.size()), mesh.tets.data(),
+                        static_cast<int>(mesh.tets.size() / 4), is_of_shells(material.view().kind)),
+              material.reordered(mesh.tet_order)),
           renumbered(pinned_vertices, mesh.places), pin_weights, kind) {}
 
 PosingSystem::PosingSystem(const LocalMesh& mesh, ElasticEnergy elastic,

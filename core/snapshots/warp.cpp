@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "element/rest_shell.h"
 #include "energy/rotation_strain.h"
+#include "energy/shell_strain.h"
 #include "memory/scratch.h"
 #include "simd/lanes.h"
 #include "threads/flush_denormals.h"
@@ -37,21 +39,45 @@ SampleColumn combined_responses(const LinearResponse& response,
   return u;
 }
 
+/// The same as in fill_residual for an element of a shell: the stress in place of P.
+void shell_residual(const ElasticEnergy& energy, int element, const SamplePack (&linear)[3][3],
+                    const SamplePack (&x)[3][3], SamplePack weight, SamplePack (&stress)[3][3]) {
+  if (is_triangle(energy.rest.tets[element].vertices)) {
+    triangle_rotation_strain(energy.rest_numbers(element), linear, stress);
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) stress[r][c] = weight * (stress[r][c] - x[r][c]);
+    return;
+  }
+  const HingeVector hinge(energy.rest_numbers(element) + 1);
+  SamplePack wanted[3], reached[3];
+  hinge.turned(linear, wanted);
+  hinge.of(x, reached);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c)
+      stress[r][c] =
+          weight * SamplePack(static_cast<float>(hinge.row[c])) * (wanted[r] - reached[r]);
+}
+
 /// Sets the residual, as forces, of the shape x with respect to the nearest shape.
 void fill_residual(const PosingSystem& system, const std::vector<float>& stiffnesses,
                    const SampleColumn& linear, const std::vector<SamplePack>& targets,
                    const SampleColumn& x, SampleColumn& residual) {
   std::fill(residual.begin(), residual.end(), SamplePack(0));
-  const float* stiffness = stiffnesses.data();
-  for (const RestTetOf<float>& tet : system.energy.rest.single_tets) {
-    const SamplePack weight(*stiffness++ * tet.volume);
-    SamplePack G[3][3], wanted[3][3];
-    displacement_gradient(tet, linear.data(), G);
-    rotation_strain(G, wanted);
+  const RestShape& rest = system.energy.rest;
+  for (std::size_t t = 0; t < rest.tets.size(); ++t) {
+    const RestTetOf<float>& tet = rest.single_tets[t];
+    const SamplePack weight(stiffnesses[t] * tet.volume);
+    SamplePack small[3][3], G[3][3], stress[3][3];
+    displacement_gradient(tet, linear.data(), small);
     displacement_gradient(tet, x.data(), G);
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) wanted[r][c] = weight * (wanted[r][c] - G[r][c]);
-    scatter_stress(tet, wanted, residual.data());
+    if (rest.shell) {
+      shell_residual(system.energy, static_cast<int>(t), small, G, weight, stress);
+    } else {
+      rotation_strain(small, stress);
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) stress[r][c] = weight * (stress[r][c] - G[r][c]);
+    }
+    scatter_stress(tet, stress, residual.data());
   }
   for (std::size_t k = 0; k < system.pinned.size(); ++k)
     for (int c = 0; c < 3; ++c) {

@@ -10,7 +10,7 @@ from scipy.cluster.vq import kmeans2, vq
 
 import snapspace as ss
 from snapspace.cubature.displacement_gradients import displacement_gradients
-from snapspace.mesh import tet_volumes
+from snapspace.mesh import solid_of, tet_volumes
 from snapspace.reduction import Cubature, HandleQuadric
 
 FloatArray = NDArray[np.float64]
@@ -58,7 +58,7 @@ def clustered_energy(
     ValueError
         If the material is not ARAP.
     """
-    mesh, material = problem.mesh, problem.material
+    mesh, material = solid_of(problem.mesh, who="clustered_energy"), problem.material
     if not isinstance(material, ss.ARAP):
         raise ValueError(
             f"clustered_energy: the material is {material.title}, but rotations are clustered for "
@@ -90,7 +90,7 @@ def rotation_clusters(
     The coordinates of training shapes say how far each mode moves; all that the tets do in them is
     within a few principal directions. Clusters that no tet is nearest to are left out.
     """
-    tets = np.arange(len(problem.mesh.tets), dtype=np.int32)
+    tets = np.arange(len(problem.mesh.elements), dtype=np.int32)
     if count >= len(tets):
         return tets.astype(np.int64)
     rows = displacement_gradients(problem.mesh, subspace.basis, tets)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array, diags_array
 
 import snapspace as ss
+from snapspace.mesh import solid_of
 
 from .farthest_points import farthest_points
 from .laplacian import normal_derivative, tet_laplacian
@@ -29,7 +30,8 @@ def biharmonic_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineS
     handles = [np.asarray(handle.vertices) for handle in problem.handles]
     count = (dimension - AFFINE * len(handles)) // 3
     points = farthest_points(problem.mesh.vertices, count, given=np.concatenate(handles))
-    weights = biharmonic_coordinates(problem.mesh, points, handles)
+    mesh = solid_of(problem.mesh, who="biharmonic_coordinates")
+    weights = biharmonic_coordinates(mesh, points, handles)
     return ss.affine_subspace(np.kron(weights, np.eye(3)), problem, nested=False)
 
 

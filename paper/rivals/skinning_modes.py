@@ -8,6 +8,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.linalg import LinearOperator, eigsh
 
 import snapspace as ss
+from snapspace.mesh import solid_of
 
 from .laplacian import tet_laplacian
 from .sparse_solver import SparseSolver
@@ -37,7 +38,7 @@ def skinning_subspace(problem: ss.PosingProblem, dimension: int) -> ss.AffineSub
 
 def skinning_weights(problem: ss.PosingProblem, count: int) -> FloatArray:
     """The smoothest eigenfunctions (n, count), M-orthonormal, the constant first."""
-    mesh, mass = problem.mesh, csr_array(problem.mass())
+    mesh, mass = solid_of(problem.mesh, who="skinning_weights"), csr_array(problem.mass())
     laplacian = tet_laplacian(mesh)
     shift = SHIFT * float(laplacian.diagonal().sum() / mass.sum())
     solver = SparseSolver(csr_array(laplacian + shift * mass), per_vertex=1)

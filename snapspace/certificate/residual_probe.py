@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
+from ..energy import ShellMaterial
 from ..material import Material
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
@@ -19,9 +20,9 @@ FloatArray = NDArray[np.float64]
 class ResidualProbe(ABC):
     """The full objective's gradient at the vertices of a sample, for shapes of a subspace.
 
-    It extracts the tets around these vertices from the mesh, with the modes at their corners, so
-    the gradient at the vertices is exact, for every material. Takes about 1 ms on any mesh; the
-    page has the same loop (core/online/residual_probe.h).
+    It extracts the tets, or the elements of a shell, around these vertices from the mesh, with the
+    modes at their corners, so the gradient at the vertices is exact, for every material. Takes
+    about 1 ms on any mesh; the page has the same loop (core/online/residual_probe.h).
 
     Parameters
     ----------
@@ -37,7 +38,7 @@ class ResidualProbe(ABC):
     corners : (c,), the vertices of these tets, ascending
     tets : (t, 4) int32, as indices of corners
     rests : (1 or k, c, 3), the corners at rest, or in all poses
-    material : Material of these tets
+    material : Material or ShellMaterial of these tets
     places : (s,) int32, indices of the sampled vertices among the corners
     weights : (s,), weights of the sample
     pinned, handles : (p,) int32, indices among the corners of the sampled vertices in handles, and
@@ -51,7 +52,7 @@ class ResidualProbe(ABC):
         If the sample has a vertex that the mesh does not have.
     """
 
-    material: Material
+    material: Material | ShellMaterial
     pinned: NDArray[np.int32]
     handles: NDArray[np.int32]
     pulls: FloatArray
@@ -64,7 +65,7 @@ class ResidualProbe(ABC):
         sample: ResidualSample,
         rests: FloatArray,
     ) -> None:
-        n, tets = len(problem.mesh.vertices), problem.mesh.tets
+        n, tets = len(problem.mesh.vertices), problem.mesh.elements
         if sample.vertices.min() < 0 or sample.vertices.max() >= n:
             raise ValueError(
                 f"ResidualProbe: the sample has vertex {sample.vertices.max()}, but the mesh has "
@@ -76,7 +77,7 @@ class ResidualProbe(ABC):
         self.corners, local = np.unique(tets[chosen], return_inverse=True)
         self.tets = local.reshape(-1, 4).astype(np.int32)
         self.rests = np.ascontiguousarray(rests.reshape(len(rests), n, 3)[:, self.corners])
-        self.material = problem.material.of_tets(chosen)
+        self.material = _element_material(problem).of_tets(chosen)
         self.places = np.searchsorted(self.corners, sample.vertices).astype(np.int32)
         self.weights = sample.weights
         self._find_pins(problem, sampled)
@@ -123,6 +124,12 @@ class ResidualProbe(ABC):
         self.pinned = np.searchsorted(self.corners, vertices).astype(np.int32)
         self.pulls = 2.0 * problem.pin_weights[seen]
         self.arms = problem.mesh.vertices[vertices] - problem.centroids[self.handles]
+
+
+def _element_material(problem: PosingProblem | InterpolationProblem) -> Material | ShellMaterial:
+    if isinstance(problem, PosingProblem):
+        return problem.energy.element_material
+    return problem.material
 
 
 class PosingProbe(ResidualProbe):

@@ -73,16 +73,18 @@ def residual_sample(
 
 
 def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray:
-    """D, (n,): the diagonal of (2 mu + lam) Laplacian + 2 weights of pins, at tau."""
-    tets = problem.mesh.tets
+    """D, (n,): the diagonal of the scalar matrix + 2 weights of pins, at tau."""
+    if isinstance(problem, PosingProblem):
+        diagonal: FloatArray = problem.energy.core.scalar_diagonal()
+        np.add.at(diagonal, problem.pinned, 2.0 * problem.pin_weights)
+        return diagonal
+    tets = problem.mesh.elements
     corners = problem.tau.reshape(-1, 3)[tets]
     edges = corners[:, 1:] - corners[:, :1]
     volumes = np.abs(tet_volumes(problem.tau.reshape(-1, 3), tets))
     hats = np.linalg.inv(edges)  # columns are the gradients of the hat functions 1, 2, 3
     hats = np.concatenate([-hats.sum(axis=2, keepdims=True), hats], axis=2)
     parts = (problem.material.stiffness * volumes)[:, None] * (hats**2).sum(axis=1)
-    diagonal: FloatArray = np.zeros(len(problem.tau) // 3)
-    np.add.at(diagonal, tets, parts)
-    if isinstance(problem, PosingProblem):
-        np.add.at(diagonal, problem.pinned, 2.0 * problem.pin_weights)
-    return diagonal
+    sums: FloatArray = np.zeros(len(problem.tau) // 3)
+    np.add.at(sums, tets, parts)
+    return sums

@@ -11,6 +11,7 @@ import click
 
 from ..accurate import MOTIONS, check_budget, check_target
 from ..model_file import check_model_path, load
+from ..problem import is_quartic
 from ..reduction import STORED_ENERGIES, Energy, PosingModel
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build_advice import build_advice
@@ -68,7 +69,16 @@ DIMENSION = 40
     "--tets",
     type=TET_COUNT,
     metavar="N",
-    help="Number of tets of a cubature [default: 8 per mode, at most 1000].",
+    help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, at most "
+    "1000].",
+)
+@click.option(
+    "--shell",
+    "thickness",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="THICKNESS",
+    help="Take the surface as a thin shell of this thickness, in its unit of length, instead of "
+    "filling it. It may be open.",
 )
 @click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
 @filling_options
@@ -81,6 +91,7 @@ def build(
     output: Path,
     energy: Energy,
     tets: int | None,
+    thickness: float | None,
     repair: bool,
     edge_length: float | None,
     exact: bool,
@@ -96,13 +107,14 @@ def build(
 
     Samples and dimension follow from the error of unseen motions, see --target-error, unless you
     give them. MESH, tets or a surface, replaces the mesh that the problem file names. A surface is
-    filled with tets. Ctrl-C keeps the finished samples beside the model; the same command resumes
-    from there.
+    filled with tets, or is a thin shell with --shell. Ctrl-C keeps the finished samples beside the
+    model; the same command resumes from there.
 
     \b
     Examples:
       snapspace build --problem dragon.json -o dragon.snapspace
       snapspace build --problem spot.json spot.obj -o spot.snapspace
+      snapspace build --problem cloth.json cloth.obj --shell 0.01 -o cloth.snapspace
       snapspace build --problem tail.json --from dragon.snapspace -o tail.snapspace
       snapspace build --problem dragon.json --samples 600 --dimension 60 -o dragon60.snapspace
       snapspace build --problem dragon.json --dimension 120 --energy cubature -o dragon120.snapspace
@@ -118,9 +130,10 @@ def build(
         filling=filling_of(edge_length, exact=exact),
         repair=repair,
         tets_file=output.with_name(f"{output.stem}-tets.msh"),
+        thickness=thickness,
     )
     problem, source = given.problem, given.source
-    quartic = problem.material.exact_degree == 4
+    quartic = is_quartic(problem)
     by_hand = decided_by_hand(exact=quartic, others=("energy", "tets"))
     dimension = None if choices.energy_fraction else choices.dimension or DIMENSION
     choice = EnergyChoice(energy=energy, tets=tets, dimension=dimension)

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..accurate import plan_of
-from ..problem import InterpolationProblem
+from ..problem import InterpolationProblem, is_quartic
 from ..validation import Validation
 from .advice import advice, split_of_some
 from .console import notice
@@ -73,11 +73,11 @@ def _notice_inverted_samples(built: Built) -> None:
         cure = "leave out the poses that differ most, or repair those with inverted tets"
     else:
         cure = "make the box of motions smaller, or the handles larger"
-        if problem.material.exact_degree == 4:
+        if is_quartic(problem):
             cure += ", or use the material stable-neo-hookean, which resists inversion"
     notice(
         f"notice: {sum(count > 0 for count in inverted)} of {len(inverted)} samples have inverted "
-        f"tets, at most {max(inverted)} of {len(problem.mesh.tets)}; {cure}"
+        f"tets, at most {max(inverted)} of {len(problem.mesh.cells)}; {cure}"
     )
 
 

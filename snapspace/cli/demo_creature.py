@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..generators import CREATURE_REGIONS, creature_paint
 from ..material import DEFAULT_MATERIAL
+from ..mesh import solid_of
 from ..pictures import render_row
 from ..reduction import PosingModel
 from .motions import Motion, as_parameters
@@ -53,7 +54,7 @@ def posed_shapes(model: PosingModel) -> dict[str, NDArray[np.float64]]:
 
 def contact_sheet(model: PosingModel, shapes: dict[str, NDArray[np.float64]]) -> NDArray[np.uint8]:
     """The poses in two rows with their names."""
-    mesh = model.problem.mesh
+    mesh = solid_of(model.problem.mesh, who="demo")
     return render_row(
         list(shapes.values()),
         mesh.surface,

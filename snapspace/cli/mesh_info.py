@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..input_error import fault_of
-from ..mesh import MeshNotice, TetMesh, read_surface, read_tets
+from ..mesh import Body, MeshNotice, ShellMesh, TetMesh, read_surface, read_tets
+from .shell_info import shell_facts, shell_figures
 
 Info = tuple[dict[str, Any], list[tuple[str, str]]]
 
@@ -52,8 +53,16 @@ def _repaired(file: Path, error: ValueError) -> tuple[TetMesh, list[str]]:
     return mesh, [str(note.message).removeprefix(f"{file}: ") for note in notes]
 
 
-def mesh_figures(mesh: TetMesh) -> dict[str, Any]:
+def cell_count(mesh: Body) -> dict[str, int]:
+    """The number of tets or triangles, by name."""
+    return {"triangles" if isinstance(mesh, ShellMesh) else "tets": len(mesh.cells)}
+
+
+def mesh_figures(mesh: Body) -> dict[str, Any]:
     """Sizes and quality of a mesh, for JSON."""
+    if isinstance(mesh, ShellMesh):
+        return shell_figures(mesh)
+    assert isinstance(mesh, TetMesh)
     angles = mesh.dihedral_angles
     smallest = angles.min(axis=1)
     return {
@@ -75,6 +84,8 @@ def mesh_figures(mesh: TetMesh) -> dict[str, Any]:
 
 def mesh_facts(figures: dict[str, Any]) -> list[tuple[str, str]]:
     """The same as lines for the user."""
+    if "triangles" in figures:
+        return shell_facts(figures)
     surface, angles = figures["surface"], figures["dihedral_degrees"]
     sizes, (low, high) = figures["tet_volume"], figures["bounds"]
     slivers = angles["tets_below_5"]
@@ -114,7 +125,8 @@ def surface_info(file: Path) -> Info:
         ("bounds", f"{_point(low)} to {_point(high)}, diagonal {diagonal:.6g}"),
         (
             "note",
-            "`snapspace interpolate` fills it and blends it with other poses; `build` needs tets",
+            "`snapspace interpolate` fills it and blends it with other poses; `build` fills it "
+            "too, or takes it as a thin shell with --shell",
         ),
     ]
     return figures, facts

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh import ShellMesh
 from ..model_file import load
 from ..reduction import (
     InterpolationModel,
@@ -62,7 +63,9 @@ def model_info(file: Path) -> Info:
 def energy_text(model: ReducedModel) -> str:
     """The kind of the reduced energy, as text."""
     if model.cubature is not None:
-        return f"cubature of {len(model.cubature.tets)} tets"
+        shell = isinstance(model.problem.mesh, ShellMesh)
+        what = "triangles and hinges" if shell else "tets"
+        return f"cubature of {len(model.cubature.tets)} {what}"
     if isinstance(model, InterpolationModel):
         return f"exact quartics of {len(model.problem.poses)} poses"
     return "exact quartic"

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..accurate import plan_of
+from ..problem import is_quartic
 from ..reduction import InterpolationModel, PosingModel
 from ..validation import NextOption
 from .accurate_pipeline import DECIDING
@@ -107,7 +108,7 @@ def _can_aim(model: Model, given: dict[str, Any]) -> bool:
     """Whether --target-error may help: not if it failed before or is not possible."""
     accurate = model.provenance.get("accurate")
     failed = isinstance(accurate, dict) and not accurate.get("reached", False)
-    exact = model.problem.material.exact_degree == 4
+    exact = is_quartic(model.problem)
     return not (failed or exact or "--extrapolation" in given)
 
 

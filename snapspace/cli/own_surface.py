@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import click
 
 from ..animation import shape_suffixes
-from ..mesh import embed_file, open_surface
+from ..mesh import embed_file, open_surface, solid_of
 from ..reduction import InterpolationModel, PosingModel
 from .console import notice
 from .files import ANIMATIONS, SURFACE_INPUTS, TET_OUTPUTS
@@ -42,7 +42,8 @@ def with_surface(model: Model, file: Path | None) -> Model:
     source = open_surface(file).compact()
     try:
         # the tets carry along what lies near them, such as clothes
-        return replace(model, surface=embed_file(source, model.problem.mesh, farthest=0.1))
+        mesh = solid_of(model.problem.mesh, who="--surface")
+        return replace(model, surface=embed_file(source, mesh, farthest=0.1))
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
 

@@ -23,6 +23,7 @@ from .console import notice
 from .energy import EnergyChoice
 from .first_frame import check_first_frame
 from .memory import peak_memory_bytes
+from .mesh_info import cell_count
 from .progress import sample_progress, spinner
 from .recipe import Recipe, provenance
 from .unseen import judged, unseen_record, with_estimates
@@ -46,7 +47,7 @@ class Built:
         problem, reports = self.model.problem, self.snapshots.reports
         return {
             "vertices": len(problem.mesh.vertices),
-            "tets": len(problem.mesh.tets),
+            **cell_count(problem.mesh),
             "parameters": problem.parameter_count,
             "samples": len(self.snapshots),
             "dimension": self.model.dimension,

@@ -7,7 +7,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from ..filling import SurfaceFilling
+from ..input_error import located
 from ..mesh import (
     SURFACE_SUFFIXES,
     EmbeddedSurface,
@@ -16,10 +20,17 @@ from ..mesh import (
     embed_file,
     open_surface,
     read_tets,
+    shell_of_file,
     write_tets,
 )
 from ..mesh.embed_surface import WHOLE_DIAGONAL
-from ..problem import PosingProblem, problem_surface_file, read_problem, read_problem_surface
+from ..problem import (
+    PosingProblem,
+    problem_surface_file,
+    problem_thickness,
+    read_problem,
+    read_problem_surface,
+)
 from .console import notice
 from .filling_options import filled
 
@@ -28,7 +39,7 @@ from .filling_options import filled
 class ProblemInput:
     """What a model is built of.
 
-    surface : that models show, or None for the boundary of the tets
+    surface : that models show, or None for the boundary of the tets, or a shell's triangles
     source : names of the files, for the model's provenance
     """
 
@@ -44,6 +55,7 @@ def problem_input(
     filling: SurfaceFilling,
     repair: bool,
     tets_file: Path,
+    thickness: float | None = None,
 ) -> ProblemInput:
     """Reads a problem.
 
@@ -58,6 +70,8 @@ def problem_input(
         Whether tets are repaired.
     tets_file : Path
         Where tets of fTetWild are kept: it makes other ones in each run.
+    thickness : float, optional
+        Of the shell that the surface becomes. Default: what the problem file says.
 
     Raises
     ------
@@ -66,6 +80,9 @@ def problem_input(
     """
     if mesh_file is None:
         mesh_file = problem_surface_file(problem_file)
+    shell = problem_thickness(problem_file) if thickness is None else thickness
+    if shell is not None:
+        return _shell_input(problem_file, mesh_file, shell)
     if mesh_file is not None and mesh_file.suffix.lower() in SURFACE_SUFFIXES:
         file = open_surface(mesh_file).compact()
         tets = _tets(file, filling, tets_file)
@@ -77,6 +94,22 @@ def problem_input(
     problem = read_problem(problem_file, mesh=given, repair=repair)
     own = read_problem_surface(problem_file, problem.mesh)
     return ProblemInput(problem=problem, surface=own, source=_source(problem_file, mesh_file))
+
+
+def _shell_input(
+    problem_file: Path, surface_file: Path | None, thickness: float | NDArray[np.float64]
+) -> ProblemInput:
+    if surface_file is None or surface_file.suffix.lower() not in SURFACE_SUFFIXES:
+        name = problem_file if surface_file is None else surface_file
+        raise ValueError(
+            f"{name}: a shell is made of a surface ({', '.join(SURFACE_SUFFIXES)}), not of tets; "
+            "name one on the command line, or in the problem's entry 'surface'"
+        )
+    with located(surface_file):
+        mesh, surface = shell_of_file(open_surface(surface_file), thickness=thickness)
+    problem = read_problem(problem_file, mesh=mesh)
+    source = _source(problem_file, surface_file)
+    return ProblemInput(problem=problem, surface=surface, source=source)
 
 
 def _tets(file: SurfaceFile, filling: SurfaceFilling, kept: Path) -> TetMesh:

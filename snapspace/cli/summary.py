@@ -20,8 +20,9 @@ def print_summary(built: Built, *, include_unconverged: bool) -> None:
     figures = built.as_json()
     snapshots = figures["snapshots"]
     left_out = len(built.snapshots) - snapshots["converged"]
+    cells = next(f"{figures[name]} {name}" for name in ("tets", "triangles") if name in figures)
     facts = [
-        ("mesh", f"{figures['vertices']} vertices, {figures['tets']} tets"),
+        ("mesh", f"{figures['vertices']} vertices, {cells}"),
         ("samples", built.snapshots.summary()),
     ]
     if left_out:

@@ -83,7 +83,7 @@ class BlendedCubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
-        check_in_mesh(tets, len(problem.mesh.tets), who="BlendedCubature")
+        check_in_mesh(tets, len(problem.mesh.elements), who="BlendedCubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
         shapes = np.concatenate([problem.poses.shapes, subspace.tau.reshape(1, -1, 3)])
         corners = shapes[:, problem.poses.tets[tets]]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..energy import ShellMaterial
 from ..material import Material
 
 FloatArray = NDArray[np.float64]
@@ -14,7 +15,7 @@ def check_chosen(
     tets: NDArray[np.int32],
     weights: FloatArray,
     rows: NDArray[np.float32],
-    material: Material,
+    material: Material | ShellMaterial,
     *,
     who: str,
 ) -> None:

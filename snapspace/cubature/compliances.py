@@ -43,7 +43,7 @@ def compliances(
         Default: all. The result is bitwise the same for any number.
     """
     sample = sampled_tets(ordered, SAMPLED, seed=0)
-    volumes = sample.factors * states.problem.mesh.volumes[sample.tets]
+    volumes = sample.factors * states.problem.mesh.measures[sample.tets]
     result = np.empty((len(states), states.subspace.dimension, states.subspace.dimension))
     workers = min(threads or os.cpu_count() or 1, max(len(states), 1))
 

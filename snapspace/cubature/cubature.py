@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..energy import ShellMaterial
 from ..material import Material
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
@@ -24,17 +25,17 @@ class Cubature:
     After An, Kim, James 2008, "Optimizing cubature for efficient integration of subspace
     deformations". An evaluation costs 18 r d multiply-adds for r tets, whatever the material. Rows
     are rounded to 5e-7 of their entries; value, gradient and Hessian are consistent to full
-    precision.
+    precision. The tets of a shell are its elements, triangles and hinges.
 
     Parameters
     ----------
     tets : (r,) int32
-        Which tets of the mesh, ascending.
+        Which tets of the mesh, or which elements of a shell, ascending.
     weights : (r,) float64
-        The volume that each tet stands for, > 0.
+        The volume that each tet stands for, or the measure of an element, > 0.
     rows : (r, 9, d) float32
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
-    material : Material
+    material : Material or ShellMaterial
         The density of these tets, with constant moduli or r values of each.
 
     Raises
@@ -49,7 +50,7 @@ class Cubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
         rows: NDArray[np.float32],
-        material: Material,
+        material: Material | ShellMaterial,
     ) -> None:
         check_chosen(tets, weights, rows, material, who="Cubature")
         self.tets = tets
@@ -75,9 +76,9 @@ class Cubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
-        check_in_mesh(tets, len(problem.mesh.tets), who="Cubature")
+        check_in_mesh(tets, len(problem.mesh.elements), who="Cubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
-        return cls(tets, weights, rows, problem.material.of_tets(tets))
+        return cls(tets, weights, rows, problem.energy.element_material.of_tets(tets))
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""

@@ -91,7 +91,7 @@ def fit_tets(
     """
     begin = time.perf_counter()
     mesh, dimension = states.problem.mesh, states.subspace.dimension
-    count = _checked_count(len(mesh.tets), budget.usual, budget.wanted)
+    count = _checked_count(len(mesh.elements), budget.usual, budget.wanted)
     if len(states) < budget.fewest_states:
         raise ValueError(
             f"reduce: {len(states)} snapshots that are not at rest are too few to train a "
@@ -123,7 +123,7 @@ def fit_tets(
     picked = candidates[picks]
     return Fit(
         tets=picked,
-        volumes=factors * mesh.volumes[picked],
+        volumes=factors * mesh.measures[picked],
         unseen=judging,
         exact=state_forces(judging, np.zeros(0, np.int32), threads=threads),
         compliances=_repeated(judging_compliances(unseen, ordered, threads=threads), len(judging)),

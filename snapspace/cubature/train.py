@@ -137,7 +137,7 @@ def train_blended_cubature(
     shapes = subspace.tau - problem.base + states.coordinates[some] @ subspace.basis.T
     energies = problem.system.evaluate(shapes, states.weights[some], threads=threads or 0)[0]
     states = replace(states, floor=0.01 * float(np.abs(energies).max(initial=0.0)))
-    for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.tets)):
+    for usual in _growing(default_blended_tets(subspace.dimension), len(problem.mesh.elements)):
         budget = Budget(tets, usual, FEWEST_BLENDS, TRAINED_BLENDS, BLEND_CANDIDATES)
         fit = fit_tets(states, budget, seed=seed, threads=threads)
         cubature = BlendedCubature.of_tets(problem, subspace, fit.tets, fit.volumes)

@@ -38,7 +38,9 @@ class MendedSurface:
     notes: tuple[str, ...]
 
 
-def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
+def mend_surface(
+    vertices: ArrayLike, faces: ArrayLike, *, close_holes: bool = True
+) -> MendedSurface:
     """Makes a surface closed and oriented, as far as that is safe.
 
     In this order, it merges vertices with equal positions if the surface is not closed without
@@ -52,6 +54,8 @@ def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
     ----------
     vertices : array_like, (n, 3)
     faces : array_like of int, (f, 3)
+    close_holes : bool, default True
+        False leaves a surface open, as a shell may be.
 
     Returns
     -------
@@ -86,7 +90,7 @@ def mend_surface(vertices: ArrayLike, faces: ArrayLike) -> MendedSurface:
     if turn.any():
         mended[turn] = mended[turn][:, ::-1]
         notes.append(f"turned {int(turn.sum())} faces round to agree with their neighbours")
-    fills = _fills(used, mended)
+    fills = _fills(used, mended) if close_holes else []
     if fills:
         mended = np.concatenate([mended, *fills])
     invented = sum(map(len, fills))

@@ -1,4 +1,4 @@
-"""Elastic energy of a mesh and its derivatives."""
+"""Elastic energy of a body and its derivatives."""
 
 from __future__ import annotations
 
@@ -10,40 +10,56 @@ from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
 from ..material import Material, checked_material
-from ..mesh import TetMesh
+from ..mesh import Body
+from .shell_material import Bending, element_material
 
 FloatArray = NDArray[np.float64]
 
 
 class ElasticEnergy:
-    """Elastic energy of a mesh: the sum over tets of volume * density.
+    """Elastic energy of a body: the sum over its elements of measure * density.
+
+    The elements of a solid are tets, and their measure is the volume. A shell has a membrane energy
+    in its triangles and a bending energy at its hinges (Grinspun, Hirani, Desbrun, Schroeder 2003).
 
     Parameters
     ----------
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
         The rest shape.
     material : Material
-        Its moduli may be constant, or given per tet.
+        Its moduli may be constant, or given per tet or triangle. A shell is `StableNeoHookean` or
+        `StVK`, in plane stress.
+    bending : "tangent" or "angle", default "tangent"
+        The strain of a hinge, less that at rest: 2 tan(theta / 2), which grows without bound where
+        a hinge folds onto itself, or the angle theta. For shells only.
 
     Raises
     ------
     ValueError
-        If the material is not one of `MATERIALS`, or has moduli for another number of tets.
+        If the material is not one of `MATERIALS`, has moduli for another number of tets or
+        triangles, or has no form for shells.
 
     Notes
     -----
+    A shell bends like a plate of stiffness D = (2 mu + lam') thickness^3 / 12, with lam' of plane
+    stress: the energy of a hinge is D/2 strain^2 times its measure, see docs/shells.md.
+
     Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises
     ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.
     """
 
-    def __init__(self, mesh: TetMesh, material: Material) -> None:
+    def __init__(self, mesh: Body, material: Material, *, bending: Bending = "tangent") -> None:
         self.mesh = mesh
-        self.material = checked_material(material, len(mesh.tets), "ElasticEnergy")
+        self.material = checked_material(material, len(mesh.cells), "ElasticEnergy")
+        self.element_material = element_material(
+            mesh, self.material, bending=bending, who="ElasticEnergy"
+        )
 
     @cached_property
     def core(self) -> _core.ElasticEnergy:
         """The compiled energy, a function of displacements."""
-        return _core.ElasticEnergy(self.mesh.vertices, self.mesh.tets, self.material.core)
+        mesh = self.mesh
+        return _core.ElasticEnergy(mesh.vertices, mesh.elements, self.element_material.core)
 
     def value(self, x: ArrayLike) -> float:
         """Energy at x."""
@@ -69,21 +85,21 @@ class ElasticEnergy:
 
         The paper's Newton matrix (sec. 4.2), after Irving, Teran, Fedkiw 2004. Equal to `hessian`
         where no singular value is below the threshold; for St.Venant-Kirchhoff positive
-        semi-definite at threshold 1.
+        semi-definite at threshold 1. For solids; that of a shell is the `projected_hessian`.
         """
         if not 0 < threshold <= 1:
             raise ValueError(f"clamped_hessian: threshold is {threshold}, but must be in (0, 1]")
         return self._projected(x, _core.Projection.stretches, threshold)
 
     def projected_hessian(self, x: ArrayLike, *, projection: str = "clamp") -> csr_array:
-        """Sum of tet Hessians made positive semi-definite, (3n, 3n) sparse symmetric.
+        """Sum of the elements' Hessians made positive semi-definite, (3n, 3n) sparse symmetric.
 
         Parameters
         ----------
         x : array_like, (3n,) or (n, 3)
             The shape.
         projection : "clamp" or "absolute", default "clamp"
-            Negative eigenvalues of a tet's Hessian become zero (Teran, Sifakis, Irving, Fedkiw
+            Negative eigenvalues of an element's Hessian become zero (Teran, Sifakis, Irving, Fedkiw
             2005), or change their sign (Chen et al. 2024).
 
         Raises
@@ -98,7 +114,7 @@ class ElasticEnergy:
         return self._projected(x, _core.Projection[projection], 0.0)
 
     def inverted_tets(self, x: ArrayLike) -> int:
-        """Number of tets with det F <= 0 at x."""
+        """Number of tets with det F <= 0 at x; zero for a shell, which has no inside."""
         return int(self.core.inverted_tets(self._displacement(x)))
 
     def _displacement(self, x: ArrayLike) -> FloatArray:

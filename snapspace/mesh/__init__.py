@@ -1,5 +1,6 @@
-"""Tetrahedral meshes: the mesh itself, its mass, repair, reading and writing."""
+"""Meshes of solids and shells: the mesh itself, its mass, repair, reading and writing."""
 
+from .body import Body
 from .embed_surface import embed_file, embed_surface
 from .embedded_surface import EmbeddedSurface, boundary_surface
 from .mass import (
@@ -9,7 +10,7 @@ from .mass import (
     mass_matrix,
     mass_norm,
     mass_norms,
-    mass_of_tets,
+    mass_of_cells,
 )
 from .mirror_plane import MirrorPlane
 from .quality import dihedral_angles, tet_volumes
@@ -17,6 +18,9 @@ from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
 from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
 from .shape_rows import shape_or_rows, shape_rows
+from .shell_mesh import ShellMesh
+from .shell_of_file import shell_of_file
+from .solid import solid_of
 from .surface import boundary_faces, compact_surface, vertex_normals
 from .surface_file import Appearance, SurfaceFile, SurfaceMaterial, open_surface
 from .tet_mesh import TetMesh
@@ -28,9 +32,11 @@ __all__ = [
     "TET_OUTPUTS",
     "TET_SUFFIXES",
     "Appearance",
+    "Body",
     "EmbeddedSurface",
     "MeshNotice",
     "MirrorPlane",
+    "ShellMesh",
     "SurfaceFile",
     "SurfaceMaterial",
     "TetMesh",
@@ -46,7 +52,7 @@ __all__ = [
     "mass_matrix",
     "mass_norm",
     "mass_norms",
-    "mass_of_tets",
+    "mass_of_cells",
     "open_surface",
     "read_surface",
     "read_tet_arrays",
@@ -54,6 +60,8 @@ __all__ = [
     "repair_tets",
     "shape_or_rows",
     "shape_rows",
+    "shell_of_file",
+    "solid_of",
     "tet_volumes",
     "vertex_normals",
     "write_surface",

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import coo_array, csr_array
 
 from .arrays import FloatArray, IndexArray, as_indices
+from .body import Body
 from .surface import compact_surface
 from .surface_file import SurfaceFile
-from .tet_mesh import TetMesh
 from .validation import check_indices
 
 # Rounding of weights that sum to one, relative to the sum of their sizes.
@@ -103,7 +103,7 @@ class EmbeddedSurface:
         """The surface vertices that follow one of these tet vertices most, ascending."""
         return np.flatnonzero(np.isin(self.nearest, vertices))
 
-    def is_boundary(self, mesh: TetMesh) -> bool:
+    def is_boundary(self, mesh: Body) -> bool:
         """Whether this is `boundary_surface(mesh)`."""
         own = boundary_surface(mesh)
         return (
@@ -190,18 +190,18 @@ def single_vertices(faces: IndexArray, vertices: IndexArray) -> EmbeddedSurface:
     return EmbeddedSurface(faces, np.repeat(vertices[:, None], 4, axis=1), weights)
 
 
-def boundary_surface(mesh: TetMesh) -> EmbeddedSurface:
+def boundary_surface(mesh: Body) -> EmbeddedSurface:
     """The mesh's own surface.
 
     Parameters
     ----------
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
 
     Returns
     -------
     EmbeddedSurface
         Exact. Its vertices are `mesh.vertices[mesh.surface_vertices]`, in this order, its faces
-        those of `mesh.surface`: closed and outward.
+        those of `mesh.surface`: for tets closed and outward, for a shell its triangles.
     """
     _, faces = compact_surface(mesh.vertices, mesh.surface)
     return single_vertices(faces, mesh.surface_vertices)

@@ -1,4 +1,4 @@
-"""Mass of linear tets at density 1: the scalar mass matrix M, and M applied to shape vectors.
+"""Mass of linear tets and triangles at density 1: the scalar matrix M, applied to shape vectors.
 
 A shape vector is (n, 3) vertices flattened, x0 y0 z0 x1 ...; its mass matrix is M kron I3. That
 3n x 3n matrix is never formed: M is applied to the three coordinates at once.
@@ -6,23 +6,23 @@ A shape vector is (n, 3) vertices flattened, x0 y0 z0 x1 ...; its mass matrix is
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.sparse import coo_array, csr_array, diags_array
 
 from .arrays import FloatArray, IndexArray
+from .body import Body
 from .shape_rows import shape_or_rows, shape_rows
-from .tet_mesh import TetMesh
-
-_EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
 
 
-def mass_matrix(mesh: TetMesh, *, lumped: bool = False) -> csr_array:
-    """Mass matrix of the linear tets at density 1.
+def mass_matrix(mesh: Body, *, lumped: bool = False) -> csr_array:
+    """Mass matrix of the linear tets, or triangles, at density 1.
 
     Parameters
     ----------
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
     lumped : bool, default False
         True puts `mesh.vertex_masses` (the row sums) on the diagonal.
 
@@ -30,23 +30,25 @@ def mass_matrix(mesh: TetMesh, *, lumped: bool = False) -> csr_array:
     -------
     csr_array, (n, n) float64
         Symmetric positive definite; all entries sum to the volume. The consistent matrix has
-        volume / 20 * (1 + delta_ij) per tet (Zienkiewicz & Taylor, The Finite Element Method), so
-        that x^T M y is the exact integral of the product of two piecewise linear functions.
+        volume / 20 * (1 + delta_ij) per tet and volume / 12 * (1 + delta_ij) per triangle
+        (Zienkiewicz & Taylor, The Finite Element Method), so that x^T M y is the exact integral of
+        the product of two piecewise linear functions.
     """
-    return mass_of_tets(mesh.tets, mesh.volumes, lumped=lumped)
+    return mass_of_cells(mesh.cells, mesh.volumes, lumped=lumped)
 
 
-def mass_of_tets(tets: IndexArray, volumes: FloatArray, *, lumped: bool = False) -> csr_array:
-    """`mass_matrix` for tets (m, 4) of given volumes (m,), all positive."""
-    n = int(tets.max()) + 1
+def mass_of_cells(cells: IndexArray, volumes: FloatArray, *, lumped: bool = False) -> csr_array:
+    """`mass_matrix` for tets (m, 4) or triangles (m, 3) of volumes (m,), all positive."""
+    n, k = int(cells.max()) + 1, cells.shape[1]
     if lumped:
-        quarter = np.repeat(volumes / 4.0, 4)
-        return csr_array(diags_array(np.bincount(tets.ravel(), quarter, minlength=n)))
-    pairs = np.sort(tets[:, _EDGES], axis=2).reshape(-1, 2)
-    values = np.repeat(volumes / 20.0, len(_EDGES))
+        share = np.repeat(volumes / k, k)
+        return csr_array(diags_array(np.bincount(cells.ravel(), share, minlength=n)))
+    edges = np.array(list(combinations(range(k), 2)))
+    pairs = np.sort(cells[:, edges], axis=2).reshape(-1, 2)
+    values = np.repeat(volumes / (k * (k + 1.0)), len(edges))
     above = csr_array(coo_array((values, (pairs[:, 0], pairs[:, 1])), shape=(n, n)))
-    diagonal = np.bincount(tets.ravel(), np.repeat(volumes / 10.0, 4), minlength=n)
-    return csr_array(above + above.T + diags_array(diagonal))
+    twice = np.repeat(2.0 * volumes / (k * (k + 1.0)), k)
+    return csr_array(above + above.T + diags_array(np.bincount(cells.ravel(), twice, minlength=n)))
 
 
 def apply_mass(mass: csr_array, shapes: ArrayLike) -> FloatArray:

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from functools import cached_property
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import FloatArray, IndexArray, as_indices, as_points
-from .components import tet_components
+from .frozen import frozen
 from .quality import dihedral_angles
 from .surface import boundary_faces
 from .validation import check_mesh
@@ -58,6 +57,21 @@ class TetMesh:
         return self._tets
 
     @property
+    def cells(self) -> IndexArray:
+        """The tets, which have the mass."""
+        return self._tets
+
+    @property
+    def elements(self) -> IndexArray:
+        """The tets, over which the elastic energy is summed."""
+        return self._tets
+
+    @property
+    def measures(self) -> FloatArray:
+        """Volumes of the tets."""
+        return self._volumes
+
+    @property
     def volumes(self) -> FloatArray:
         """Volumes of the tets, (m,), all positive."""
         return self._volumes
@@ -72,17 +86,17 @@ class TetMesh:
         """A quarter of the volume of the tets at each vertex (density 1), (n,)."""
         quarter = np.repeat(self._volumes / 4.0, 4)
         masses = np.bincount(self._tets.ravel(), quarter, minlength=len(self._vertices))
-        return _frozen(np.asarray(masses, dtype=np.float64))
+        return frozen(np.asarray(masses, dtype=np.float64))
 
     @cached_property
     def surface(self) -> IndexArray:
         """Boundary faces, outward, (f, 3) int32."""
-        return _frozen(boundary_faces(self._tets))
+        return frozen(boundary_faces(self._tets))
 
     @cached_property
     def surface_vertices(self) -> IndexArray:
         """Sorted indices of the vertices on the surface, (s,) int32."""
-        return _frozen(np.unique(self.surface))
+        return frozen(np.unique(self.surface))
 
     @cached_property
     def diagonal(self) -> float:
@@ -92,12 +106,12 @@ class TetMesh:
     @cached_property
     def dihedral_angles(self) -> FloatArray:
         """Dihedral angles in degrees, (m, 6), at the edges 01, 02, 03, 12, 13, 23."""
-        return _frozen(dihedral_angles(self._vertices, self._tets))
+        return frozen(dihedral_angles(self._vertices, self._tets))
 
     @cached_property
     def components(self) -> IndexArray:
         """Component of each tet, (m,) int32: all zero, since a TetMesh is connected."""
-        return _frozen(tet_components(self._tets, len(self._vertices)))
+        return frozen(np.zeros(len(self._tets), np.int32))
 
     @cached_property
     def fingerprint(self) -> str:
@@ -116,11 +130,3 @@ class TetMesh:
             f"TetMesh({len(self._vertices)} vertices, {len(self._tets)} tets, "
             f"volume {self.volume:.6g}, diagonal {self.diagonal:.6g})"
         )
-
-
-_Array = TypeVar("_Array", FloatArray, IndexArray)
-
-
-def _frozen(array: _Array) -> _Array:
-    array.setflags(write=False)
-    return array

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..input_error import one_line
+from ..mesh import ShellMesh
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from . import (
     error_estimator,
@@ -32,11 +33,12 @@ VERSION = 4
 #: version 2 bases were in double precision, and up to version 3 the checksum included the timings.
 READABLE = (1, 2, 3, 4)
 SUFFIX = ".snapspace"
-POSING, CUBATURE = "posing", "posing-cubature"
+POSING, CUBATURE, SHELL = "posing", "posing-cubature", "posing-shell"
 INTERPOLATION, BLENDED_CUBATURE = "interpolation", "interpolation-cubature"
 _DTYPES = {
     POSING: posing.DTYPES,
     CUBATURE: posing.CUBATURE_DTYPES,
+    SHELL: posing.SHELL_DTYPES,
     INTERPOLATION: interpolation.DTYPES,
     BLENDED_CUBATURE: interpolation.CUBATURE_DTYPES,
 }
@@ -59,6 +61,8 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
     check_model_path(path)
     if isinstance(model, PosingModel):
         kind = POSING if model.cubature is None else CUBATURE
+        if isinstance(model.problem.mesh, ShellMesh):
+            kind = SHELL
         arrays, content = posing.posing_arrays(model), posing.posing_content(model)
     elif isinstance(model, InterpolationModel):
         kind = INTERPOLATION if model.cubature is None else BLENDED_CUBATURE

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh import TetMesh, mass_matrix
+from ..mesh import Body, ShellMesh, TetMesh, mass_matrix
 from ..problem import HandleBox, Handles, PosingProblem
 from ..reduction import (
     Cubature,
@@ -24,7 +24,6 @@ from .container import Arrays, Types, check_shapes
 
 _COMMON: dict[str, Types] = {
     "vertices": np.float64,
-    "tets": np.int32,
     "handle_vertices": np.int32,
     "handle_sizes": np.int32,
     "basis": basis.DTYPES,
@@ -34,21 +33,26 @@ _COMMON: dict[str, Types] = {
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-DTYPES = {**_COMMON, "quartic": np.float64}
-#: With few tets in place of the quartic; their rows are computed from the basis on loading.
-CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
+_TETS: dict[str, Types] = {"tets": np.int32}
+#: The thickness has one entry, or one per triangle.
+_SHELL: dict[str, Types] = {"triangles": np.int32, "thickness": np.float64}
+#: Few tets in place of the quartic; their rows are computed from the basis on loading.
+_CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
+DTYPES = {**_COMMON, **_TETS, "quartic": np.float64}
+CUBATURE_DTYPES = {**_COMMON, **_TETS, **_CUBATURE}
+SHELL_DTYPES = {**_COMMON, **_SHELL, **_CUBATURE}
 
 
 def posing_arrays(model: PosingModel) -> Arrays:
-    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES.
+    """The arrays of a model; the names are those of DTYPES, CUBATURE_DTYPES or
+    SHELL_DTYPES.
 
     The arrays of a surface are left out if it is the boundary of the tets.
     """
     problem = model.problem
     sizes = [len(handle.vertices) for handle in problem.handles]
     return {
-        "vertices": problem.mesh.vertices,
-        "tets": problem.mesh.tets,
+        **_body_arrays(problem.mesh),
         "handle_vertices": problem.pinned,
         "handle_sizes": np.array(sizes, np.int32),
         "basis": basis.stored_basis(model.subspace),
@@ -116,6 +120,24 @@ def posing_model(
     )
 
 
+def _body_arrays(mesh: Body) -> Arrays:
+    if isinstance(mesh, ShellMesh):
+        thickness = np.atleast_1d(np.asarray(mesh.thickness, np.float64))
+        return {"vertices": mesh.vertices, "triangles": mesh.triangles, "thickness": thickness}
+    return {"vertices": mesh.vertices, "tets": mesh.cells}
+
+
+def _body(arrays: Arrays) -> Body:
+    if "triangles" not in arrays:
+        return TetMesh(arrays["vertices"], arrays["tets"])
+    thickness = arrays["thickness"]
+    return ShellMesh(
+        arrays["vertices"],
+        arrays["triangles"],
+        thickness=thickness[0] if thickness.size == 1 else thickness,
+    )
+
+
 def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
     if isinstance(elastic, FullEnergy):
         raise not_stored("save_model")
@@ -139,11 +161,11 @@ def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:
     ends = np.cumsum(arrays["handle_sizes"])[:-1]
     handles = Handles(np.split(arrays["handle_vertices"], ends), names=content["handles"])
     domain = content["domain"]
-    mesh = TetMesh(arrays["vertices"], arrays["tets"])
+    mesh = _body(arrays)
     return PosingProblem(
         mesh,
         handles,
-        material=material_file.material(arrays, content["material"], len(mesh.tets)),
+        material=material_file.material(arrays, content["material"], len(mesh.cells)),
         stiffness=content["stiffness"],
         domain=HandleBox(
             translation=np.array(domain["translation"]),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh import EmbeddedSurface, SurfaceFile, TetMesh, boundary_surface
+from ..mesh import Body, EmbeddedSurface, SurfaceFile, boundary_surface
 from .appearance import appearance_arrays
 from .container import Arrays, check_shapes
 
@@ -48,7 +48,7 @@ def surface_arrays(surface: EmbeddedSurface) -> Arrays:
     return arrays
 
 
-def own_arrays(surface: EmbeddedSurface, mesh: TetMesh) -> Arrays:
+def own_arrays(surface: EmbeddedSurface, mesh: Body) -> Arrays:
     """The arrays of a surface; none for the boundary of the tets, if it is from no file."""
     own = surface.source is not None or not surface.is_boundary(mesh)
     return surface_arrays(surface) if own else {}
@@ -91,7 +91,7 @@ def dtypes(arrays: Arrays) -> dict[str, type]:
     return needed | {name: np.uint8 for name in (SOURCE, BESIDE) if name in arrays}
 
 
-def surface(arrays: Arrays, content: dict[str, Any], mesh: TetMesh) -> EmbeddedSurface:
+def surface(arrays: Arrays, content: dict[str, Any], mesh: Body) -> EmbeddedSurface:
     """The surface in a file's arrays, or the boundary of its tets; ValueError for bad arrays."""
     if not dtypes(arrays):
         return boundary_surface(mesh)

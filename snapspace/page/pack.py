@@ -105,7 +105,7 @@ def packed(
         "diagonal": model.problem.mesh.diagonal,
         "value_scale": model.value_scale,
         "coordinate_scale": model.coordinate_scale,
-        "material": {"model": model.problem.material.kind},
+        "material": {"model": _density(model)},
     }
     if "timeline" in model.provenance:  # the page saved it with the model
         about["timeline"] = model.provenance["timeline"]
@@ -116,6 +116,12 @@ def packed(
         "about": json.dumps(about, sort_keys=True),
     }
     return safetensors_bytes(arrays | look | estimator_arrays(model), header)
+
+
+def _density(model: ReducedModel) -> str:
+    """The name of the density of the cubature's elements, or of the body where there is none."""
+    of = model.problem if model.cubature is None else model.cubature
+    return of.material.kind
 
 
 def packed_name(content: bytes) -> str:

@@ -8,8 +8,14 @@ from .interpolation_problem import InterpolationProblem
 from .motion import affine_offset, euler_of_rotation, rigid_offset, rotation_matrix
 from .poses import Poses
 from .posing_problem import PosingProblem
-from .problem import Problem, solutions_beyond_tau
-from .problem_file import problem_content, problem_surface_file, read_problem, read_problem_surface
+from .problem import Problem, is_quartic, solutions_beyond_tau
+from .problem_file import (
+    problem_content,
+    problem_surface_file,
+    problem_thickness,
+    read_problem,
+    read_problem_surface,
+)
 from .region import in_box, in_sphere
 from .simplex import Simplex
 from .solver_traits import Projection, SolverTraits
@@ -34,8 +40,10 @@ __all__ = [
     "handles_in_tets",
     "in_box",
     "in_sphere",
+    "is_quartic",
     "problem_content",
     "problem_surface_file",
+    "problem_thickness",
     "read_problem",
     "read_problem_surface",
     "rigid_offset",

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..material import Material
-from ..mesh import TetMesh
+from ..mesh import Body
 
 if TYPE_CHECKING:
     from .posing_problem import PosingProblem
@@ -21,12 +21,12 @@ FloatArray = NDArray[np.float64]
 RELATIVE_STIFFNESS = 2e5
 
 
-def usual_stiffness(mesh: TetMesh, material: Material) -> float:
+def usual_stiffness(mesh: Body, material: Material) -> float:
     """The default stiffness of handles: 2e5 times the mean shear modulus over the squared diagonal.
 
     Solutions keep their form if mesh and motions are scaled, or all moduli are.
     """
-    mu = np.broadcast_to(material.mu, len(mesh.tets))
+    mu = np.broadcast_to(material.mu, len(mesh.cells))
     return RELATIVE_STIFFNESS * float(np.average(mu, weights=mesh.volumes)) / mesh.diagonal**2
 
 

@@ -15,7 +15,7 @@ from scipy.sparse import csr_array
 from .. import _core as core
 from ..interruptible import run_abandonable
 from ..material import Material, StableNeoHookean, checked_material
-from ..mesh import TetMesh, mass_matrix, mass_of_tets, tet_volumes
+from ..mesh import TetMesh, mass_matrix, mass_of_cells, tet_volumes
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
 from .mean_shape import mean_displacement
@@ -260,7 +260,7 @@ class InterpolationProblem:
     def _mass_of(self, shape: FloatArray, *, lumped: bool = False) -> csr_array:
         tets = self.poses.tets
         volumes = np.abs(tet_volumes(shape.reshape(-1, 3), tets))
-        return mass_of_tets(tets, volumes, lumped=lumped)
+        return mass_of_cells(tets, volumes, lumped=lumped)
 
     def __reduce__(self) -> tuple[Callable[..., InterpolationProblem], tuple[Any, ...]]:
         # pickles the definition, and the mean shape if it is known because it takes long to find.

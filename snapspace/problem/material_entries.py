@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..material import DEFAULT_MATERIAL, Material, StVK, material_class
-from ..mesh import TetMesh
+from ..mesh import Body
 from .json_entries import as_list, as_number, as_object, as_text, within
 from .material_regions import regions_content, with_regions
 from .moduli_entries import NAMES, Value, moduli_of
@@ -15,7 +15,7 @@ from .moduli_entries import NAMES, Value, moduli_of
 _MODEL, _REGIONS = "model", "regions"
 
 
-def material_from(value: Any, mesh: TetMesh) -> Material:
+def material_from(value: Any, mesh: Body) -> Material:
     """The material of the entry "material" of a file.
 
     Parameters
@@ -25,7 +25,7 @@ def material_from(value: Any, mesh: TetMesh) -> Material:
         `with_regions`. Values are numbers, or lists with one number per tet; missing moduli have
         the default of the class. Without "model" it is the default material. But if "lam" or "mu"
         is there and nothing else, it is St.Venant-Kirchhoff: old files named no model.
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
 
     Raises
     ------
@@ -40,7 +40,7 @@ def material_from(value: Any, mesh: TetMesh) -> Material:
     entries = {key: entry for key, entry in content.items() if key not in (_MODEL, _REGIONS)}
     with within("material"):
         material = kind(**moduli_of(entries, kind, of_each=_one_or_per_tet))
-        material.check_tets(len(mesh.tets), kind.__name__)
+        material.check_tets(len(mesh.cells), kind.__name__)
     return with_regions(material, as_list(content.get(_REGIONS, []), "material.regions"), mesh)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..material import Material
-from ..mesh import TetMesh
+from ..mesh import Body
 from .json_entries import as_number, as_object, within
 from .moduli_entries import NAMES, Value, moduli_of
 from .place_entries import Mask, in_places, listed
@@ -24,7 +24,7 @@ _PLACES = {"boxes", "spheres", "vertices", "tets"}
 _FACTOR = "factor"
 
 
-def with_regions(material: Material, regions: Sequence[Any], mesh: TetMesh) -> Material:
+def with_regions(material: Material, regions: Sequence[Any], mesh: Body) -> Material:
     """The material with other moduli in regions; later regions win.
 
     Parameters
@@ -34,8 +34,8 @@ def with_regions(material: Material, regions: Sequence[Any], mesh: TetMesh) -> M
         Each has places, "boxes", "spheres" and "vertices" as handles have them, or a list of
         "tets"; and either values, as the material itself has them, or a "factor" > 0 of all moduli.
         A tet is in a region if its centroid is in a box or sphere, or three of its corners are
-        among the vertices, or it is listed.
-    mesh : TetMesh
+        among the vertices, or it is listed. The tets of a shell are its triangles.
+    mesh : TetMesh or ShellMesh
 
     Raises
     ------
@@ -45,7 +45,7 @@ def with_regions(material: Material, regions: Sequence[Any], mesh: TetMesh) -> M
     """
     if not regions:
         return material
-    kind, count = type(material), len(mesh.tets)
+    kind, count = type(material), len(mesh.cells)
     moduli = {name: np.broadcast_to(getattr(material, name), count).copy() for name in kind.names()}
     known = {*_PLACES, _FACTOR, *NAMES, *kind.names()}
     for number, item in enumerate(regions):
@@ -80,11 +80,11 @@ def regions_content(
     return base, regions
 
 
-def _tets_in(region: dict[str, Any], mesh: TetMesh) -> Mask:
-    inside = in_places(region, mesh.vertices[mesh.tets].mean(axis=1))
-    inside |= listed(region, "tets", "a tet", count=len(mesh.tets))
+def _tets_in(region: dict[str, Any], mesh: Body) -> Mask:
+    inside = in_places(region, mesh.vertices[mesh.cells].mean(axis=1))
+    inside |= listed(region, "tets", "a tet", count=len(mesh.cells))
     vertices = listed(region, "vertices", "a vertex", count=len(mesh.vertices))
-    inside |= vertices[mesh.tets].sum(axis=1) >= _CORNERS
+    inside |= vertices[mesh.cells].sum(axis=1) >= _CORNERS
     if not inside.any():
         raise ValueError("it contains no tet; widen its boxes or spheres")
     return inside

@@ -17,11 +17,12 @@ from .. import _core as core
 from ..energy import ElasticEnergy
 from ..interruptible import run_abandonable
 from ..material import DEFAULT_MATERIAL, Material, checked_material
-from ..mesh import TetMesh, mass_matrix
+from ..mesh import Body, ShellMesh, mass_matrix
 from .handle_box import HandleBox
 from .handle_response import HandleResponse
 from .handle_stiffness import usual_stiffness
 from .handles import Handles
+from .held import check_held
 from .motion import rigid_offset
 from .solver_traits import SolverTraits, posing_traits
 
@@ -32,16 +33,17 @@ class PosingProblem:
     """Deformation-based modelling as a parametrised minimisation (paper, sec. 3.2).
 
     F(x, w) = E(x) + stiffness * sum_h sum_{j in h} m_j |v_j - target_j(w)|^2, where m_j is a
-    quarter of the volume of the tets at j, and handle h asks for target_j = R (rest_j - c) + c + t
-    about its mass centroid c.
+    quarter of the volume of the tets at j, or a third of that of the triangles, and handle h asks
+    for target_j = R (rest_j - c) + c + t about its mass centroid c.
 
     Parameters
     ----------
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
     handles : Handles
         The first one stays at rest while sampling, as do those whose bounds are zero.
     material : Material, default StableNeoHookean(lam=1, mu=1)
-        Moduli are numbers, or arrays with one number per tet.
+        Moduli are numbers, or arrays with one number per tet or triangle. Of a shell it is
+        `StableNeoHookean` or `StVK`, see `ElasticEnergy`.
     stiffness : float, optional
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
         Default: `usual_stiffness`, which follows the size and the moduli of the body.
@@ -51,14 +53,15 @@ class PosingProblem:
     Raises
     ------
     ValueError
-        For a stiffness that is not positive, a material that is not one of `MATERIALS` or has
-        moduli for another number of tets, a handle with a vertex that the mesh does not have (the
-        message names it), or handles that all lie on one line, about which the shape could turn.
+        For a stiffness that is not positive, a material that is not one of `MATERIALS`, has moduli
+        for another number of tets or no form for shells, a handle with a vertex that the mesh does
+        not have (the message names it), or handles that all lie on one line, about which the shape
+        could turn. Every component of a shell must be held by itself.
     """
 
     def __init__(
         self,
-        mesh: TetMesh,
+        mesh: Body,
         handles: Handles,
         *,
         domain: HandleBox,
@@ -68,7 +71,7 @@ class PosingProblem:
         self.mesh = mesh
         self.handles = handles
         given = DEFAULT_MATERIAL() if material is None else material
-        self.material = checked_material(given, len(mesh.tets), "PosingProblem")
+        self.material = checked_material(given, len(mesh.cells), "PosingProblem")
         if stiffness is None:
             stiffness = usual_stiffness(mesh, self.material)
         self.stiffness = float(stiffness)
@@ -81,13 +84,8 @@ class PosingProblem:
                     f"PosingProblem: handle '{handle.name}' has vertex index "
                     f"{handle.vertices[-1]}, but the mesh has {len(mesh.vertices)} vertices"
                 )
-        held = mesh.vertices[self.pinned] - mesh.vertices[self.pinned].mean(axis=0)
-        extents = np.linalg.svd(held, compute_uv=False)
-        if extents.size < 2 or extents[1] <= 1e-9 * mesh.diagonal:
-            raise ValueError(
-                "PosingProblem: the vertices of all handles lie on one line, so the shape could "
-                "turn about it; give the handles more vertices"
-            )
+        check_held(mesh, self.pinned, who="PosingProblem")
+        self.energy = ElasticEnergy(mesh, self.material)
 
     def with_handles(self, handles: Handles, *, domain: HandleBox | None = None) -> PosingProblem:
         """The same body, of the same material and stiffness, moved by other handles.
@@ -126,6 +124,7 @@ class PosingProblem:
         # made anew each time: a stored one and the problem would keep each other in memory
         return posing_traits(
             self.material,
+            shell=isinstance(self.mesh, ShellMesh),
             soft_modes=lambda: self._soft_modes,
             system_near=lambda displacement: self.system,
         )
@@ -167,11 +166,6 @@ class PosingProblem:
         return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
     @cached_property
-    def energy(self) -> ElasticEnergy:
-        """The elastic energy E."""
-        return ElasticEnergy(self.mesh, self.material)
-
-    @cached_property
     def centroids(self) -> FloatArray:
         """Mass centroids of the handles at rest, (h, 3)."""
         masses, vertices = self.mesh.vertex_masses, self.mesh.vertices
@@ -197,7 +191,7 @@ class PosingProblem:
     @cached_property
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
-        elastic = self.mesh.vertices, self.mesh.tets, self.material.core
+        elastic = self.mesh.vertices, self.mesh.elements, self.energy.element_material.core
         pins = self.pinned, self.pin_weights
         return run_abandonable(lambda: core.PosingSystem(*elastic, *pins))
 
@@ -281,7 +275,7 @@ class PosingProblem:
         wanted = self.mesh.vertices[self.pinned] + self.target_displacements(offsets)
         return np.asarray(moved - wanted)
 
-    def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[TetMesh, Handles]]:
+    def __reduce__(self) -> tuple[Callable[..., PosingProblem], tuple[Body, Handles]]:
         # pickles the definition; the compiled system and other caches are made again where needed
         made = partial(
             PosingProblem, domain=self.domain, material=self.material, stiffness=self.stiffness

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from ..material import Material
-from ..mesh import TetMesh
+from ..mesh import Body, TetMesh
 from ..sampling import Domain
 from .solver_traits import SolverTraits
 
@@ -31,13 +31,13 @@ class Problem(Protocol):
     """
 
     @property
-    def mesh(self) -> TetMesh:
-        """The mesh whose tets all shapes share."""
+    def mesh(self) -> Body:
+        """The mesh whose elements all shapes share."""
         ...
 
     @property
     def material(self) -> Material:
-        """What the body is made of; moduli are uniform, or one per tet of the mesh."""
+        """What the body is made of; moduli are uniform, or one per cell of the mesh."""
         ...
 
     @property
@@ -102,6 +102,11 @@ class Problem(Protocol):
     def registered(self, displacements: FloatArray) -> FloatArray:
         """Solutions (k, 3n), as displacements from `base`, moved to where they can be compared."""
         ...
+
+
+def is_quartic(problem: Problem) -> bool:
+    """Whether the elastic energy is a polynomial of degree four of the shape: StVK in tets."""
+    return isinstance(problem.mesh, TetMesh) and problem.material.exact_degree == 4
 
 
 def solutions_beyond_tau(problem: Problem) -> tuple[FloatArray, FloatArray]:

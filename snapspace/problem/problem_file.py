@@ -7,8 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from ..filling import stuff_surface
-from ..mesh import EmbeddedSurface, MirrorPlane, TetMesh, embed_file, open_surface, read_tets
+from ..mesh import (
+    Body,
+    EmbeddedSurface,
+    MirrorPlane,
+    ShellMesh,
+    TetMesh,
+    embed_file,
+    open_surface,
+    read_tets,
+)
 from ..mesh.embed_surface import WHOLE_DIAGONAL
+from .body_entries import Thickness, body_content, shell_in, shell_thickness
 from .domain_entries import domain_content, handle_box
 from .handles import Handles
 from .json_entries import as_index, as_list, as_number, as_object, as_text, as_three, within
@@ -16,13 +26,23 @@ from .material_entries import material_content, material_from
 from .place_entries import Mask, in_places, listed
 from .posing_problem import PosingProblem
 
-_KEYS = {"mesh", "surface", "up", "mirror", "material", "stiffness", "domain", "handles"}
+_KEYS = {
+    "mesh",
+    "surface",
+    "body",
+    "up",
+    "mirror",
+    "material",
+    "stiffness",
+    "domain",
+    "handles",
+}
 AXES = ("x", "y", "z")
 MOST_VERTICES = 2**31 - 1
 
 
 def read_problem(
-    path: str | Path, *, mesh: TetMesh | None = None, repair: bool = False
+    path: str | Path, *, mesh: Body | None = None, repair: bool = False
 ) -> PosingProblem:
     """Reads a posing problem.
 
@@ -31,21 +51,23 @@ def read_problem(
     path : path of a JSON file
         {"mesh": path relative to the file, "surface": path of the surface that models show, see
         `read_problem_surface`; without "mesh" it is filled with tets in seconds, see
-        `stuff_surface`, "up": axis that points up in pages and pictures, "mirror": {"normal":
-        [x, y, z], "point": [x, y, z]}, the plane that mirrors poses, "material", "stiffness",
-        "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes", "spheres",
-        "vertices", "painted", "domain"}, ...]}.
+        `stuff_surface`, or it is a shell, see `shell_of_file`, with "body": {"shell": {"thickness":
+        number, or one per triangle}}, "up": axis that points up in pages and pictures, "mirror":
+        {"normal": [x, y, z], "point": [x, y, z]}, the plane that mirrors poses, "material",
+        "stiffness", "domain": {"translation", "angle_degrees"}, "handles": [{"name", "boxes",
+        "spheres", "vertices", "painted", "domain"}, ...]}.
         A handle is the union of its boxes [[min corner], [max corner]] (null: unbounded), spheres
         [[x, y, z], radius] and vertices. "painted" lists the surface vertices that the user chose
         for it; only the page reads them. The first handle is the fixed one; any other may have its
         own domain, whose entries replace those of the common one. A handle whose bounds are all
         zero is held at rest too. The material is {"model": one of `MATERIALS`, its moduli by name
         or "young" and "poisson", "regions": [...]}, where values are numbers or lists with one per
-        tet. A region has "boxes", "spheres" and "vertices", or "tets", and new values or a
-        "factor"; later ones win. Without "material" it is the default one, and without "stiffness"
-        the stiffness of the handles follows from the body, see `usual_stiffness`.
-    mesh : TetMesh, optional
-        Used instead of the file's mesh.
+        tet, or per triangle of a shell. A region has "boxes", "spheres" and "vertices", or "tets",
+        and new values or a "factor"; later ones win. Without "material" it is the default one, and
+        without "stiffness" the stiffness of the handles follows from the body, see
+        `usual_stiffness`.
+    mesh : TetMesh or ShellMesh, optional
+        Used instead of the file's mesh, or its shell.
     repair : bool, default False
         Passed to `read_tets` for the file's mesh.
 
@@ -67,14 +89,14 @@ def read_problem(
         return _problem(content, mesh)
 
 
-def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | None:
+def read_problem_surface(path: str | Path, mesh: Body) -> EmbeddedSurface | None:
     """Reads the surface that a problem file names, and embeds it in the problem's mesh.
 
     Parameters
     ----------
     path : path of a JSON file, see `read_problem`
-    mesh : TetMesh
-        The problem's mesh, which fills the surface.
+    mesh : TetMesh or ShellMesh
+        The problem's mesh, which fills the surface, or is its shell.
 
     Returns
     -------
@@ -94,6 +116,9 @@ def read_problem_surface(path: str | Path, mesh: TetMesh) -> EmbeddedSurface | N
         return None
     with within(path):
         file = path.parent / as_text(content["surface"], "surface")
+        if isinstance(mesh, ShellMesh):
+            return shell_in(open_surface(file), mesh.thickness, file)[1]
+        assert isinstance(mesh, TetMesh)
         return embed_file(open_surface(file).compact(), mesh, farthest=WHOLE_DIAGONAL)
 
 
@@ -124,7 +149,8 @@ def problem_content(
             handle["domain"] = domain_content(bounds)
     plane = None if mirror is None else mirror.content
     given = {"mesh": mesh_path, "surface": surface_path, "up": up, "mirror": plane}
-    return {key: value for key, value in given.items() if value is not None} | content
+    named = {key: value for key, value in given.items() if value is not None}
+    return named | body_content(problem.mesh) | content
 
 
 def _load(path: Path) -> dict[str, Any]:
@@ -163,6 +189,16 @@ def problem_surface_file(path: str | Path) -> Path | None:
         return _surface_in_place_of_tets(path, content)
 
 
+def problem_thickness(path: str | Path) -> Thickness | None:
+    """The thickness of the shell that a problem file describes; None for a solid.
+
+    ValueError as for `read_problem`.
+    """
+    path = Path(path)
+    with within(path):
+        return shell_thickness(_load(path))
+
+
 def _surface_in_place_of_tets(path: Path, content: dict[str, Any]) -> Path | None:
     if "mesh" in content:
         return None
@@ -171,8 +207,11 @@ def _surface_in_place_of_tets(path: Path, content: dict[str, Any]) -> Path | Non
     return path.parent / as_text(content["surface"], "surface")
 
 
-def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
+def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> Body:
+    thickness = shell_thickness(content)
     surface = _surface_in_place_of_tets(path, content)
+    if surface is not None and thickness is not None:
+        return shell_in(open_surface(surface), thickness, surface)[0]
     if surface is not None:
         file = open_surface(surface).compact()
         with within(surface):
@@ -180,7 +219,7 @@ def _mesh(path: Path, content: dict[str, Any], *, repair: bool) -> TetMesh:
     return read_tets(path.parent / as_text(_entry(content, "mesh"), "mesh"), repair=repair)
 
 
-def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
+def _problem(content: dict[str, Any], mesh: Body) -> PosingProblem:
     return PosingProblem(
         mesh,
         _handles(_entry(content, "handles"), mesh),
@@ -190,7 +229,7 @@ def _problem(content: dict[str, Any], mesh: TetMesh) -> PosingProblem:
     )
 
 
-def _handles(value: Any, mesh: TetMesh) -> Handles:
+def _handles(value: Any, mesh: Body) -> Handles:
     known = {"name", "boxes", "spheres", "vertices", "painted", "domain"}
     items = [
         as_object(item, f"handles[{i}]", known=known)
@@ -208,7 +247,7 @@ def _handles(value: Any, mesh: TetMesh) -> Handles:
     return Handles(masks, names=names)
 
 
-def _mask(item: dict[str, Any], name: str, mesh: TetMesh) -> Mask:
+def _mask(item: dict[str, Any], name: str, mesh: Body) -> Mask:
     """The union of a handle's boxes, spheres and vertices."""
     with within(f"handle '{name}'"):
         vertices = listed(item, "vertices", "a vertex", count=len(mesh.vertices))

@@ -53,6 +53,7 @@ PATIENCE = 400
 def posing_traits(
     material: Material,
     *,
+    shell: bool,
     soft_modes: Callable[[], core.SoftModes],
     system_near: Callable[[FloatArray], Any],
 ) -> SolverTraits:
@@ -85,13 +86,13 @@ def posing_traits(
     The handles' matrix is part of every Hessian, so that one factor serves all samples, with
     unlimited patience. Interpolated starts were never worse than the nearest sample on the Dragon.
     """
-    settles = material.exact_degree == 4
+    settles = material.exact_degree == 4 and not shell
     return SolverTraits(
         tolerance=1e-5 if settles else 1e-7 * _shear_share(material),
         loose_tolerance=1e-3,
         settling=1e-2 if settles else 0.0,
         patience=None,
-        projection=_projection(material),
+        projection="clamp" if shell else _projection(material),
         far_apart=material.barrier,
         soft_modes=soft_modes,
         system_near=system_near,

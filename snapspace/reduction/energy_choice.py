@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from ..cubature import FEWEST_BLENDS, FEWEST_SNAPSHOTS, default_tets
-from ..problem import InterpolationProblem, PosingProblem
+from ..problem import InterpolationProblem, PosingProblem, is_quartic
 
 Energy = Literal["auto", "exact", "cubature", "full"]
 #: Those that model files and pages hold, and all.
@@ -39,12 +39,12 @@ def chosen_energy(
         raise ValueError(
             f"reduce: unknown energy '{energy}'; known are {', '.join(map(str, ENERGIES))}"
         )
-    material = problem.material
-    quartic = material.exact_degree == 4
+    quartic = is_quartic(problem)
     if energy == "exact" and not quartic:
         raise ValueError(
-            f"reduce: the energy of {material.title} is not a polynomial of degree four, so it has "
-            "no exact form; take energy='cubature', or the material StVK"
+            f"reduce: the energy of {problem.material.title} in a {type(problem.mesh).__name__} is "
+            "not a polynomial of degree four, so it has no exact form; take energy='cubature', or "
+            "the material StVK in tets"
         )
     if energy != "auto":
         return energy

@@ -25,7 +25,7 @@ def exact_seconds(problem: PosingProblem | InterpolationProblem, dimension: int)
     that for every pose.
     """
     poses = len(problem.poses) if isinstance(problem, InterpolationProblem) else 1
-    return _SECONDS * poses * len(problem.mesh.tets) * coefficient_count(dimension)
+    return _SECONDS * poses * len(problem.mesh.cells) * coefficient_count(dimension)
 
 
 def warn_of_long_quartics(problem: PosingProblem | InterpolationProblem, dimension: int) -> None:
@@ -35,7 +35,7 @@ def warn_of_long_quartics(problem: PosingProblem | InterpolationProblem, dimensi
         return
     size = 8e-6 * coefficient_count(dimension)
     warnings.warn(
-        f"reduce: the exact energy of {len(problem.mesh.tets)} tets in {dimension} dimensions has "
+        f"reduce: the exact energy of {len(problem.mesh.cells)} tets in {dimension} dimensions has "
         f"{coefficient_count(dimension)} coefficients ({size:.0f} MB) and takes about "
         f"{seconds:.0f} s on one core; energy='cubature' (command line: --energy cubature) is "
         "trained on the snapshots in seconds",

@@ -6,7 +6,7 @@ from typing import Any, overload
 
 from ..cubature import BlendedCubature, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
-from ..problem import InterpolationProblem, PosingProblem
+from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..snapshots import Snapshots
 from ..subspace import AffineSubspace
 from ..subspace.orthonormality import check_orthonormal
@@ -198,7 +198,7 @@ def _check_snapshots(
     if count >= fewest:
         return
     cure = f"give snapshots=solve_snapshots(...) with {fewest} samples or more"
-    if problem.material.exact_degree == 4:
+    if is_quartic(problem):
         cure += ", or energy='exact'"
     raise ValueError(
         f"reduce: the energy of {problem.material.title} in {subspace.dimension} dimensions is a "

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from ..certificate import ErrorEstimator
 from ..cubature import BlendedCubature, Cubature
-from ..mesh import EmbeddedSurface, MirrorPlane
+from ..energy import rigidities
+from ..mesh import EmbeddedSurface, MirrorPlane, ShellMesh
 from ..problem import Problem
 from ..subspace import AffineSubspace
 
@@ -29,7 +30,8 @@ class ReducedModel(ABC):
 
     problem : PosingProblem or InterpolationProblem
     subspace : AffineSubspace, attached to the problem's tau
-    surface : EmbeddedSurface, shown by pages and files: the user's, or the boundary of the tets
+    surface : EmbeddedSurface, shown by pages and files: the user's, or the boundary of the tets,
+        or the triangles of a shell
     training_parameters : (k, p), parameters of the solutions that the subspace was made from, or
         (0, p)
     training_coordinates : (k, d), coordinates of their projections, or (0, d)
@@ -74,9 +76,13 @@ class ReducedModel(ABC):
     def value_scale(self) -> float:
         """Unit of energy for the termination tests, as of a shear of 10 %: 0.01 mu * volume.
 
-        For moduli that differ from tet to tet, the sum over all of them.
+        For moduli that differ from tet to tet, the sum over all of them. A shell bends more easily
+        than it shears: it is the energy of bending by a curvature of sqrt(2) over the diagonal.
         """
         mu, mesh = self.problem.material.mu, self.problem.mesh
+        if isinstance(mesh, ShellMesh):
+            bending = rigidities(mesh, self.problem.material)
+            return float(bending @ mesh.areas) / mesh.diagonal**2
         if np.ndim(mu) == 0:
             return float(0.01 * mu * mesh.volume)
         return float(0.01 * (mu @ mesh.volumes))

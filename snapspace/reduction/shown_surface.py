@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..mesh import EmbeddedSurface, TetMesh, boundary_surface
+from ..mesh import Body, EmbeddedSurface, boundary_surface
 
 
-def surface_in(mesh: TetMesh, surface: EmbeddedSurface | None, *, who: str) -> EmbeddedSurface:
+def surface_in(mesh: Body, surface: EmbeddedSurface | None, *, who: str) -> EmbeddedSurface:
     """The surface, or the boundary of the tets if None; ValueError if it is of another mesh."""
     shown = boundary_surface(mesh) if surface is None else surface
     if len(shown.corners) and shown.corners.max() >= len(mesh.vertices):

@@ -17,6 +17,7 @@ from ..mesh import (
     embed_file,
     open_surface,
     read_tets,
+    solid_of,
 )
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
@@ -77,7 +78,7 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
     files = json.loads(path.read_text(encoding="utf-8"))
     return Body(
         name=path.stem,
-        mesh=problem.mesh,
+        mesh=solid_of(problem.mesh, who=path.name),
         file=None if own is not None else (path.parent / files["mesh"]).resolve(),
         folder=path.resolve().parent,
         problem=problem,
@@ -165,7 +166,7 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
         mesh, problem = model.problem.poses.reference, None
     else:
         assert isinstance(model, PosingModel)
-        mesh, problem = model.problem.mesh, model.problem
+        mesh, problem = solid_of(model.problem.mesh, who=name), model.problem
     own = len(model.surface.corners) != len(mesh.surface_vertices) or bool(
         (model.surface.nearest != mesh.surface_vertices).any()
     )

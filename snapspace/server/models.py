@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..problem import PosingProblem, Problem
+from ..problem import PosingProblem, Problem, is_quartic
 from ..reduction import PosingModel, ReducedModel
 
 #: A page may still be fetching a model when the next one is added.

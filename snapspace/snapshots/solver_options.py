@@ -181,5 +181,5 @@ class ResolvedOptions:
 def _in_range(problem: Problem) -> bool:
     """Whether the energies of average tets at a strain of one fit into single precision."""
     mesh = problem.mesh
-    energies = problem.material.stiffness * (mesh.diagonal**3 / len(mesh.tets))
+    energies = problem.material.stiffness * (mesh.diagonal**3 / len(mesh.elements))
     return bool(SINGLE_ENERGIES[0] < np.min(energies) and np.max(energies) < SINGLE_ENERGIES[1])

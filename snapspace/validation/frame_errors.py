@@ -7,7 +7,7 @@ import time
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import mass_norms, tet_volumes
+from ..mesh import Body, TetMesh, mass_norms, tet_volumes
 from ..reduction import ReducedModel
 from ..session import FrameReport
 from ..snapshots import Snapshots
@@ -32,7 +32,7 @@ def compared(
     model: ReducedModel, reference: Snapshots
 ) -> tuple[FloatArray, list[tuple[FrameReport, float]], NDArray[np.int64]]:
     """Errors (k, 2), see `_errors`; reports and milliseconds of frames; inverted tets (k,)."""
-    session, tets = model.session(), model.problem.mesh.tets
+    session, mesh = model.session(), model.problem.mesh
     solutions, frames, inverted = [], [], []
     for w in reference.parameters:
         session.reset()
@@ -40,9 +40,16 @@ def compared(
         report = session.set_parameters(w)
         vertices = session.vertices
         frames.append((report, 1e3 * (time.perf_counter() - begin)))
-        inverted.append(int((tet_volumes(vertices, tets) <= 0).sum()))
+        inverted.append(_inverted(mesh, vertices))
         solutions.append(session.q.copy())
     return _errors(model, reference, np.array(solutions)), frames, np.array(inverted, np.int64)
+
+
+def _inverted(mesh: Body, vertices: FloatArray) -> int:
+    """Number of tets without positive volume; a shell has none."""
+    if not isinstance(mesh, TetMesh):
+        return 0
+    return int((tet_volumes(vertices, mesh.tets) <= 0).sum())
 
 
 def _errors(model: ReducedModel, reference: Snapshots, solutions: FloatArray) -> FloatArray:

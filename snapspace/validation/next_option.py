@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
-from ..problem import InterpolationProblem, PosingProblem
+from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..reduction import (
     Energy,
     ReducedModel,
@@ -93,8 +93,8 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
         # for two poses `blends` would only add the middle
         method = "blends" if problem.parameter_count > 2 else "sobol"
         usual = default_blended_tets(model.dimension)
-    if part == "cubature" and tets is not None and tets < len(problem.mesh.tets):
-        wanted = min(max(ceil(MORE * tets), usual), len(problem.mesh.tets))
+    if part == "cubature" and tets is not None and tets < len(problem.mesh.elements):
+        wanted = min(max(ceil(MORE * tets), usual), len(problem.mesh.elements))
         tolerance = _training_tolerance(model, model.dimension, "cubature")
         return NextOption(part, solved, model.dimension, wanted, "cubature", tolerance, method)
     dimension = ceil(LARGER * model.dimension)
@@ -117,7 +117,7 @@ def _training_tolerance(model: ReducedModel, dimension: int, energy: Energy) -> 
     """Tolerance of the samples for a cubature, if the usual one is meant for an exact energy."""
     problem = model.problem
     assert isinstance(problem, PosingProblem | InterpolationProblem)
-    if problem.material.exact_degree != 4:
+    if not is_quartic(problem):
         return None
     return training_tolerance(problem, dimension, energy)
 

@@ -23,6 +23,7 @@ ALLOWED: dict[str, set[str]] = {
     "snapshots": {
         "cholesky",
         "dense",
+        "element",
         "energy",
         "memory",
         "mesh",

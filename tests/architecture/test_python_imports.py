@@ -58,8 +58,8 @@ ALLOWED: dict[str, set[str]] = {
         "stopping",
         "thread_count",
     },
-    "certificate": {"_core", "material", "mesh", "problem", "subspace"},
-    "cubature": {"_core", "blas", "material", "mesh", "problem", "subspace"},
+    "certificate": {"_core", "energy", "material", "mesh", "problem", "subspace"},
+    "cubature": {"_core", "blas", "energy", "material", "mesh", "problem", "subspace"},
     "reduction": {
         "_core",
         "blas",

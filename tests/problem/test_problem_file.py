@@ -157,7 +157,7 @@ WRONG: list[tuple[tuple[str | int, ...], Any, str]] = [
     (("handles", 1, "domain"), {"angle_degrees": 181}, "handles[1].domain.angle_degrees is 181"),
     (("handles", 1, "domain"), {"translation": [1, 2]}, "handles[1].domain.translation must be"),
     (("handles", 1, "domain"), {"translation": 0, "angle_degrees": 0}, "all bounds are zero"),
-    (("stifness",), 1, "unknown entry 'stifness'; known are domain, handles, mat"),
+    (("stifness",), 1, "unknown entry 'stifness'; known are body, domain, handl"),
     (("material",), [], "material must be an object {...}, got []"),
     (("material",), None, "material must be an object {...}, got None"),
     (("material", "model"), "neohooke", "unknown material 'neohooke'; known are arap, cor"),

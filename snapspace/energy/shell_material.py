@@ -1,0 +1,107 @@
+"""ShellMaterial: the densities of a shell's triangles and hinges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..material import Material, StableNeoHookean, StVK
+from ..mesh import Body, ShellMesh
+
+FloatArray = NDArray[np.float64]
+Bending = Literal["tangent", "angle"]
+
+#: Measures of bending, with the ends of their names in the core.
+BENDINGS: dict[Bending, str] = {"tangent": "", "angle": "-angle"}
+#: Materials whose membranes the core has.
+MEMBRANES: tuple[type[Material], ...] = (StableNeoHookean, StVK)
+
+
+@dataclass(frozen=True, eq=False)
+class ShellMaterial:
+    """What the elements of a shell are made of; for tets it is the `Material` itself.
+
+    kind : name of the density in the core
+    moduli : (e, 13), mu and lam of the plane and the bending stiffness, each times its power of the
+        thickness, and numbers of the rest shape; see core/material/shell.h
+    """
+
+    kind: str
+    moduli: FloatArray
+
+    @cached_property
+    def core(self) -> _core.Material:
+        """The densities in the compiled core."""
+        return _core.Material(self.kind, self.moduli)
+
+    @property
+    def uniform(self) -> bool:
+        """Whether all elements have the same numbers: never."""
+        return False
+
+    def check_tets(self, count: int, who: str) -> None:
+        """ValueError unless there is one row for each of `count` elements."""
+        if len(self.moduli) != count:
+            raise ValueError(
+                f"{who}: the material has {len(self.moduli)} elements, but {count} are needed"
+            )
+
+    def of_tets(self, elements: NDArray[np.integer[Any]]) -> ShellMaterial:
+        """The material of some elements (r,), in their order."""
+        return ShellMaterial(self.kind, np.ascontiguousarray(self.moduli[elements]))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # cached properties are left out: the compiled material cannot be pickled
+        return ShellMaterial, (self.kind, self.moduli)
+
+
+def element_material(
+    mesh: Body, material: Material, *, bending: Bending = "tangent", who: str
+) -> Material | ShellMaterial:
+    """The material of a body's elements: that of its tets, or of its triangles and hinges.
+
+    Raises
+    ------
+    ValueError
+        For a shell of a material without a membrane, or an unknown measure of bending.
+    """
+    if bending not in BENDINGS:
+        raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
+    if not isinstance(mesh, ShellMesh):
+        return material
+    if not isinstance(material, MEMBRANES):
+        known = " or ".join(one.__name__ for one in MEMBRANES)
+        raise ValueError(
+            f"{who}: a shell cannot be made of {material.title}, which has no form for membranes; "
+            f"take {known}"
+        )
+    count = len(mesh.triangles)
+    moduli = np.zeros((len(mesh.elements), 3))
+    moduli[:count, 0] = material.mu * mesh.thickness
+    moduli[:count, 1] = plane_lam(material) * mesh.thickness
+    sides = mesh.areas[mesh.hinge_triangles]
+    shares = sides * rigidities(mesh, material)[mesh.hinge_triangles]
+    moduli[count:, 2] = shares.sum(axis=1) / sides.sum(axis=1)
+    rows = _core.shell_moduli(mesh.vertices, mesh.elements, moduli)
+    return ShellMaterial(f"shell-{material.kind}{BENDINGS[bending]}", rows)
+
+
+def rigidities(mesh: ShellMesh, material: Material) -> FloatArray:
+    """Bending stiffness D = (2 mu + lam') thickness^3 / 12 of a plate, for each triangle, (f,)."""
+    one = (2.0 * material.mu + plane_lam(material)) * np.power(mesh.thickness, 3) / 12.0
+    return np.broadcast_to(one, len(mesh.triangles))
+
+
+def plane_lam(material: Material) -> FloatArray:
+    """The first Lame parameter lam' in plane stress, 2 lam mu / (lam + 2 mu).
+
+    With it and mu, small strains in the plane have the stiffness of a thin sheet whose faces are
+    free (Timoshenko, Goodier, Theory of Elasticity).
+    """
+    lam, mu = material.lam, material.mu
+    return np.asarray(2.0 * lam * mu / (lam + 2.0 * mu), np.float64)

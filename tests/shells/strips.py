@@ -1,0 +1,38 @@
+"""Posing problems of shells that several tests share."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from snapspace import HandleBox, Handles, Material, PosingProblem, ShellMesh
+
+from .sheets import grid
+
+
+def strip(nx: int = 16, ny: int = 4, *, thickness: float = 0.03) -> ShellMesh:
+    """A strip of length two, bent to a quarter of a cylinder along its length, and irregular."""
+    x, y = np.meshgrid(np.linspace(0, 2, nx + 1), np.linspace(0, 0.5, ny + 1), indexing="ij")
+    noise = np.random.default_rng(3).uniform(-0.1, 0.1, size=(2, *x.shape)) / nx
+    x, y = x + noise[0], y + noise[1]
+    curvature = np.pi / 4
+    points = np.stack([np.sin(curvature * x), curvature * y, 1 - np.cos(curvature * x)], -1)
+    vertices = points.reshape(-1, 3) / curvature
+    return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
+
+
+def strip_problem(
+    mesh: ShellMesh | None = None,
+    *,
+    material: Material | None = None,
+    translation: float = 0.3,
+    angle: float = 0.6,
+) -> PosingProblem:
+    """A strip that is held at its beginning, and moved at its end."""
+    mesh = mesh or strip()
+    along = np.arctan2(mesh.vertices[:, 0], 4 / np.pi - mesh.vertices[:, 2]) / (np.pi / 2)
+    return PosingProblem(
+        mesh,
+        Handles([along < 0.1, along > 0.9], names=["root", "tip"]),
+        domain=HandleBox(translation=translation, angle=angle),
+        material=material,
+    )
