@@ -48,6 +48,14 @@ from .options import FILE, leading_option, up_option
     metavar="MB",
     help="Largest size of meshes that are dropped on the page.",
 )
+@click.option(
+    "--shell",
+    "thickness",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="THICKNESS",
+    help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
+    "filling it. It may be open.",
+)
 @filling_options
 @leading_option
 @up_option
@@ -57,6 +65,7 @@ def view(
     port: int,
     no_browser: bool,
     upload_limit: float,
+    thickness: float | None,
     edge_length: float | None,
     exact: bool,
     dimension: int | None,
@@ -66,7 +75,8 @@ def view(
 
     FILE is a model; or a problem, tets or a closed surface, to choose handles on and to compute
     models. Without FILE, drop a mesh on the page. A surface is first filled with tets, in seconds;
-    if it is too thin for quick tets, fTetWild fills it, which takes minutes.
+    if it is too thin for quick tets, fTetWild fills it, which takes minutes. With --shell it stays
+    as it is.
 
     Opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes are solved
     in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` here and
@@ -78,6 +88,7 @@ def view(
       snapspace view dragon.snapspace
       snapspace view dragon.json
       snapspace view bunny.obj
+      snapspace view leaf.obj --shell 0.01
     """
     need_extra("view", who="snapspace view")
     model = body = None
@@ -87,7 +98,7 @@ def view(
         if file.suffix.lower() == SUFFIX:
             model = load_leading(file, dimension)
         else:
-            body = _body(file, filling)
+            body = _body(file, filling, thickness)
     if model is None and dimension is not None:
         raise ValueError("--dimension is for models; the page asks for it before it computes")
 
@@ -111,15 +122,19 @@ def view(
     notice("stopped")
 
 
-def _body(file: Path, filling: SurfaceFilling) -> SharedBody:
+def _body(file: Path, filling: SurfaceFilling, thickness: float | None) -> SharedBody:
     """The body that the page starts with; a problem or tets are read now, to show errors here."""
     suffix = file.suffix.lower()
+    if suffix in (PROBLEM_SUFFIX, *TET_SUFFIXES) and thickness is not None:
+        raise ValueError(f"{file}: --shell is for surfaces; a problem file says its own thickness")
     if suffix == PROBLEM_SUFFIX:
         body = problem_body(file, filling=filling)
     elif suffix in TET_SUFFIXES:
         body = mesh_body(file, stage=lambda stage: None)
     else:
-        return SharedBody(lambda stage: mesh_body(file, stage=stage, filling=filling))
+        return SharedBody(
+            lambda stage: mesh_body(file, stage=stage, filling=filling, thickness=thickness)
+        )
     return SharedBody(lambda stage: body)
 
 

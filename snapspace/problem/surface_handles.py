@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import EmbeddedSurface, TetMesh
+from ..mesh import Body, EmbeddedSurface
 from ..mesh.closest_corners import closest_corners
 from .handles import Handles
 
@@ -18,14 +18,14 @@ Owners = NDArray[np.intp]
 FEWEST = 3
 
 
-def handles_in_tets(handles: Handles, mesh: TetMesh, surface: EmbeddedSurface) -> Handles:
+def handles_in_tets(handles: Handles, mesh: Body, surface: EmbeddedSurface) -> Handles:
     """Handles of tet vertices for handles of surface vertices.
 
     Parameters
     ----------
     handles : Handles
         Of vertices of the surface.
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
     surface : EmbeddedSurface
         The surface in the mesh, see `embed_surface`.
 
@@ -55,7 +55,7 @@ def handles_in_tets(handles: Handles, mesh: TetMesh, surface: EmbeddedSurface) -
 class SurfaceHandles:
     """`handles_in_tets` for several sets of handles on the same surface."""
 
-    def __init__(self, mesh: TetMesh, surface: EmbeddedSurface) -> None:
+    def __init__(self, mesh: Body, surface: EmbeddedSurface) -> None:
         self._mesh, self._surface = mesh, surface
         #: The surface vertex closest to each tet vertex of the boundary.
         self.closest: NDArray[np.intp] = closest_corners(

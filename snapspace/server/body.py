@@ -1,4 +1,4 @@
-"""Body: the tets on which a page chooses handles."""
+"""Body: the mesh on which a page chooses handles."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..filling import SurfaceFilling
+from ..input_error import located
 from ..mesh import (
     SURFACE_SUFFIXES,
     TET_SUFFIXES,
@@ -17,14 +18,16 @@ from ..mesh import (
     embed_file,
     open_surface,
     read_tets,
-    solid_of,
+    shell_of_file,
 )
+from ..mesh import Body as Mesh
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
 from ..page.painted import painted_vertices
 from ..problem import (
     PosingProblem,
     problem_surface_file,
+    problem_thickness,
     read_problem,
     read_problem_surface,
 )
@@ -40,7 +43,7 @@ class Body:
     """A mesh, with its files and, where there is one, its problem.
 
     name : name that is shown and given to files
-    mesh : TetMesh
+    mesh : TetMesh, or ShellMesh of the surface
     file : Path of the tets, or None if no file of the user has them
     folder : Path of the folder where files are saved
     problem : PosingProblem with the initial handles, or None
@@ -52,7 +55,7 @@ class Body:
     """
 
     name: str
-    mesh: TetMesh
+    mesh: Mesh
     file: Path | None
     folder: Path
     problem: PosingProblem | None = None
@@ -66,10 +69,10 @@ class Body:
 def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
     """Mesh, handles and surface of a problem file; ValueError if one of them cannot be read.
 
-    A surface without tets is filled.
+    A surface without tets is filled, if it is not a shell.
     """
     own = problem_surface_file(path)
-    if own is None:
+    if own is None or problem_thickness(path) is not None:
         problem = read_problem(path)
         surface = read_problem_surface(path, problem.mesh)
     else:
@@ -78,7 +81,7 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
     files = json.loads(path.read_text(encoding="utf-8"))
     return Body(
         name=path.stem,
-        mesh=solid_of(problem.mesh, who=path.name),
+        mesh=problem.mesh,
         file=None if own is not None else (path.parent / files["mesh"]).resolve(),
         folder=path.resolve().parent,
         problem=problem,
@@ -95,9 +98,13 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
 
 
 def mesh_body(
-    path: Path, *, stage: Callable[..., None], filling: SurfaceFilling | None = None
+    path: Path,
+    *,
+    stage: Callable[..., None],
+    filling: SurfaceFilling | None = None,
+    thickness: float | None = None,
 ) -> Body:
-    """Tets from a file, or made inside the surface in a file.
+    """Tets from a file, or made inside the surface in a file, or that surface as a shell.
 
     Parameters
     ----------
@@ -107,18 +114,28 @@ def mesh_body(
         `SurfaceFilling.fill`.
     filling : SurfaceFilling, default quick tets
         How to fill a surface.
+    thickness : float, optional
+        Of the shell that a surface becomes; None fills it.
 
     Raises
     ------
     ValueError
-        If the file cannot be read or filled; the message begins with its path.
+        If the file cannot be read or filled, or is no surface of a shell; the message begins with
+        its path.
     """
     existing_file(path, known=MESH_SUFFIXES)
     folder = path.resolve().parent
     stage("reading")
     if path.suffix.lower() in TET_SUFFIXES:
+        if thickness is not None:
+            raise ValueError(f"{path}: a shell is made of a surface, not of tets")
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
-    mesh, surface = _filled(path, stage=stage, filling=filling)
+    mesh: Mesh
+    if thickness is None:
+        mesh, surface = _filled(path, stage=stage, filling=filling)
+    else:
+        with located(path):
+            mesh, surface = shell_of_file(open_surface(path), thickness=thickness)
     return Body(
         name=path.stem,
         mesh=mesh,
@@ -162,11 +179,12 @@ def model_body(model: ReducedModel, *, name: str, folder: Path) -> Body:
     folder : Path
         Where files are saved.
     """
+    mesh: Mesh
     if isinstance(model, InterpolationModel):
         mesh, problem = model.problem.poses.reference, None
     else:
         assert isinstance(model, PosingModel)
-        mesh, problem = solid_of(model.problem.mesh, who=name), model.problem
+        mesh, problem = model.problem.mesh, model.problem
     own = len(model.surface.corners) != len(mesh.surface_vertices) or bool(
         (model.surface.nearest != mesh.surface_vertices).any()
     )

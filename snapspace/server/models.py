@@ -84,7 +84,7 @@ def usable_start(model: ReducedModel, problem: PosingProblem) -> PosingModel | N
     None for materials whose solutions are not unique, such as St.Venant-Kirchhoff, and for models
     that were made without snapshots.
     """
-    if not isinstance(model, PosingModel) or problem.material.exact_degree == 4:
+    if not isinstance(model, PosingModel) or is_quartic(problem):
         return None
     other = model.problem.fingerprint != problem.fingerprint
     return model if other and len(model.training_parameters) > 1 else None

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..material import Material
-from ..mesh import TetMesh
+from ..mesh import Body
 from .messages import PartChoice
 from .surface_regions import SurfaceRegions
 
@@ -22,14 +22,14 @@ CORNERS = 3
 
 
 def part_factors(
-    parts: Sequence[PartChoice], mesh: TetMesh, regions: SurfaceRegions | None
+    parts: Sequence[PartChoice], mesh: Body, regions: SurfaceRegions | None
 ) -> FloatArray | None:
     """The stiffness factor of each tet, (m,); where parts overlap, the later one counts.
 
     Parameters
     ----------
     parts : sequence of PartChoice
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
     regions : SurfaceRegions or None
         If the body has its own surface, the regions of that; the parts then have its vertices.
 
@@ -46,7 +46,7 @@ def part_factors(
     """
     if not parts:
         return None
-    factors = np.ones(len(mesh.tets))
+    factors = np.ones(len(mesh.cells))
     names: set[str] = set()
     for part in parts:
         _check(part, names)
@@ -75,7 +75,7 @@ def _check(part: PartChoice, names: set[str]) -> None:
         )
 
 
-def _tets_in(part: PartChoice, mesh: TetMesh, regions: SurfaceRegions | None) -> Mask:
+def _tets_in(part: PartChoice, mesh: Body, regions: SurfaceRegions | None) -> Mask:
     count = len(mesh.vertices) if regions is None else regions.surface_vertices
     chosen = np.zeros(count, np.bool_)
     vertices = np.asarray(part.vertices, np.int64)
@@ -86,7 +86,7 @@ def _tets_in(part: PartChoice, mesh: TetMesh, regions: SurfaceRegions | None) ->
         )
     chosen[vertices] = True
     inside = chosen if regions is None else regions.through(chosen)
-    tets: Mask = inside[mesh.tets].sum(axis=1) >= CORNERS
+    tets: Mask = inside[mesh.cells].sum(axis=1) >= CORNERS
     if not tets.any():
         raise ValueError(
             f"part '{part.name}' has no tet: three of a tet's corners must be in it; choose a "

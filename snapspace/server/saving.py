@@ -13,7 +13,15 @@ from functools import partial
 from pathlib import Path
 
 from ..disk.atomic_file import atomic_file
-from ..mesh import EmbeddedSurface, MirrorPlane, TetMesh, write_surface, write_tets
+from ..mesh import Body as Mesh
+from ..mesh import (
+    EmbeddedSurface,
+    MirrorPlane,
+    TetMesh,
+    boundary_surface,
+    write_surface,
+    write_tets,
+)
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel
@@ -77,21 +85,24 @@ class SavedFiles:
         folder = body.folder
         suffixes = [PROBLEM_SUFFIX]
         suffixes += [] if model is None else [SUFFIX]
-        suffixes += [] if body.file is not None else [MESH_SUFFIX]
-        surface = None if body.surface_file is not None else body.surface
+        # a shell is its surface
+        tets = body.mesh if body.file is None and isinstance(body.mesh, TetMesh) else None
+        suffixes += [] if tets is None else [MESH_SUFFIX]
+        surface = None if body.surface_file is not None else _own_surface(body)
         suffixes += [] if surface is None else [SURFACE_SUFFIX]
         named = body.name if name is None else checked_name(name)
         with self._reserved(folder, named, suffixes) as stem:
-            mesh = folder / f"{stem}{MESH_SUFFIX}" if body.file is None else body.file
-            if body.file is None:
-                self._write(mesh, lambda path: write_tets(path, body.mesh))
+            mesh = body.file
+            if tets is not None:
+                mesh = folder / f"{stem}{MESH_SUFFIX}"
+                self._write(mesh, partial(_write_tets, tets))
             shown = body.surface_file
             if surface is not None:
                 shown = folder / f"{stem}{SURFACE_SUFFIX}"
                 self._write(shown, partial(_write_surface, surface, body.mesh))
             content = problem_content(
                 problem,
-                os.path.relpath(mesh, folder),
+                None if mesh is None else os.path.relpath(mesh, folder),
                 None if shown is None else os.path.relpath(shown, folder),
                 up=up,
                 mirror=mirror,
@@ -109,7 +120,7 @@ class SavedFiles:
             request=request,
             problem=str(file),
             model=None if model is None else str(model_file),
-            mesh=str(mesh) if body.file is None else None,
+            mesh=None if tets is None else str(mesh),
             surface=None if surface is None else str(shown),
         )
 
@@ -179,7 +190,18 @@ def plain_name(name: str) -> str:
     return cleaned[-LONGEST:].lstrip(" .-") or "mesh"
 
 
-def _write_surface(surface: EmbeddedSurface, mesh: TetMesh, path: Path) -> None:
+def _own_surface(body: Body) -> EmbeddedSurface | None:
+    """The surface to write: the user's, or that of a shell, which has no other file."""
+    if body.surface is None and not isinstance(body.mesh, TetMesh):
+        return boundary_surface(body.mesh)
+    return body.surface
+
+
+def _write_tets(tets: TetMesh, path: Path) -> None:
+    write_tets(path, tets)
+
+
+def _write_surface(surface: EmbeddedSurface, mesh: Mesh, path: Path) -> None:
     write_surface(path, surface.vertices(mesh.vertices), surface.faces)
 
 

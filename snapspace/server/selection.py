@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..material import Material
-from ..mesh import TetMesh
+from ..mesh import Body
 from ..problem import HandleBox, Handles, PosingProblem
 from .messages import Choose, HandleChoice, Vector
 
@@ -24,13 +24,13 @@ class Selection:
     box: HandleBox
 
     def problem(
-        self, mesh: TetMesh, *, material: Material, stiffness: float, known: PosingProblem | None
+        self, mesh: Body, *, material: Material, stiffness: float, known: PosingProblem | None
     ) -> PosingProblem:
         """The problem of these handles.
 
         Parameters
         ----------
-        mesh : TetMesh
+        mesh : TetMesh or ShellMesh
         material : Material
         stiffness : float
         known : PosingProblem or None

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import EmbeddedSurface, TetMesh
+from ..mesh import Body, EmbeddedSurface
 from ..mesh.closest_corners import closest_corners
 from ..problem import Handles
 from ..problem.surface_handles import SurfaceHandles
@@ -25,12 +25,12 @@ class SurfaceRegions:
 
     Parameters
     ----------
-    mesh : TetMesh
+    mesh : TetMesh or ShellMesh
     surface : EmbeddedSurface
         A surface embedded in the mesh.
     """
 
-    def __init__(self, mesh: TetMesh, surface: EmbeddedSurface) -> None:
+    def __init__(self, mesh: Body, surface: EmbeddedSurface) -> None:
         self._mesh, self._surface = mesh, surface
         self._handles = SurfaceHandles(mesh, surface)
         self._closest = self._handles.closest

@@ -26,6 +26,7 @@ from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
 
+from ..shells.strips import shell_model
 from .material_models import material_model
 from .tools import assert_node_tests_pass, tool
 
@@ -224,7 +225,7 @@ def expected(
         "own_boxes": own_boxes,
     }
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
-    models |= materials
+    models |= materials | {"shell": calibrate(shell_model(), samples=12, threads=1)}
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -246,6 +247,7 @@ def expected(
         "painted": list(regions.values()),
         "values": {kind: values_at(model) for kind, model in materials.items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},
+        "shell": posing_frames(models["shell"]),
     }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))

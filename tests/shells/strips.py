@@ -3,8 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
-from snapspace import HandleBox, Handles, Material, PosingProblem, ShellMesh
+from snapspace import (
+    HandleBox,
+    Handles,
+    Material,
+    PosingModel,
+    PosingProblem,
+    ShellMesh,
+    reduce,
+    sample,
+    snapshot_pca,
+    solve_snapshots,
+)
 
 from .sheets import grid
 
@@ -20,6 +32,24 @@ def strip(nx: int = 16, ny: int = 4, *, thickness: float = 0.03) -> ShellMesh:
     return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
 
 
+def shell_model() -> PosingModel:
+    """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions."""
+    mesh = strip(thickness=0.1)
+    along = _along(mesh)
+    problem = PosingProblem(
+        mesh,
+        Handles([along < 0.1, along > 0.9, np.abs(along - 0.5) < 0.05]),
+        domain=HandleBox(translation=0.1, angle=0.3),
+    )
+    snapshots = solve_snapshots(problem, sample(problem.domain, 40, seed=1), threads=1)
+    return reduce(problem, snapshot_pca(snapshots, dimension=12), snapshots=snapshots)
+
+
+def _along(mesh: ShellMesh) -> NDArray[np.float64]:
+    """How far along the strip its vertices are, from 0 to 1."""
+    return np.arctan2(mesh.vertices[:, 0], 4 / np.pi - mesh.vertices[:, 2]) / (np.pi / 2)
+
+
 def strip_problem(
     mesh: ShellMesh | None = None,
     *,
@@ -29,7 +59,7 @@ def strip_problem(
 ) -> PosingProblem:
     """A strip that is held at its beginning, and moved at its end."""
     mesh = mesh or strip()
-    along = np.arctan2(mesh.vertices[:, 0], 4 / np.pi - mesh.vertices[:, 2]) / (np.pi / 2)
+    along = _along(mesh)
     return PosingProblem(
         mesh,
         Handles([along < 0.1, along > 0.9], names=["root", "tip"]),
