@@ -128,6 +128,7 @@ ALLOWED: dict[str, set[str]] = {
         "doctor",
         "extras",
         "filling",
+        "input_error",
         "interruptible",
         "material",
         "mesh",
