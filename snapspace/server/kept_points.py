@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ..mesh import EmbeddedSurface, TetMesh
+from ..mesh import Body, EmbeddedSurface
 from ..problem import HandleBox, Handles, PosingProblem
 from ..problem.surface_handles import FEWEST
 from .message_parts import KeptPoint
@@ -75,7 +75,7 @@ def _check(point: KeptPoint, handles: Handles, count: int) -> None:
 
 
 def _vertices_around(
-    point: KeptPoint, mesh: TetMesh, surface: EmbeddedSurface, handles: Handles
+    point: KeptPoint, mesh: Body, surface: EmbeddedSurface, handles: Handles
 ) -> NDArray[np.intp]:
     """The tet vertices of the handle around a point."""
     corners = list(point.corners)
@@ -89,7 +89,7 @@ def _vertices_around(
     near &= free
     around = np.flatnonzero(near & _connected(near, followed, mesh))
     if len(around) < FEWEST:  # the tets are large: those at the point
-        beside = np.unique(mesh.tets[np.isin(mesh.tets, around).any(axis=1)])
+        beside = np.unique(mesh.cells[np.isin(mesh.cells, around).any(axis=1)])
         around = beside[free[beside]].astype(np.intp)
     if len(around) < FEWEST:
         raise ValueError(
@@ -99,10 +99,11 @@ def _vertices_around(
     return around
 
 
-def _connected(chosen: Mask, seeds: NDArray[np.int32], mesh: TetMesh) -> Mask:
+def _connected(chosen: Mask, seeds: NDArray[np.int32], mesh: Body) -> Mask:
     """Which of the chosen vertices are connected to the seeds by edges between chosen ones."""
-    tets = mesh.tets[chosen[mesh.tets].any(axis=1)]
-    pairs = np.concatenate([tets[:, [a, b]] for a in range(4) for b in range(a)])
+    tets = mesh.cells[chosen[mesh.cells].any(axis=1)]
+    corners = range(tets.shape[1])
+    pairs = np.concatenate([tets[:, [a, b]] for a in corners for b in range(a)])
     ends = pairs[chosen[pairs].all(axis=1)].T
     count = len(chosen)
     graph = coo_array((np.ones(ends.shape[1]), (ends[0], ends[1])), shape=(count, count))
