@@ -70,7 +70,7 @@ DIMENSION = 40
     type=TET_COUNT,
     metavar="N",
     help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, at most "
-    "1000].",
+    "1000; of a shell 12, at most 1500].",
 )
 @click.option(
     "--shell",

@@ -95,7 +95,8 @@ def reduce(
         those of settled snapshots are far from equilibrium, see `SolverOptions`.
     tets : int, optional
         The most tets that a cubature may choose, r. Default: 8 d for posing, 15 d for blending, but
-        at most 1000, or all tets if there are fewer.
+        at most 1000, or all tets if there are fewer. Of a shell they are triangles and hinges, by
+        default 12 d, but at most 1500.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
+from ..mesh import ShellMesh
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..reduction import (
     Energy,
@@ -88,7 +89,7 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     tets = None if cubature is None else len(cubature.tets)
     part, solved = split.largest, max(_solved_samples(model), model.dimension)
     method: Method = "sobol"
-    usual = default_tets(model.dimension)
+    usual = default_tets(model.dimension, shell=isinstance(problem.mesh, ShellMesh))
     if isinstance(problem, InterpolationProblem):
         # for two poses `blends` would only add the middle
         method = "blends" if problem.parameter_count > 2 else "sobol"

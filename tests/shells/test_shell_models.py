@@ -74,7 +74,7 @@ def test_it_has_both_triangles_and_hinges(model: PosingModel) -> None:
     assert model.cubature is not None
     triangles = len(model.problem.mesh.cells)
     assert 0 < (model.cubature.tets < triangles).sum() < len(model.cubature.tets)
-    assert len(model.cubature.tets) <= 8 * model.dimension
+    assert len(model.cubature.tets) <= 12 * model.dimension
 
 
 def test_frames_are_near_full_solutions(model: PosingModel) -> None:
