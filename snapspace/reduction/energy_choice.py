@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Literal
 
 from ..cubature import FEWEST_BLENDS, FEWEST_SNAPSHOTS, default_tets
+from ..mesh import ShellMesh
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 
 Energy = Literal["auto", "exact", "cubature", "full"]
@@ -41,10 +42,12 @@ def chosen_energy(
         )
     quartic = is_quartic(problem)
     if energy == "exact" and not quartic:
+        body = problem.material.title
+        if isinstance(problem.mesh, ShellMesh):
+            body = f"a shell of {body}"
         raise ValueError(
-            f"reduce: the energy of {problem.material.title} in a {type(problem.mesh).__name__} is "
-            "not a polynomial of degree four, so it has no exact form; take energy='cubature', or "
-            "the material StVK in tets"
+            f"reduce: the energy of {body} is not a polynomial of degree four, so it has no exact "
+            "form; take energy='cubature', or tets of the material StVK"
         )
     if energy != "auto":
         return energy
