@@ -23,6 +23,8 @@ export interface Chosen {
   compute(): Promise<void>;
   /** Goes back to the view in which handles are chosen. */
   choose(): void;
+  /** Leaves the view that is shown, before another one. */
+  leave(): void;
   /** Sends the choice to the server. */
   send(): Promise<void>;
   /** Takes points that have become handles. */
@@ -155,8 +157,7 @@ export class ServedModels {
   async #pose(): Promise<void> {
     const { stage, module } = this.#shell;
     const { content } = this.#model!;
-    this.leave();
-    this.#shell.clear();
+    this.#chosen.leave();
     const polish = polishAt(this.#server, () => this.number);
     const { motions, improving } = this;
     const own = { up: stage.up, keepView: true, polish, motions, timeline: this.#timeline, improving };

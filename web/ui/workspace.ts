@@ -65,6 +65,7 @@ export class Workspace {
         return workspace.#staysChoosing;
       },
       compute: () => this.#compute(),
+      leave: () => this.#leave(),
       choose: () => (this.#mesh ? this.#backToChoosing() : this.edit()),
       send: () => this.#sendChoice(),
       add: (kept) => {
