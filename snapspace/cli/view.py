@@ -133,9 +133,11 @@ def _body(file: Path, filling: SurfaceFilling, thickness: float | None) -> Share
         body = mesh_body(file, stage=lambda stage: None)
     else:
         return SharedBody(
-            lambda stage: mesh_body(file, stage=stage, filling=filling, thickness=thickness)
+            lambda to: mesh_body(
+                file, stage=to.stage, filling=filling, thickness=thickness, read=to.read
+            )
         )
-    return SharedBody(lambda stage: body)
+    return SharedBody(lambda _: body)
 
 
 def _has_display() -> bool:

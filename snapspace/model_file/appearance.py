@@ -46,9 +46,11 @@ def appearance_arrays(surface: EmbeddedSurface) -> _Drawn:
         Where materials are damaged, textures are missing, or they are too large for a page; once
         for a file.
     """
-    source = surface.source
-    if source is None:
-        return {}, None
+    return ({}, None) if surface.source is None else file_arrays(surface.source)
+
+
+def file_arrays(source: SurfaceFile) -> _Drawn:
+    """`appearance_arrays` of a surface that is in no mesh yet."""
     if source not in _KNOWN:
         _KNOWN[source] = _drawn(source)
     arrays, about = _KNOWN[source]
@@ -113,7 +115,7 @@ def _look(source: SurfaceFile) -> Appearance | None:
 
 
 def _note(text: str) -> None:
-    warnings.warn(text, MeshNotice, stacklevel=5)
+    warnings.warn(text, MeshNotice, stacklevel=6)
 
 
 def _shows_anything(look: Appearance) -> bool:

@@ -14,6 +14,7 @@ from ..mesh import (
     TET_SUFFIXES,
     EmbeddedSurface,
     MirrorPlane,
+    SurfaceFile,
     TetMesh,
     embed_file,
     open_surface,
@@ -23,6 +24,7 @@ from ..mesh import (
 from ..mesh import Body as Mesh
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
+from ..mesh.validation import check_points
 from ..page.painted import painted_vertices
 from ..problem import (
     PosingProblem,
@@ -103,6 +105,7 @@ def mesh_body(
     stage: Callable[..., None],
     filling: SurfaceFilling | None = None,
     thickness: float | None = None,
+    read: Callable[[SurfaceFile], None] = lambda _: None,
 ) -> Body:
     """Tets from a file, or made inside the surface in a file, or that surface as a shell.
 
@@ -116,6 +119,8 @@ def mesh_body(
         How to fill a surface.
     thickness : float, optional
         Of the shell that a surface becomes; None fills it.
+    read : callable, optional
+        Called with a surface that has been read, before it is filled.
 
     Raises
     ------
@@ -132,7 +137,7 @@ def mesh_body(
         return Body(name=path.stem, mesh=read_tets(path), file=path.resolve(), folder=folder)
     mesh: Mesh
     if thickness is None:
-        mesh, surface = _filled(path, stage=stage, filling=filling)
+        mesh, surface = _filled(path, stage=stage, filling=filling, read=read)
     else:
         with located(path):
             mesh, surface = shell_of_file(open_surface(path), thickness=thickness)
@@ -153,12 +158,18 @@ def _up(surface: EmbeddedSurface | None) -> str | None:
 
 
 def _filled(
-    path: Path, *, stage: Callable[..., None], filling: SurfaceFilling | None
+    path: Path,
+    *,
+    stage: Callable[..., None],
+    filling: SurfaceFilling | None,
+    read: Callable[[SurfaceFile], None] = lambda _: None,
 ) -> tuple[TetMesh, EmbeddedSurface]:
     """The tets inside the surface in a file, and the surface in them."""
     source = open_surface(path).compact()
     check_stop()
     try:
+        check_points(source.vertices, who="surface")
+        read(source)
         mesh = (filling or SurfaceFilling()).fill(source.vertices, source.faces, stage=stage)
         surface = embed_file(source, mesh, farthest=WHOLE_DIAGONAL)
     except ValueError as error:

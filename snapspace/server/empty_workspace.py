@@ -1,11 +1,15 @@
-"""The first message to a page that has no mesh yet."""
+"""The first messages to a page: it has no mesh yet, or only a surface."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..accurate import MOTIONS
 from ..material import DEFAULT_MATERIAL
+from ..mesh import SurfaceFile
 from . import messages
 from .materials import material_choices, shown_poisson
+from .mesh_pack import diagonal_of
 from .settings import ServerSettings
 
 
@@ -29,4 +33,19 @@ def empty_workspace(settings: ServerSettings, *, name: str, up: str) -> messages
         poisson=shown_poisson(DEFAULT_MATERIAL()),
         folder=str(settings.folder),
         upload_limit=settings.upload_limit,
+    )
+
+
+def surface_workspace(
+    empty: messages.Workspace, surface: SurfaceFile, *, name: str, mesh: str
+) -> messages.Workspace:
+    """The workspace while a surface is filled, from an empty one and the address `mesh`."""
+    return replace(
+        empty,
+        kind="surface",
+        name=name,
+        mesh=mesh,
+        diagonal=diagonal_of(surface),
+        up=surface.up,
+        has_surface=True,
     )

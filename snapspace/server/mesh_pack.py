@@ -1,12 +1,16 @@
-"""packed_mesh: a mesh in the format of the page, to choose handles on."""
+"""packed_mesh, packed_surface: a mesh in the format of the page, to choose handles on."""
 
 from __future__ import annotations
 
 import json
+from typing import Any
 
 import numpy as np
 
 from ..disk.safetensors_bytes import safetensors_bytes
+from ..mesh import SurfaceFile
+from ..mesh.arrays import FloatArray, IndexArray
+from ..model_file.appearance import file_arrays
 from ..page.pack import FORMAT, VERSION
 from .body import Body
 
@@ -26,13 +30,33 @@ def packed_mesh(body: Body, *, up: str) -> bytes:
     -------
     bytes
         safetensors layout: vertices (n, 3) float32, faces (f, 3) int32 with indices among all
-        vertices.
+        vertices. A surface has the arrays of its own materials, see `file_arrays`.
     """
     mesh, surface = body.mesh, body.surface
-    vertices, faces = mesh.vertices, mesh.surface
+    vertices, faces, source = mesh.vertices, mesh.surface, None
     if surface is not None:
         vertices, faces = surface.vertices(mesh.vertices), surface.faces
-    about = {"name": body.name, "up": up, "diagonal": mesh.diagonal}
+        source = surface.source
+    return _packed(
+        vertices, faces, source, {"name": body.name, "up": up, "diagonal": mesh.diagonal}
+    )
+
+
+def packed_surface(source: SurfaceFile, *, name: str, up: str) -> bytes:
+    """The same for a surface that is not filled yet: its vertices and faces stay what they are."""
+    about = {"name": name, "up": up, "diagonal": diagonal_of(source)}
+    return _packed(source.vertices, source.faces, source, about)
+
+
+def diagonal_of(surface: SurfaceFile) -> float:
+    """Diagonal of the bounding box of a surface."""
+    return float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
+
+
+def _packed(
+    vertices: FloatArray, faces: IndexArray, source: SurfaceFile | None, about: dict[str, Any]
+) -> bytes:
+    look, about["appearance"] = ({}, None) if source is None else file_arrays(source)
     header = {
         "format": FORMAT,
         "version": str(VERSION),
@@ -40,4 +64,4 @@ def packed_mesh(body: Body, *, up: str) -> bytes:
         "about": json.dumps(about, sort_keys=True),
     }
     arrays = {"vertices": vertices.astype(np.float32), "faces": faces.astype(np.int32)}
-    return safetensors_bytes(arrays, header)
+    return safetensors_bytes(arrays | look, header)

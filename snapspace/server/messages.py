@@ -65,9 +65,12 @@ class Workspace:
     id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and of the
         websocket of a page that reconnects, live?workspace=ID&token=...
     kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
-        "mesh": handles can be chosen; "model": the page's own model, number 0, can be polished
+        "surface": so far the mesh can only be looked at, progress of filling it and a workspace of
+        its tets, or `Failed`, follow; "mesh": handles can be chosen; "model": the page's own model,
+        number 0, can be polished
     name : name of the mesh or model
-    mesh : address of the packed mesh; null unless the kind is mesh
+    mesh : address of the packed mesh, the same while it is filled and after; null unless the kind
+        is surface or mesh
     up : axis that points up at first, x, y or z
     handles, parts, translation, angle : initial choices
     diagonal : diagonal of the mesh; 0 if there is none

@@ -6,11 +6,10 @@ import threading
 from collections.abc import Callable
 
 from ..interruptible import POLL_SECONDS
+from ..mesh import SurfaceFile
 from ..stopping import check_stop
 from .body import Body
-
-#: Called with a stage, and where it is counted with what is done and all there is.
-Stage = Callable[..., None]
+from .opening import Opening
 
 
 class SharedBody:
@@ -20,35 +19,45 @@ class SharedBody:
 
     Parameters
     ----------
-    make : callable(Stage) -> Body
+    make : callable(Opening) -> Body
         Makes the body; filling may take minutes.
     """
 
-    def __init__(self, make: Callable[[Stage], Body]) -> None:
+    def __init__(self, make: Callable[[Opening], Body]) -> None:
         self._make = make
         self._lock = threading.Lock()
+        self._surface: SurfaceFile | None = None  # while it is filled
         self._body: Body | None = None
 
-    def get(self, stage: Stage) -> Body:
+    def get(self, opening: Opening) -> Body:
         """The body.
 
         Parameters
         ----------
-        stage : callable
-            Called with the stages of `make`, or with "waiting" about ten times a second while
-            another page makes the body.
+        opening : Opening
+            Told what `make` tells. While another page makes the body it is told the surface, once
+            that has been read, and the stage "waiting" about ten times a second.
 
         Raises
         ------
         Stopped
             If this thread is asked to stop; otherwise what `make` raises.
         """
+        shown = None
         while not self._lock.acquire(timeout=POLL_SECONDS):
-            stage("waiting")
+            if (surface := self._surface) is not shown and surface is not None:
+                opening.read(surface)
+                shown = surface
+            opening.stage("waiting")
             check_stop()
         try:
             if self._body is None:
-                self._body = self._make(stage)
+                self._body = self._make(Opening(opening.stage, lambda it: self._read(it, opening)))
             return self._body
         finally:
+            self._surface = None
             self._lock.release()
+
+    def _read(self, surface: SurfaceFile, opening: Opening) -> None:
+        self._surface = surface
+        opening.read(surface)

@@ -1,10 +1,12 @@
-"""What is wrong with the surface of a body, as a page shows it."""
+"""What is wrong with a surface, as a page shows it."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..doctor import check_surface, mend_surface
+from ..mesh import SurfaceFile
+from ..mesh.arrays import FloatArray, IndexArray
 from . import messages
 from .body import Body
 
@@ -12,20 +14,14 @@ from .body import Body
 MOST_INVENTED = 20_000
 
 
-def surface_check(body: Body, request: int) -> messages.Checked:
-    """The findings of `check_surface`, and what mending changed before the surface was filled.
+def surface_check(shown: Body | SurfaceFile, request: int) -> messages.Checked:
+    """The findings of `check_surface`, and what mending changes before the surface is filled.
 
-    ValueError if the body came as tets.
+    ValueError if a body came as tets.
     """
-    surface = body.surface
-    if surface is None:
-        raise ValueError("this mesh came as tets, not as a surface; `snapspace check` checks tets")
-    # a source has the very coordinates of the file: embedded ones differ in rounding at seams
-    vertices = (
-        surface.vertices(body.mesh.vertices) if surface.source is None else surface.source.vertices
-    )
-    report = check_surface(vertices, surface.faces)
-    mended = mend_surface(vertices, surface.faces)
+    vertices, faces = _surface_of(shown)
+    report = check_surface(vertices, faces)
+    mended = mend_surface(vertices, faces)
     first = len(mended.faces) - mended.invented
     invented = mended.faces[first:][:MOST_INVENTED]
     positions = np.asarray(mended.vertices[invented], np.float32).ravel()
@@ -45,3 +41,15 @@ def surface_check(body: Body, request: int) -> messages.Checked:
         mended=mended.notes,
         invented=tuple(positions.tolist()),
     )
+
+
+def _surface_of(shown: Body | SurfaceFile) -> tuple[FloatArray, IndexArray]:
+    if isinstance(shown, SurfaceFile):
+        return shown.vertices, shown.faces
+    surface = shown.surface
+    if surface is None:
+        raise ValueError("this mesh came as tets, not as a surface; `snapspace check` checks tets")
+    # a source has the very coordinates of the file: embedded ones differ in rounding at seams
+    if surface.source is not None:
+        return _surface_of(surface.source)
+    return surface.vertices(shown.mesh.vertices), surface.faces

@@ -10,16 +10,17 @@ from collections.abc import Callable
 from dataclasses import fields, replace
 from pathlib import Path
 
-from ..model_file import SUFFIX, load
+from ..mesh import SurfaceFile
 from ..stopping import check_stop
 from . import messages
-from .body import Body, mesh_body, model_body
+from .body import Body, model_body
 from .body_session import BodySession
-from .empty_workspace import empty_workspace
+from .empty_workspace import empty_workspace, surface_workspace
 from .exports import Exports
 from .job import Job
-from .mesh_pack import packed_mesh
+from .mesh_pack import packed_mesh, packed_surface
 from .models import Models
+from .opening import Opening
 from .page_channel import PageChannel
 from .page_computation import page_computation
 from .polish_jobs import PolishJobs
@@ -27,8 +28,8 @@ from .reader_text import text_of
 from .recorded import recorded
 from .reporter import Reporter
 from .settings import ServerSettings
-from .shared_body import Stage
 from .surface_check import surface_check
+from .uploaded_body import uploaded_body
 
 #: How long to wait for stopped work to end: solvers check between the parts of an iteration.
 STOP_SECONDS = 0.4
@@ -52,6 +53,7 @@ class Workspace:
         self._work: Job | None = None
         self._check: Job | None = None
         self._polishes = PolishJobs(self._emit, self._fail)
+        self._surface: SurfaceFile | None = None  # while it is filled, and after that failed
         self._session: BodySession | None = None
         self._meshes = 0  # number of meshes opened so far; the last one is current
         self._models = Models(settings.model)
@@ -98,28 +100,12 @@ class Workspace:
         return replace(now, **chosen)
 
     def upload(self, path: Path) -> None:
-        """Opens a mesh or model file in place of the current one.
-
-        Its folder is removed once the file is read.
-        """
-
-        def make(stage: Stage) -> Body:
-            try:
-                if path.suffix.lower() == SUFFIX:
-                    stage("reading")
-                    return model_body(load(path), name=path.stem, folder=self._settings.folder)
-                body = mesh_body(path, stage=stage, filling=self._settings.filling)
-            except ValueError as error:
-                raise ValueError(str(error).replace(str(path), path.name)) from None
-            finally:
-                shutil.rmtree(path.parent, ignore_errors=True)
-            return replace(body, file=None, surface_file=None, folder=self._settings.folder)
-
+        """Opens a mesh or model file in place of the current one, see `uploaded_body`."""
         with self._lock:
             if self._closed:  # the page closed during the upload
                 shutil.rmtree(path.parent, ignore_errors=True)
             else:
-                self._open(make, path.stem)
+                self._open(lambda to: uploaded_body(path, to, self._settings), path.stem)
 
     def receive(self, message: messages.PageMessage) -> None:
         """Answers a message, at once or in a job."""
@@ -131,10 +117,12 @@ class Workspace:
 
     def mesh_content(self, number: int) -> bytes | None:
         """The packed mesh of an address; None if it has been replaced."""
-        session = self._session
-        if session is None or number != self._meshes:
-            return None
-        return packed_mesh(session.body, up=self._up)
+        surface, session = self._surface, self._session
+        if number == self._meshes and session is not None:
+            return packed_mesh(session.body, up=self._up)
+        if number == self._meshes and surface is not None:
+            return packed_surface(surface, name=Path(surface.name).stem, up=self._up)
+        return None
 
     def model_content(self, number: int) -> bytes | None:
         """The packed model of an address; None if it is no longer kept."""
@@ -156,7 +144,7 @@ class Workspace:
             for job in jobs:
                 job.wait(STOP_SECONDS)
             # explicitly: jobs refer to this, and the garbage collector does not see their size
-            self._work = self._check = self._session = None
+            self._work = self._check = self._session = self._surface = None
             self._polishes = PolishJobs(self._emit, self._fail)
             self._models.clear()
             self._exports.clear()
@@ -169,6 +157,7 @@ class Workspace:
         elif isinstance(message, messages.Compute | messages.Extend):
             self._compute(message)
         elif isinstance(message, messages.Cancel):
+            self._surface = None
             self._end_work()
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
@@ -180,7 +169,8 @@ class Workspace:
         elif isinstance(message, messages.Edit):
             self._edit()
         elif isinstance(message, messages.Check):
-            self._check_surface(self._current_session().body, message.request)
+            shown = self._surface or self._current_session().body
+            self._check_surface(shown, message.request)
         else:
             self._polishes.begin(message, self._models.get(message.model))
 
@@ -213,14 +203,14 @@ class Workspace:
         if own is None:
             raise ValueError("this server has no model of its own; choose handles on its mesh")
         model = self._models.current or own
-        self._open(lambda stage: model_body(model, name=title, folder=folder), title)
+        self._open(lambda _: model_body(model, name=title, folder=folder), title)
 
-    def _check_surface(self, body: Body, request: int) -> None:
-        """Examines a body's surface in the background, beside other work."""
+    def _check_surface(self, shown: Body | SurfaceFile, request: int) -> None:
+        """Examines a surface in the background, beside other work."""
         if self._check is not None:
             self._check.stop()
         self._check = Job(
-            lambda: self._send(surface_check(body, request)),
+            lambda: self._send(surface_check(shown, request)),
             failed=lambda error: self._fail(request, error),
         )
 
@@ -239,27 +229,34 @@ class Workspace:
         self._job = order.request
         self._work = Job(computation.run, failed=lambda error: self._fail(order.request, error))
 
-    def _open(self, make: Callable[[Stage], Body], name: str) -> None:
-        """Begins to make a body; the page is sent a workspace once it is ready."""
+    def _open(self, make: Callable[[Opening], Body], name: str) -> None:
+        """Begins to make a body; the page is sent a workspace once its surface or it is ready."""
         self._end_work()
-        self._session = None
+        self._session = self._surface = None
         self._models.clear()
         self._exports.clear()
         self._draft, self._job = None, 0
         self._meshes += 1
         number, empty = self._meshes, self._empty()
+        address = self._address("mesh", number)
         self._emit(replace(empty, kind="reading", name=name))
         report = Reporter(self._send, 0)
 
+        def show(surface: SurfaceFile) -> None:
+            check_stop()
+            self._surface = surface
+            self._emit(surface_workspace(empty, surface, name=name, mesh=address))
+
         def work() -> None:
             try:
-                body = make(report.send)
+                body = make(Opening(report.send, show))
                 check_stop()
                 session = BodySession(body, self._models)
-                self._session = session
-                self._emit(session.begin(empty, mesh=self._address("mesh", number)))
+                self._session, self._surface = session, None
+                self._emit(session.begin(empty, mesh=address))
             except BaseException:
-                if number == self._meshes:  # otherwise another mesh has replaced this one
+                # otherwise another mesh has replaced this one, or its surface stays
+                if number == self._meshes and self._surface is None:
                     self._emit(empty)
                 raise
 
@@ -291,6 +288,8 @@ class Workspace:
         session, model = self._session, self._settings.model
         if session is not None:
             return session.body.up or "z"
+        if self._surface is not None:
+            return self._surface.up
         return "z" if model is None else model.up
 
     def _address(self, what: str, number: int) -> str:

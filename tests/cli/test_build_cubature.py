@@ -80,7 +80,7 @@ def test_by_default_the_material_is_stable_neo_hookean_and_the_energy_a_cubature
 def test_an_impossible_energy_is_refused_before_the_work(run: Run, tmp_path: Path) -> None:
     problem, path = default_material(tmp_path), tmp_path / "m.snapspace"
     for options, message in (
-        (("--energy", "exact"), "stable neo-Hookean in a TetMesh is not a polynomial of degree four"),
+        (("--energy", "exact"), "stable neo-Hookean is not a polynomial of degree four"),
         (("--samples", 9, "--dimension", 3), "needs at least 10 samples, but there are 9"),
         (("--samples", 9, "--energy-fraction", 0.9), "needs at least 10 samples"),
     ):

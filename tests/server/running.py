@@ -64,7 +64,7 @@ class Page:
         while True:
             message = self.take("workspace", "failed")
             assert message["type"] == "workspace", message
-            if message["kind"] != "reading":
+            if message["kind"] not in ("reading", "surface"):
                 return message
 
 

@@ -12,6 +12,7 @@ from snapspace.generators import bar
 from snapspace.server.body import Body
 from snapspace.server.computation_queue import ComputationQueue
 from snapspace.server.job import Job
+from snapspace.server.opening import Opening
 from snapspace.server.shared_body import SharedBody
 from snapspace.stopping import Stopped, stoppable
 
@@ -95,14 +96,17 @@ def test_an_error_after_the_stop_is_not_reported() -> None:
     assert job.wait(PATIENCE) and not errors
 
 
+SILENT = Opening(lambda *_: None)
+
+
 def test_all_pages_share_a_body_and_the_next_one_makes_it_if_the_first_is_stopped() -> None:
     body = Body(name="bar", mesh=bar(2, 1, 1), file=None, folder=Path())
     makers: list[str] = []
     entered = threading.Event()
 
-    def make(stage: Callable[[str], None]) -> Body:
+    def make(opening: Opening) -> Body:
         makers.append(threading.current_thread().name)
-        stage("filling")
+        opening.stage("filling")
         if len(makers) == 1:
             entered.set()
             assert stop.wait(PATIENCE)
@@ -110,7 +114,7 @@ def test_all_pages_share_a_body_and_the_next_one_makes_it_if_the_first_is_stoppe
         return body
 
     shared, stop, waits = SharedBody(make), threading.Event(), threading.Event()
-    first = started(lambda: ignore(shared.get(lambda stage: None)))
+    first = started(lambda: ignore(shared.get(SILENT)))
     assert entered.wait(PATIENCE)
     reported: list[str] = []
 
@@ -118,18 +122,18 @@ def test_all_pages_share_a_body_and_the_next_one_makes_it_if_the_first_is_stoppe
         reported.append(stage)
         waits.set()
 
-    second = started(lambda: ignore(shared.get(record)))
+    second = started(lambda: ignore(shared.get(Opening(record))))
     assert waits.wait(PATIENCE)
     stop.set()
     assert first.wait(PATIENCE) and second.wait(PATIENCE)
     assert reported[0] == "waiting" and reported[-1] == "filling"
-    assert shared.get(lambda stage: None) is body and len(makers) == 2
+    assert shared.get(SILENT) is body and len(makers) == 2
 
 
 def test_a_job_that_waits_for_a_body_can_be_stopped() -> None:
-    shared = SharedBody(lambda stage: pytest.fail("the lock is taken"))
+    shared = SharedBody(lambda _: pytest.fail("the lock is taken"))
     with shared._lock, stoppable(lambda: True), pytest.raises(Stopped):
-        shared.get(lambda stage: None)
+        shared.get(SILENT)
 
 
 def ignore(_: object) -> None:

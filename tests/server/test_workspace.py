@@ -173,7 +173,7 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
             raise ValueError("too late")
         return body
 
-    monkeypatch.setattr("snapspace.server.workspace.mesh_body", read)
+    monkeypatch.setattr("snapspace.server.uploaded_body.mesh_body", read)
     monkeypatch.setattr("snapspace.server.workspace.STOP_SECONDS", 0.01)
     mailbox = Mailbox()
     workspace = Workspace(replace(settings, body=None), mailbox.put)

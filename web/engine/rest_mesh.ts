@@ -1,3 +1,4 @@
+import { readAppearance, type Appearance } from "./appearance.ts";
 import { Container } from "./container.ts";
 import { UnreadableModel } from "./errors.ts";
 
@@ -11,6 +12,8 @@ export interface RestMesh {
   readonly shape: Float32Array<ArrayBuffer>;
   /** Triangles of the surface, outward. */
   readonly faces: Uint32Array<ArrayBuffer>;
+  /** The user's own materials; null for tets, and surfaces without. */
+  readonly appearance: Appearance | null;
 }
 
 /** Reads what the server sends of a mesh; UnreadableModel for anything else. */
@@ -27,5 +30,6 @@ export function readMesh(bytes: ArrayBuffer): RestMesh {
     diagonal: Number(about.diagonal),
     shape: container.floats("vertices", count, 3),
     faces: Uint32Array.from(container.indices("faces", count, [faceCount, 3])),
+    appearance: readAppearance(container, about.appearance, count),
   };
 }

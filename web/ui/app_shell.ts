@@ -89,6 +89,11 @@ export class AppShell {
     this.#message.hidden = true;
   }
 
+  /** Whether the message is below what the stage shows, until the next one. */
+  set messageBelow(isBelow: boolean) {
+    this.#message.classList.toggle("below", isBelow);
+  }
+
   /** Shows a message above everything, with elements below it that help. */
   showMessage(text: string, isError: boolean, ...below: HTMLElement[]): void {
     const words = h("p", { role: isError ? "alert" : "status" }, text);
@@ -97,6 +102,7 @@ export class AppShell {
       row.append(h("button", { type: "button", onclick: () => this.quiet() }, "Close"));
     this.#message.replaceChildren(words, row);
     this.#message.classList.toggle("error", isError);
+    this.messageBelow = false;
     this.#message.hidden = false;
     window.snapspace["message"] = text;
   }

@@ -1,5 +1,5 @@
 import type { Choice } from "../engine/choice.ts";
-import type { RestMesh } from "../engine/rest_mesh.ts";
+import type { Workspace } from "../engine/messages.ts";
 import { Choosing } from "./choosing.ts";
 import { HandleList } from "./choosing_handles.ts";
 import { listenToChoosingKeys } from "./choosing_keys.ts";
@@ -10,43 +10,30 @@ import { PartList } from "./choosing_parts.ts";
 import { samplingPanel, type Sampling } from "./choosing_sampling.ts";
 import { selectPanel } from "./choosing_select_panel.ts";
 import { ChoosingTools } from "./choosing_tools.ts";
-import { choice, h, section, toggle } from "./dom.ts";
-import { occlusionToggle } from "./look_panel.ts";
+import type { MeshScene } from "./mesh_scene.ts";
 import type { Server } from "./server.ts";
 import { CHOOSING, shortcutSheet } from "./shortcuts.ts";
-import { VIEWS, type Axis, type Stage } from "./stage.ts";
-import { Surface } from "./surface.ts";
-import type { View, ViewOptions } from "./view.ts";
+import { VIEWS, type Stage } from "./stage.ts";
+import { meshHud } from "./surface_view.ts";
+import type { View } from "./view.ts";
 
 export interface ChoosingView extends View {
   readonly choosing: Choosing;
 }
 
-/** Choosing handles and parts: tools on the stage, their lists in the panel, with `below` under them. `onOther` is called
- * after changes outside the choice, such as the axis that points up. */
+/** Choosing handles and parts: tools on the stage, their lists in the panel, with `below` under them. The view disposes of its
+ * scene. The first thing that is chosen shows the colours of handles, which the user's own materials would hide. */
 export function choosingView(
   stage: Stage,
-  mesh: RestMesh,
+  scene: MeshScene,
   start: Choice,
   sampling: Sampling,
-  materials: Materials,
+  given: Materials & Pick<Workspace, "diagonal">,
   below: readonly HTMLElement[],
   server: Pick<Server, "ask">,
   onChoice: (choice: Choice) => void,
-  onOther: () => void,
-  options: ViewOptions,
 ): ChoosingView {
-  // without modes: a shape at rest
-  const space = {
-    vertices: mesh.shape.length / 3,
-    base: mesh.shape,
-    modes: new Int16Array(0),
-    scales: new Float32Array(0),
-  };
-  const surface = new Surface(stage.renderer, space, mesh.faces, mesh.diagonal, true);
-  surface.object.updateMatrix();
-  stage.root.add(surface.object);
-  if (!options.keepView) stage.place(mesh.shape, options.up);
+  const { mesh, surface } = scene;
   const stop = new AbortController();
   const choosing = new Choosing(stage, mesh, surface, start);
   const overlay = new ToolOverlay();
@@ -61,8 +48,12 @@ export function choosingView(
   );
   stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
-  stage.restored = () => surface.refresh();
+  let isBare = true;
   choosing.onChange = () => {
+    const { selected, choice } = choosing;
+    const wasBare = isBare;
+    isBare = selected.length + choice.handles.length + choice.parts.length === 0;
+    if (wasBare && !isBare) scene.colors = "own";
     select.update();
     handles.update();
     parts.update();
@@ -70,23 +61,16 @@ export function choosingView(
   };
   choosing.changed();
 
-  const sheet = shortcutSheet(CHOOSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
-  const inside = insideCount(mesh);
-  const counted =
-    `${space.vertices.toLocaleString("en")} vertices` +
-    (inside > 0 ? `, ${inside.toLocaleString("en")} of them inside` : "");
+  scene.sheet = shortcutSheet(CHOOSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
   return {
     choosing,
-    hud: {
-      element: h("header", { className: "hud" }, h("h1", {}, mesh.name), h("p", {}, counted)),
-      notice: h("p", { className: "notice", role: "status", hidden: true }),
-    },
+    hud: meshHud(scene),
     panel: [
       select.element,
       handles.element,
-      materialPanel(sampling, materials, parts.element),
-      samplingPanel(sampling, mesh.diagonal),
-      lookPanel(stage, surface, mesh, options.up, onOther, sheet),
+      materialPanel(sampling, given, parts.element),
+      samplingPanel(sampling, given.diagonal),
+      scene.panel,
       ...below,
     ],
     script: {
@@ -106,54 +90,10 @@ export function choosingView(
     dispose: () => {
       stop.abort();
       stage.beforeFrame = () => {};
-      stage.restored = () => {};
       overlay.element.remove();
       handles.floating.remove();
       mirror.dispose();
-      surface.object.removeFromParent();
-      surface.dispose();
+      scene.dispose();
     },
   };
-}
-
-/** How many vertices are in no triangle of the surface. */
-function insideCount({ shape, faces }: RestMesh): number {
-  const isInside = new Uint8Array(shape.length / 3).fill(1);
-  for (const vertex of faces) isInside[vertex] = 0;
-  return isInside.reduce((count, one) => count + one, 0);
-}
-
-function lookPanel(
-  stage: Stage,
-  surface: Surface,
-  mesh: RestMesh,
-  up: Axis,
-  onUp: () => void,
-  sheet: HTMLElement,
-): HTMLElement {
-  const ups = choice<Axis>(
-    "Up",
-    [
-      ["x", "x up"],
-      ["y", "y up"],
-      ["z", "z up"],
-    ],
-    up,
-    (axis) => {
-      stage.place(mesh.shape, axis);
-      onUp();
-    },
-  );
-  const wires = toggle("Wireframe", "W", false, (on) => {
-    surface.wireframe = on;
-    stage.draw();
-  });
-  wires.id = "wires";
-  const reset = { type: "button", title: "F", id: "frame", onclick: () => stage.look() };
-  const frame = h("button", reset, "Reset view");
-  return section(
-    "Look",
-    ups.element,
-    h("div", { className: "row" }, wires, occlusionToggle(stage, [surface]), frame, sheet),
-  );
 }

@@ -9,13 +9,13 @@ import {
 import { partMessages } from "../engine/parts.ts";
 import type { PosingModel } from "../engine/index.ts";
 import type { Workspace as Given } from "../engine/messages.ts";
-import { readMesh, type RestMesh } from "../engine/rest_mesh.ts";
-import { CheckPanel } from "./check_panel.ts";
+import type { RestMesh } from "../engine/rest_mesh.ts";
 import { CHOOSING, keepHash, motionsOf } from "./address.ts";
 import { ConnectionNotice } from "./connection_notice.ts";
 import { samplingOf, type Sampling } from "./choosing_sampling.ts";
 import { choosingView } from "./choosing_view.ts";
 import type { Improving } from "./improving.ts";
+import { MeshScene } from "./mesh_scene.ts";
 import { nextTask } from "./next_task.ts";
 import type { PosingView } from "./posing_view.ts";
 import { readable, type AppShell } from "./app_shell.ts";
@@ -23,6 +23,7 @@ import { ServedModels } from "./served_models.ts";
 import type { View } from "./view.ts";
 import { Refused, type Server } from "./server.ts";
 import { ReadingBox } from "./workspace_reading.ts";
+import { WorkspaceSurface } from "./workspace_surface.ts";
 
 /** Work with a server: a mesh, its handles, models that become better while they are posed. */
 export class Workspace {
@@ -30,8 +31,7 @@ export class Workspace {
   readonly #server: Server;
   readonly #models: ServedModels;
   readonly #reading: ReadingBox;
-  /** Of the present mesh; null if it came as tets. */
-  #check: CheckPanel | null = null;
+  readonly #surface: WorkspaceSurface;
   #given: Given | null = null;
   #mesh: RestMesh | null = null;
   #choice: Choice = choiceOf([]);
@@ -50,6 +50,7 @@ export class Workspace {
   constructor(shell: AppShell, server: Server) {
     [this.#shell, this.#server] = [shell, server];
     this.#reading = new ReadingBox(shell, server);
+    this.#surface = new WorkspaceSurface(shell, server);
     const workspace = this;
     const models = (this.#models = new ServedModels(shell, server, {
       get name() {
@@ -87,7 +88,7 @@ export class Workspace {
       this.#later(() => models.take(model));
     });
     server.on("failed", ({ request, message }) =>
-      request === 0 ? this.#reading.failed(message) : models.fails(request, message),
+      request === 0 ? this.#later(() => this.#reading.failed(message)) : models.fails(request, message),
     );
     const notice = new ConnectionNotice(server);
     document.body.append(notice.element);
@@ -141,8 +142,14 @@ export class Workspace {
       if (given.kind === "empty")
         models.panel.fault("The server no longer has the mesh. Drop it here again.");
     }
-    if (given.kind !== "mesh" || given.mesh === null) {
+    if (given.mesh === null) {
       if (!this.#isBack) this.#await(given);
+      return;
+    }
+    if (given.kind === "surface") {
+      if (this.#isBack) return; // its tets follow
+      await this.#surface.look(given, () => this.#leave());
+      this.#reading.fill(given);
       return;
     }
     const isSame = this.#mesh?.name === given.name && this.#mesh.diagonal === given.diagonal;
@@ -161,17 +168,15 @@ export class Workspace {
       return;
     }
     this.#isBack = false;
-    void this.#shell.stage; // made while the mesh comes
-    const mesh = readMesh(await this.#server.fetched(given.mesh));
-    await nextTask();
-    [this.#mesh, this.#choice] = [mesh, choiceOf(given.handles, given.parts)];
+    const scene = await this.#surface.scene(given, () => this.#leave());
+    this.#mesh = { ...scene.mesh, diagonal: given.diagonal };
+    this.#choice = choiceOf(given.handles, given.parts);
     this.#sampling = samplingOf(given);
     models.clear();
     models.job.set(given.job ?? 0, given.is_running ?? false);
     models.motions = motionsOf(location.hash); // after a reload
-    this.#check?.dispose();
-    this.#check = given.has_surface ? new CheckPanel(this.#shell.stage, this.#server) : null;
-    await this.#choosing(true);
+    await this.#choosing(scene);
+    if (before?.kind === "surface") this.#keepSoon(); // what points up
   }
 
   /** Shows that there is no mesh: asks for one, or waits for it. */
@@ -183,10 +188,13 @@ export class Workspace {
     else this.#reading.wait(given);
   }
 
-  /** The view in which handles are chosen; made and shown in two tasks for a new mesh, which may be large. */
-  async #choosing(isNew = false): Promise<void> {
+  /** The view in which handles are chosen; made and shown in several tasks, because the mesh may be large. */
+  async #choosing(given: MeshScene | null = null): Promise<void> {
     const [stage, mesh] = [this.#shell.stage, this.#mesh!];
-    this.#leave();
+    if (!given) this.#leave();
+    const options = { up: stage.up, forceCpu: true, keepView: true };
+    const scene = given ?? (await MeshScene.create(stage, mesh, options));
+    scene.onUp = () => this.#keepSoon();
     const onChoice = (choice: Choice) => {
       if (choice.handles !== this.#choice.handles || choice.parts !== this.#choice.parts)
         this.#models.panel.clear();
@@ -196,19 +204,17 @@ export class Workspace {
     };
     const view = choosingView(
       stage,
-      mesh,
+      scene,
       this.#choice,
       this.#sampling!,
       this.#given!,
-      [...(this.#check?.elements ?? []), this.#models.panel.element],
+      [...(this.#surface.check?.elements ?? []), this.#models.panel.element],
       this.#server,
       onChoice,
-      () => this.#keepSoon(),
-      { up: (isNew ? this.#shell.options(mesh.up) : stage).up, forceCpu: true, keepView: !isNew },
     );
-    if (isNew) await nextTask();
-    this.#shell.show(view, mesh.name);
-    this.#check?.show();
+    await nextTask();
+    if (given) this.#leave(); // now, so that its surface stays visible
+    this.#surface.show(view, mesh.name);
     this.#models.update();
   }
 
@@ -234,7 +240,6 @@ export class Workspace {
 
   #leave(): void {
     this.#models.leave();
-    this.#check?.hide();
     this.#shell.clear();
   }
 
@@ -257,7 +262,7 @@ export class Workspace {
     await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
   }
 
-  #later(act: () => Promise<void>): void {
+  #later(act: () => Promise<void> | void): void {
     this.#queue = this.#queue.then(() => this.#try(act));
   }
 

@@ -19,6 +19,8 @@ export class ReadingBox {
   #given: Given | null = null;
   #sending: AbortController | null = null;
   #isShown = false;
+  /** Whether the surface that is filled stays visible. */
+  #isBelow = false;
 
   constructor(shell: AppShell, server: Server) {
     this.#shell = shell;
@@ -28,7 +30,7 @@ export class ReadingBox {
   /** Asks for a mesh. */
   ask(given: Given): void {
     this.#given = given;
-    this.#isShown = false;
+    this.#isShown = this.#isBelow = false;
     clearInterval(this.#clock);
     const formats = h(
       "p",
@@ -74,7 +76,15 @@ export class ReadingBox {
   /** Shows that the server reads a mesh. */
   wait(given: Given): void {
     this.#given = given;
+    this.#isBelow = false;
     this.#show("Reading the mesh");
+  }
+
+  /** Shows, below its surface, that the server fills it. */
+  fill(given: Given): void {
+    this.#given = given;
+    this.#show(`Filling ${given.name} with tets`);
+    this.#shell.messageBelow = this.#isBelow = true;
   }
 
   progress(progress: Progress): void {
@@ -90,6 +100,7 @@ export class ReadingBox {
     this.#isShown = false;
     clearInterval(this.#clock);
     this.#shell.showMessage(message.replace(/^snapspace: /, ""), true, this.#picker());
+    this.#shell.messageBelow = this.#isBelow;
   }
 
   #show(text: string): void {

@@ -1,0 +1,113 @@
+"""A surface is on the screen before it has tets, and the view stays when they come."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from snapspace import TetMesh
+from snapspace.filling import SurfaceFilling
+from snapspace.mesh.surface import compact_surface
+from snapspace.stopping import check_stop
+
+from ..server.in_process import started
+from .choosing_page import BAR, cancel, places, press, selected, stroke, tool, wait_for_text
+from .pages import OpenPage, Page
+
+CAMERA = "snapspace.stage.camera.position.toArray()"
+IS_LOOKED_AT = "snapspace.kind === 'surface'"
+RED = "v {} {} {} 1 0 0"
+
+
+@dataclass(frozen=True)
+class HeldFilling(SurfaceFilling):
+    """Gives the tets of `BAR`, or fails, once it is let go."""
+
+    fails: bool = False
+    let_go: threading.Event = field(default_factory=threading.Event)
+
+    def fill(self, *_: object, stage: Callable[..., None]) -> TetMesh:
+        stage("filling")
+        while not self.let_go.wait(0.01):
+            check_stop()
+        if self.fails:
+            raise ValueError("it is too thin here; thicken it")
+        return BAR
+
+
+def dropped(folder: Path, opened: OpenPage, filling: SurfaceFilling) -> Page:
+    """A page on which the surface of `BAR`, in red, has been dropped."""
+    file = folder / "bar.obj"
+    vertices, faces = compact_surface(BAR.vertices, BAR.surface)
+    lines = [RED.format(*vertex) for vertex in vertices]
+    lines += [f"f {a} {b} {c}" for a, b, c in faces + 1]
+    file.write_text("\n".join(lines))
+    page: Page = opened(started(filling=filling, folder=folder))
+    page.page.set_input_files("#message input[type=file]", file)
+    page.wait(IS_LOOKED_AT)
+    return page
+
+
+@pytest.fixture
+def filling() -> HeldFilling:
+    return HeldFilling()
+
+
+def test_a_surface_is_there_before_its_tets_and_nothing_moves_when_they_come(
+    tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
+) -> None:
+    page = dropped(tmp_path, opened, filling)
+    wait_for_text(page, "#message", "Filling bar with tets")
+    page.wait("snapspace.scene.surface.colors === 'material'")
+    page.page.reload()
+    page.wait(IS_LOOKED_AT)
+    wait_for_text(page, "#message", "Filling bar with tets")
+    page.wait("snapspace.scene.surface.colors === 'material'")
+    first = page.run(CAMERA)
+    page.drag((300, 200), 80, 20)
+    press(page, "Wireframe")
+    page.settle()
+    camera = page.run(CAMERA)
+    assert camera != first
+    page.run("void (window.before = snapspace.scene.surface)")
+    filling.let_go.set()
+    page.wait("snapspace.kind === 'choosing'")
+    assert page.run("before === snapspace.choosing.surface")
+    assert page.run(CAMERA) == camera
+    wires = page.page.get_by_role("button", name="Wireframe")
+    assert wires.get_attribute("aria-pressed") == "true"
+    assert page.run("document.getElementById('message').hidden")
+    assert page.run("before.colors") == "material"
+
+    x, y = places(page).T
+    tool(page, "Box")
+    stroke(page, (x.min() - 5, y.min() - 5), (x.min() + 40, y.max() + 5))
+    assert selected(page)
+    assert page.run("before.colors") == "own", "materials would hide what is chosen"
+
+
+def test_a_surface_that_cannot_be_filled_stays_with_the_reason(
+    tmp_path: Path, opened: OpenPage, chromium: object
+) -> None:
+    filling = HeldFilling(fails=True)
+    page = dropped(tmp_path, opened, filling)
+    filling.let_go.set()
+    wait_for_text(page, "#message", "bar.obj: it is too thin here; thicken it")
+    assert page.run(IS_LOOKED_AT)
+    press(page, "Close")
+    press(page, "Check surface")
+    wait_for_text(page, ".findings", "Ready")
+
+
+def test_filling_can_be_cancelled(
+    tmp_path: Path, opened: OpenPage, chromium: object, filling: HeldFilling
+) -> None:
+    page = dropped(tmp_path, opened, filling)
+    wait_for_text(page, "#message", "Filling bar")
+    cancel(page)
+    wait_for_text(page, "#message", "Drop a mesh here")
+    page.wait("snapspace.stage.root.children.length === 0")
