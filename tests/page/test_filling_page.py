@@ -62,6 +62,7 @@ def test_a_surface_is_there_before_its_tets_and_nothing_moves_when_they_come(
 ) -> None:
     page = dropped(tmp_path, opened, filling)
     wait_for_text(page, "#message", "Filling bar with tets")
+    page.wait("document.querySelector('#message progress').checkVisibility()")
     page.wait("snapspace.scene.surface.colors === 'material'")
     page.page.reload()
     page.wait(IS_LOOKED_AT)

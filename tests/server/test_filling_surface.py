@@ -22,7 +22,7 @@ from snapspace.server.workspace import Workspace
 from snapspace.stopping import check_stop
 
 from ..shapes import bar_problem
-from .test_workspace import PATIENCE, Mailbox
+from .test_workspace import Mailbox
 
 BAR = bar_problem().mesh
 

@@ -73,9 +73,8 @@ export class AppShell {
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
     const { renderer, scene, camera } = this.stage;
-    renderer.render(scene, camera);
+    this.stage.drawNow();
     renderer.compile(scene, camera); // hidden parts as well, such as the gizmo: the first press should not wait
-    this.stage.draw();
     // inherited, not copied: what the view reports changes while it is shown
     window.snapspace = Object.assign(Object.create(view.script), {
       ready: true,

@@ -1,5 +1,6 @@
 import type { RestMesh } from "../engine/rest_mesh.ts";
 import { choice, h, section, toggle } from "./dom.ts";
+import { CLAY } from "./handle_colors.ts";
 import { occlusionToggle } from "./look_panel.ts";
 import { nextTask } from "./next_task.ts";
 import { OwnLook } from "./own_look.ts";
@@ -35,22 +36,19 @@ export class MeshScene {
       scales: new Float32Array(0),
     };
     const surface = new Surface(stage.renderer, space, mesh.faces, mesh.diagonal, true, null, look);
+    surface.paint(() => CLAY);
     await nextTask();
-    return new MeshScene(stage, mesh, surface, look, options);
+    const scene = new MeshScene(stage, mesh, surface, look, options.up);
+    await nextTask();
+    stage.root.add(surface.object);
+    if (!options.keepView) stage.place(mesh.shape, options.up);
+    return scene;
   }
 
-  private constructor(
-    stage: Stage,
-    mesh: RestMesh,
-    surface: Surface,
-    look: OwnLook | null,
-    { up, keepView }: ViewOptions,
-  ) {
+  private constructor(stage: Stage, mesh: RestMesh, surface: Surface, look: OwnLook | null, up: Axis) {
     [this.mesh, this.surface, this.#stage, this.#look] = [mesh, surface, stage, look];
     surface.object.updateMatrix();
-    stage.root.add(surface.object);
     stage.restored = () => surface.refresh();
-    if (!keepView) stage.place(mesh.shape, up);
     const options = [
       ["material", "Material"],
       ["own", "Handles"],

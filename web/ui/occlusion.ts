@@ -136,25 +136,40 @@ export class Occlusion {
 }
 
 /** Vertices in an order in which neighbours that face the same octant are close to each other: along Morton's curve. */
-export function neighboursTogether(base: Float32Array, faces: Uint32Array): number[] {
+export function neighboursTogether(base: Float32Array, faces: Uint32Array): Int32Array {
   const normals = new Float32Array(base.length);
   weightedNormals(base, faces, normals);
-  const [least, most] = [Array<number>(3).fill(Infinity), Array<number>(3).fill(-Infinity)];
-  base.forEach((x, i) => {
-    least[i % 3] = Math.min(least[i % 3], x);
-    most[i % 3] = Math.max(most[i % 3], x);
-  });
-  const side = Math.max(...most.map((x, axis) => x - least[axis])) || 1;
-  // octant, place on the curve (9 bits an axis), and vertex: exact in 53 bits
+  const { least, side } = cubeAround(base);
+  const scale = (CELLS - 1) / (side || 1);
+  // octant, place on the curve, and vertex: exact in 53 bits
   const keys = new Float64Array(base.length / 3);
-  for (let vertex = 0; vertex < keys.length; vertex++) {
-    let key = 0;
-    for (let axis = 0; axis < 3; axis++) key = 2 * key + (normals[3 * vertex + axis] < 0 ? 1 : 0);
-    const cell = least.map((low, axis) => Math.floor((511 * (base[3 * vertex + axis] - low)) / side));
-    for (let bit = 8; bit >= 0; bit--) for (const x of cell) key = 2 * key + ((x >> bit) & 1);
-    keys[vertex] = key * VERTICES + vertex;
+  for (let vertex = 0, at = 0; vertex < keys.length; vertex++) {
+    let [octant, place] = [0, 0];
+    for (let axis = 0; axis < 3; axis++, at++) {
+      octant = 2 * octant + (normals[at] < 0 ? 1 : 0);
+      place = 2 * place + SPREAD[Math.floor(scale * (base[at] - least[axis]))];
+    }
+    keys[vertex] = (octant * CELLS ** 3 + place) * VERTICES + vertex;
   }
-  return Array.from(keys.sort(), (key) => key % VERTICES);
+  return Int32Array.from(keys.sort(), (key) => key % VERTICES);
+}
+
+/** The lowest corner and the side of a cube around points. */
+function cubeAround(points: Float32Array): { least: number[]; side: number } {
+  const [least, most] = [
+    [Infinity, Infinity, Infinity],
+    [-Infinity, -Infinity, -Infinity],
+  ];
+  for (let at = 0; at < points.length;)
+    for (let axis = 0; axis < 3; axis++, at++) {
+      if (points[at] < least[axis]) least[axis] = points[at];
+      if (points[at] > most[axis]) most[axis] = points[at];
+    }
+  return { least, side: Math.max(...most.map((x, axis) => x - least[axis])) };
 }
 
 const VERTICES = 2 ** 23;
+/** Cells of the curve along an axis. */
+const CELLS = 2 ** 9;
+/** The bits of a cell's number with two zeros between them. */
+const SPREAD = Int32Array.from({ length: CELLS }, (_, cell) => parseInt(cell.toString(2), 8));

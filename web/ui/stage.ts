@@ -54,7 +54,8 @@ export class Stage {
   readonly #resized = new ResizeObserver(() => this.fit());
   #height = 0.5;
   readonly #before = new PerspectiveCamera(); // while another picture is taken
-  #asked = false;
+  /** The animation frame that was asked for; 0: none. */
+  #asked = 0;
   #last = 0;
 
   constructor(canvas: HTMLCanvasElement) {
@@ -88,20 +89,26 @@ export class Stage {
 
   /** Asks for a picture. Several requests before it is drawn, also by `beforeFrame`, give one picture. */
   draw(): void {
-    if (this.#asked) return;
-    this.#asked = true;
-    requestAnimationFrame((now) => {
-      const seconds = (now - this.#last) / 1000;
-      this.#last = now;
-      try {
-        this.beforeFrame(seconds);
-      } finally {
-        this.#asked = false;
-      }
-      this.renderer.render(this.scene, this.camera);
-      this.afterFrame();
-      this.drawn();
-    });
+    this.#asked ||= requestAnimationFrame((now) => this.#picture(now));
+  }
+
+  /** Draws at once, in place of the picture that was asked for. */
+  drawNow(): void {
+    cancelAnimationFrame(this.#asked);
+    this.#picture(performance.now());
+  }
+
+  #picture(now: number): void {
+    const seconds = (now - this.#last) / 1000;
+    this.#last = now;
+    try {
+      this.beforeFrame(seconds);
+    } finally {
+      this.#asked = 0;
+    }
+    this.renderer.render(this.scene, this.camera);
+    this.afterFrame();
+    this.drawn();
   }
 
   /** Turns the lights with a camera that goes around the shape. */

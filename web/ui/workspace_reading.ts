@@ -83,7 +83,8 @@ export class ReadingBox {
   /** Shows, below its surface, that the server fills it. */
   fill(given: Given): void {
     this.#given = given;
-    this.#show(`Filling ${given.name} with tets`);
+    if (!this.#isShown) this.#begin();
+    this.#tell(`Filling ${given.name} with tets`);
     this.#shell.messageBelow = this.#isBelow = true;
   }
 
@@ -104,9 +105,17 @@ export class ReadingBox {
   }
 
   #show(text: string): void {
+    this.#begin();
+    this.#tell(text);
+  }
+
+  #begin(): void {
     this.#isShown = true;
     this.#bar.element.hidden = true;
     this.#countFrom(performance.now());
+  }
+
+  #tell(text: string): void {
     const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
     this.#shell.showMessage(text, false, this.#bar.element, this.#elapsed, cancel);
   }

@@ -46,7 +46,6 @@ export class WorkspaceSurface {
     leave();
     const view = surfaceView(this.#shell.stage, scene, this.#check?.elements ?? []);
     [this.#view, this.#shown] = [view, given.mesh];
-    await nextTask();
     this.show(view, scene.mesh.name);
   }
 
