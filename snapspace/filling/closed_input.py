@@ -118,7 +118,7 @@ def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexAr
             MeshNotice,
             stacklevel=4,
         )
-    return triangles[group == 0]
+    return np.asarray(triangles[group == 0])
 
 
 def check_share(value: float, name: str, *, largest: float, who: str) -> None:

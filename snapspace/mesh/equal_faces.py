@@ -30,4 +30,4 @@ def equal_faces(faces: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[n
         order = np.argsort(keys)
         return order, np.asarray(np.diff(keys[order]) == 0)
     order = np.lexsort(corners.T)
-    return order, ~np.diff(corners[order], axis=0).any(axis=1)
+    return order, np.asarray(~np.diff(corners[order], axis=0).any(axis=1))
