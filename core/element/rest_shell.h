@@ -54,7 +54,7 @@ class RestShellElement {
     return result;
   }
 
-  /// Writes the numbers of the rest shape, at most 10, that follow the moduli of a ShellDensity.
+  /// Writes the numbers of the rest shape, at most 11, that follow the moduli of a ShellDensity.
   void write_numbers(double* numbers) const {
     for (int r = 0; r < 3; ++r) {
       if (is_triangle(corners_)) {
@@ -66,7 +66,12 @@ class RestShellElement {
         for (int j = 0; j < 3; ++j) numbers[1 + 3 * r + j] = edges_[j][r] / length_;
       }
     }
-    if (!is_triangle(corners_)) numbers[0] = half_angle_tangent();
+    if (is_triangle(corners_)) return;
+    double other[3];
+    cross(edges_[2], edges_[0], other);
+    const double square = length_ * length_;  // normals in units of the edge
+    numbers[0] = half_angle_tangent();
+    numbers[10] = twice_area_ / square * (std::sqrt(dot(other, other)) / square);
   }
 
  private:

@@ -42,12 +42,13 @@ struct HingeAngle {
     }
   }
 
- private:
   /// Squares of lengths and areas are not smaller than this, so that rounding bends no hinge whose
   /// triangle has collapsed.
   static constexpr double kLeastSquare =
       sizeof(typename ScalarOf<Real>::type) == sizeof(float) ? 1e-10 : 1e-20;
+  static constexpr double kLeastProduct = 1e-30;
 
+ private:
   static Real product(const Real x[3], const Real y[3]) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
   }
@@ -56,9 +57,37 @@ struct HingeAngle {
   }
 };
 
-/// Change of a hinge's gradient, with columns as dE, for a change dE of its edges.
-inline void gradient_differential(const HingeAngle<double>& hinge, const double E[3][3],
-                                  const double dE[3][3], double change[3][3]) {
+/// How the areas of a hinge's triangles have changed: rho = ln(product of both areas / that at
+/// rest), and its gradient. Where a triangle collapses, the gradient of the angle is not bounded;
+/// bending is multiplied by 1 / cosh(rho), which is one at the rest areas, with zero slope, and
+/// vanishes faster.
+template <class Real>
+struct HingeAreas {
+  Real weight, slope;              ///< 1 / cosh(rho) and tanh(rho)
+  Real by_e[3], by_a[3], by_b[3];  ///< gradient of rho
+
+  /// @param rest  product of both areas at rest, times four
+  HingeAreas(const HingeAngle<Real>& hinge, const Real E[3][3], Real rest) {
+    const Real square = hinge.first_square * hinge.second_square, at_rest = rest * rest;
+    const Real sum = max(square + at_rest, Real(HingeAngle<Real>::kLeastProduct));
+    weight = Real(2.0) * hinge.length * rest / sum;
+    slope = (square - at_rest) / sum;
+    const Real first = Real(1.0) / hinge.first_square, second = Real(1.0) / hinge.second_square;
+    for (int r = 0; r < 3; ++r) {
+      const int s = (r + 1) % 3, t = (r + 2) % 3;
+      const Real *n = hinge.first_normal, *m = hinge.second_normal;
+      by_a[r] = first * (n[s] * E[t][0] - n[t] * E[s][0]);   // n x e
+      by_b[r] = second * (E[s][0] * m[t] - E[t][0] * m[s]);  // e x m
+      by_e[r] = first * (E[s][1] * n[t] - E[t][1] * n[s]) +  // a x n, and m x b
+                second * (m[s] * E[t][2] - m[t] * E[s][2]);
+    }
+  }
+};
+
+/// Changes of the gradients of a hinge's angle and of rho, with columns as dE, for a change dE of
+/// its edges.
+inline void gradient_differentials(const HingeAngle<double>& hinge, const double E[3][3],
+                                   const double dE[3][3], double change[3][3], double areas[3][3]) {
   const auto dot = [](const double* x, const double* y) {
     return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
   };
@@ -81,11 +110,29 @@ inline void gradient_differential(const HingeAngle<double>& hinge, const double 
   const double first_growth = stretch - 2.0 * dot(hinge.first_normal, first) / hinge.first_square;
   const double second_growth =
       stretch - 2.0 * dot(hinge.second_normal, second) / hinge.second_square;
+  const double *n = hinge.first_normal, *m = hinge.second_normal;
+  const double n_growth = 2.0 * dot(n, first) / hinge.first_square;
+  const double m_growth = 2.0 * dot(m, second) / hinge.second_square;
   for (int r = 0; r < 3; ++r) {
     change[r][1] = first_growth * hinge.by_a[r] + hinge.edge * first[r] / hinge.first_square;
     change[r][2] = second_growth * hinge.by_b[r] + hinge.edge * second[r] / hinge.second_square;
     change[r][0] = -first_foot * hinge.by_a[r] - hinge.first_foot * change[r][1] -
                    second_foot * hinge.by_b[r] - hinge.second_foot * change[r][2];
+    // d(n x e / |n|^2), and so on
+    const int s = (r + 1) % 3, t = (r + 2) % 3;
+    const double n_e = n[s] * e[t] - n[t] * e[s], a_n = a[s] * n[t] - a[t] * n[s];
+    const double e_m = e[s] * m[t] - e[t] * m[s], m_b = m[s] * b[t] - m[t] * b[s];
+    areas[r][1] =
+        (first[s] * e[t] - first[t] * e[s] + n[s] * de[t] - n[t] * de[s] - n_growth * n_e) /
+        hinge.first_square;
+    areas[r][2] =
+        (de[s] * m[t] - de[t] * m[s] + e[s] * second[t] - e[t] * second[s] - m_growth * e_m) /
+        hinge.second_square;
+    areas[r][0] =
+        (da[s] * n[t] - da[t] * n[s] + a[s] * first[t] - a[t] * first[s] - n_growth * a_n) /
+            hinge.first_square +
+        (second[s] * b[t] - second[t] * b[s] + m[s] * db[t] - m[t] * db[s] - m_growth * m_b) /
+            hinge.second_square;
   }
 }
 

@@ -57,7 +57,7 @@ template <class Density>
 inline constexpr bool kOfShells = requires { Density::kScaled; };
 
 /// The largest number of moduli that a density may have, with the numbers of the rest shape.
-inline constexpr int kMaxModuli = 13;
+inline constexpr int kMaxModuli = 14;
 
 inline const char* material_name(int index) {
   return Densities::with(index, []<class Density>() { return Density::kName; });

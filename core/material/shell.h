@@ -15,15 +15,16 @@ namespace snapspace {
 ///   G
 ///             with the first two columns of G; the moduli are those of the plane, times thickness
 ///   hinge     0, 0, bending, the tangent of half the rest angle, and the 3 x 3 matrix of the rest
-///             edges, row by row. The edges are that matrix + G, in units of the rest edge;
-///             psi = bending/2 strain^2 with the strain of `Bending`
+///             edges, row by row, and four times the product of both areas. The edges are that
+///             matrix + G, in units of the rest edge; psi = bending/2 (strain / cosh(rho))^2 with
+///             the strain of `Bending` and rho of HingeAreas
 template <class Membrane, class Bending>
 struct ShellDensity {
-  static constexpr int kModuli = 13;
+  static constexpr int kModuli = 14;
   static constexpr int kScaled = 3;  ///< the moduli: energies
   static constexpr const char* kModulusNames[kModuli] = {
       "mu",     "lam",    "bending", "rest_0", "rest_1", "rest_2", "rest_3",
-      "rest_4", "rest_5", "rest_6",  "rest_7", "rest_8", "rest_9"};
+      "rest_4", "rest_5", "rest_6",  "rest_7", "rest_8", "rest_9", "rest_10"};
 
   /// Of a triangle those of the plane; a hinge has the stiffness `bending`.
   static Lame small_strains(const double* numbers) {
@@ -116,13 +117,16 @@ struct ShellDensity {
     for (int e = 0; e < 9; ++e) E[e / 3][e % 3] = numbers[4 + e] + G[e / 3][e % 3];
     const HingeAngle<Real> angle(E);
     const Bend<Real> bend = Bending::of(angle.sine, angle.cosine, angle.length, numbers[3]);
-    const Real moment = numbers[2] * bend.strain, force = moment * bend.slope;
+    const HingeAreas<Real> areas(angle, E, numbers[13]);
+    const Real strain = areas.weight * bend.strain, moment = numbers[2] * strain;
+    const Real force = moment * areas.weight * bend.slope;
+    const Real tension = Real(0.0) - moment * strain * areas.slope;
     for (int r = 0; r < 3; ++r) {
-      P[r][0] = force * angle.by_e[r];
-      P[r][1] = force * angle.by_a[r];
-      P[r][2] = force * angle.by_b[r];
+      P[r][0] = force * angle.by_e[r] + tension * areas.by_e[r];
+      P[r][1] = force * angle.by_a[r] + tension * areas.by_a[r];
+      P[r][2] = force * angle.by_b[r] + tension * areas.by_b[r];
     }
-    return Real(0.5) * moment * bend.strain;
+    return Real(0.5) * moment * strain;
   }
 
   static void triangle_differential(const double* numbers, const double G[3][3],
@@ -150,18 +154,30 @@ struct ShellDensity {
     for (int e = 0; e < 9; ++e) E[e / 3][e % 3] = numbers[4 + e] + G[e / 3][e % 3];
     const HingeAngle<double> angle(E);
     const Bend<double> bend = Bending::of(angle.sine, angle.cosine, angle.length, numbers[3]);
-    double turn = 0.0;  // change of the angle
-    for (int r = 0; r < 3; ++r)
-      turn += angle.by_e[r] * dG[r][0] + angle.by_a[r] * dG[r][1] + angle.by_b[r] * dG[r][2];
-    gradient_differential(angle, E, dG, dP);
-    const double force = numbers[2] * bend.strain * bend.slope;
-    const double change =
-        numbers[2] * (bend.slope * bend.slope + bend.strain * bend.curvature) * turn;
+    const HingeAreas<double> areas(angle, E, numbers[13]);
+    double turn = 0.0, growth = 0.0;  // changes of the angle and of rho
     for (int r = 0; r < 3; ++r) {
-      dP[r][0] = force * dP[r][0] + change * angle.by_e[r];
-      dP[r][1] = force * dP[r][1] + change * angle.by_a[r];
-      dP[r][2] = force * dP[r][2] + change * angle.by_b[r];
+      turn += angle.by_e[r] * dG[r][0] + angle.by_a[r] * dG[r][1] + angle.by_b[r] * dG[r][2];
+      growth += areas.by_e[r] * dG[r][0] + areas.by_a[r] * dG[r][1] + areas.by_b[r] * dG[r][2];
     }
+    // With s = weight * strain, P = bending s (along ds/dtheta and ds/drho); the derivatives of the
+    // weight by rho are -weight * slope and, of the slope, weight^2.
+    const double s = areas.weight * bend.strain;
+    const double by_angle = areas.weight * bend.slope, by_areas = -areas.slope * s;
+    const double ds = by_angle * turn + by_areas * growth;
+    const double d_angle =
+        areas.weight * (bend.curvature * turn - areas.slope * bend.slope * growth);
+    const double d_areas = -areas.weight * areas.weight * s * growth - areas.slope * ds;
+    const double along_angle = ds * by_angle + s * d_angle;
+    const double along_areas = ds * by_areas + s * d_areas;
+    double d_by_angle[3][3], d_by_areas[3][3];
+    gradient_differentials(angle, E, dG, d_by_angle, d_by_areas);
+    const double* const of_angle[3] = {angle.by_e, angle.by_a, angle.by_b};
+    const double* const of_areas[3] = {areas.by_e, areas.by_a, areas.by_b};
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c)
+        dP[r][c] = numbers[2] * (along_angle * of_angle[c][r] + along_areas * of_areas[c][r] +
+                                 s * (by_angle * d_by_angle[r][c] + by_areas * d_by_areas[r][c]));
   }
 
   /// The columns of the entries xx, yy and xy.

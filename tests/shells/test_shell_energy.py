@@ -129,6 +129,21 @@ def test_degenerate_hinges_and_triangles_are_finite(
     assert np.isfinite(energy.projected_hessian(x).toarray()).all()
 
 
+def test_bending_vanishes_with_the_area_of_a_triangle() -> None:
+    """The angle's gradient alone grows as one over the height: solves would get stuck."""
+    mesh = hinge(0.3)
+    energy = ElasticEnergy(mesh, StVK())
+    forces, values = [], []
+    for height in (1.0, 1e-2, 1e-4):
+        x = hinge_vertices(1.2)
+        x[2] = height * x[2] + (1 - height) * np.array([0.4, 0, 0])
+        stresses, energies = energy.core.tet_stresses((x - mesh.vertices).reshape(-1))
+        forces.append(np.linalg.norm(stresses[-1]))
+        values.append(energies[-1])
+    assert forces[1] < forces[0] and forces[2] < forces[0]
+    assert values[1] / values[0] == pytest.approx(4e-4, rel=1e-3)
+
+
 @each
 @bendings
 def test_rigid_motions_change_nothing(material: Material, bending: str) -> None:
