@@ -113,6 +113,7 @@ def test_a_kept_point_becomes_a_handle_without_a_jolt(
     assert np.linalg.norm(np.subtract(page.motions()[2][1], at_rest[2][1])) > 0.01
 
     press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
     assert set(handles(page)) == {"foot", "head", "point 1"}
     assert handles(page)["point 1"] == set(problem.handles["point 1"].vertices.tolist())
     press(page, "Pose")

@@ -121,6 +121,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
 
     before = page.motions()[1]
     press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
     assert handles(page) == chosen
     press(page, "Pose")
     page.wait("snapspace.kind === 'posing'")
@@ -138,6 +139,7 @@ def test_a_computation_is_cancelled_and_another_begun(page: Page) -> None:
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     assert np.linalg.norm(page.motions()[1][1]) > 0.02, "what there is can be posed"
     press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
     compute(page)
     wait_for_text(page, "#panel", "Done in")
 
@@ -173,6 +175,7 @@ def test_two_pages_do_not_disturb_each_other(page: Page, bar_server: str, opened
     cancel(page)
     page.page.get_by_role("button", name="Cancel").wait_for(state="hidden")
     press(page, "Choose handles")
+    page.wait("snapspace.kind === 'choosing'")
     compute(page)
     for one, names in ((page, ["foot", "head"]), (other, ["foot", "hand"])):
         one.wait("snapspace.kind === 'posing'")

@@ -219,8 +219,9 @@ export class Workspace {
   }
 
   async #backToChoosing(): Promise<void> {
-    await this.#choosing();
+    const choosing = this.#choosing(); // posing, which has an address of its own, is left at once
     keepHash(() => CHOOSING);
+    await choosing;
   }
 
   /** Sends the choice to the server soon. */
