@@ -21,7 +21,7 @@ from .dask_cluster import dask_executor
 from .energy import EnergyChoice
 from .filling_options import filling_of, filling_options
 from .given_options import given_options
-from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
+from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .problem_input import problem_input
 from .summary import print_summary
 
@@ -72,14 +72,7 @@ DIMENSION = 40
     help="Number of tets, or triangles and hinges, of a cubature [default: 8 per mode, at most "
     "1000; of a shell 12, at most 1500].",
 )
-@click.option(
-    "--shell",
-    "thickness",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="THICKNESS",
-    help="Take the surface as a thin shell of this thickness, in its unit of length, instead of "
-    "filling it. It may be open.",
-)
+@shell_option
 @click.option("--repair", is_flag=True, help="Repair the mesh if it can be repaired.")
 @filling_options
 @threads_option

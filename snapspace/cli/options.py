@@ -105,3 +105,15 @@ def up_option(command: Command) -> Command:
         help="Axis that points up; coordinates stay [default: that of the model or problem, else "
         "y for .obj, .glb and .gltf, z for others].",
     )(command)
+
+
+def shell_option(command: Command) -> Command:
+    """Adds --shell, the thickness of a surface that is not filled."""
+    return click.option(
+        "--shell",
+        "thickness",
+        type=click.FloatRange(min=0, min_open=True),
+        metavar="THICKNESS",
+        help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
+        "filling it. It may be open.",
+    )(command)

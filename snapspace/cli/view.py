@@ -27,7 +27,7 @@ from ..server.settings import UPLOAD_LIMIT
 from .console import notice
 from .filling_options import filling_of, filling_options
 from .loading import load_leading
-from .options import FILE, leading_option, up_option
+from .options import FILE, leading_option, shell_option, up_option
 
 
 @click.command(short_help="Pose or blend in the browser, or choose handles there.")
@@ -48,14 +48,7 @@ from .options import FILE, leading_option, up_option
     metavar="MB",
     help="Largest size of meshes that are dropped on the page.",
 )
-@click.option(
-    "--shell",
-    "thickness",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="THICKNESS",
-    help="Take a surface as a thin shell of this thickness, in its unit of length, instead of "
-    "filling it. It may be open.",
-)
+@shell_option
 @filling_options
 @leading_option
 @up_option
