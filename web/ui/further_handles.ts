@@ -2,6 +2,7 @@ import { closestMap, placeOf, PosingSession } from "../engine/index.ts";
 import type { Motion, PosingModel, Pulls, RigidMap } from "../engine/index.ts";
 import { IDENTITY, motionOfMap } from "../engine/motion.ts";
 import { approach } from "./motion_parts.ts";
+import { nextTask } from "./next_task.ts";
 import type { KeptPoint } from "./pulling.ts";
 
 type Motions = readonly Motion[];
@@ -52,7 +53,7 @@ export class FurtherHandles {
       const next = states().find((motions) => !this.#found.has(motions));
       if (!next || !this.#session) return;
       this.all(next);
-      await new Promise((done) => setTimeout(done));
+      await nextTask();
     }
   }
 

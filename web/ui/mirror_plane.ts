@@ -2,6 +2,7 @@ import { DoubleSide, Matrix4, Mesh, MeshBasicMaterial, PlaneGeometry, Vector3 } 
 
 import type { Vector } from "../engine/motion.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
+import { boxOf } from "./box_of.ts";
 import type { Stage } from "./stage.ts";
 
 const COLOR = 0x14b8ff;
@@ -21,7 +22,7 @@ export class MirrorPlane {
   constructor(stage: Stage, { shape, diagonal, up }: RestMesh) {
     this.#stage = stage;
     this.#up = UP[up];
-    this.#middle = middleOf(shape);
+    this.#middle = boxOf(shape).getCenter(new Vector3());
     const material = new MeshBasicMaterial({
       color: COLOR,
       side: DoubleSide,
@@ -61,19 +62,4 @@ export class MirrorPlane {
     this.#square.geometry.dispose();
     this.#square.material.dispose();
   }
-}
-
-/** The middle of the box around a shape. */
-function middleOf(shape: Float32Array): Vector3 {
-  const [low, high] = [
-    new Vector3(Infinity, Infinity, Infinity),
-    new Vector3(-Infinity, -Infinity, -Infinity),
-  ];
-  const place = new Vector3();
-  for (let i = 0; i < shape.length; i += 3) {
-    place.fromArray(shape, i);
-    low.min(place);
-    high.max(place);
-  }
-  return low.add(high).divideScalar(2);
 }

@@ -1,6 +1,7 @@
 import {
   NearestFilter,
   RedFormat,
+  Vector3,
   WebGLRenderTarget,
   type DataTexture,
   type Texture,
@@ -8,6 +9,7 @@ import {
 } from "three";
 
 import { weightedNormals } from "../engine/index.ts";
+import { boxOf } from "./box_of.ts";
 import type { Deformer } from "./deformer.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
 
@@ -139,8 +141,9 @@ export class Occlusion {
 export function neighboursTogether(base: Float32Array, faces: Uint32Array): Int32Array {
   const normals = new Float32Array(base.length);
   weightedNormals(base, faces, normals);
-  const { least, side } = cubeAround(base);
-  const scale = (CELLS - 1) / (side || 1);
+  const box = boxOf(base);
+  const least = box.min.toArray();
+  const scale = (CELLS - 1) / (Math.max(...box.getSize(new Vector3()).toArray()) || 1);
   // octant, place on the curve, and vertex: exact in 53 bits
   const keys = new Float64Array(base.length / 3);
   for (let vertex = 0, at = 0; vertex < keys.length; vertex++) {
@@ -152,20 +155,6 @@ export function neighboursTogether(base: Float32Array, faces: Uint32Array): Int3
     keys[vertex] = (octant * CELLS ** 3 + place) * VERTICES + vertex;
   }
   return Int32Array.from(keys.sort(), (key) => key % VERTICES);
-}
-
-/** The lowest corner and the side of a cube around points. */
-function cubeAround(points: Float32Array): { least: number[]; side: number } {
-  const [least, most] = [
-    [Infinity, Infinity, Infinity],
-    [-Infinity, -Infinity, -Infinity],
-  ];
-  for (let at = 0; at < points.length;)
-    for (let axis = 0; axis < 3; axis++, at++) {
-      if (points[at] < least[axis]) least[axis] = points[at];
-      if (points[at] > most[axis]) most[axis] = points[at];
-    }
-  return { least, side: Math.max(...most.map((x, axis) => x - least[axis])) };
 }
 
 const VERTICES = 2 ** 23;

@@ -16,6 +16,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { boxOf } from "./box_of.ts";
 import { keyLights, studioLight } from "./studio.ts";
 
 export type Axis = "x" | "y" | "z";
@@ -222,8 +223,4 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
-}
-
-function boxOf(shape: Float32Array): Box3 {
-  return new Box3().setFromArray(shape);
 }
