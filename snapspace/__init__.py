@@ -57,6 +57,7 @@ EXPORTS = {
         "Handles",
         "InterpolationProblem",
         "Poses",
+        "ShellPoses",
         "PosingProblem",
         "Simplex",
         "handles_in_tets",

@@ -25,9 +25,9 @@ def material_moduli() -> dict[str, list[str]]:
     Names of the moduli of every density of solids, in the order of its rows.
     """
 
-def shell_moduli(vertices: NDArray[numpy.float64], elements: NDArray[numpy.int32], moduli: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
+def shell_moduli(poses: NDArray[numpy.float64], elements: NDArray[numpy.int32], kind: str, moduli: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
     """
-    Rows of a shell's density (m, 13): mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest shapes.
+    Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest shape: mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest shapes.
     """
 
 class Projection(enum.Enum):

@@ -1,7 +1,7 @@
 #include "bindings/arrays.h"
-#include "element/rest_shell.h"
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
+#include "energy/shell_poses.h"
 #include "lanes/in_lanes.h"
 
 namespace snapspace {
@@ -73,24 +73,32 @@ void bind_material(nb::module_& m) {
       "Names of the moduli of every density of solids, in the order of its rows.");
   m.def(
       "shell_moduli",
-      [](MatrixIn vertices, IndexMatrixIn elements, MatrixIn moduli) {
+      [](TensorIn poses, IndexMatrixIn elements, const std::string& kind, MatrixIn moduli) {
         constexpr std::size_t kScaled = ShellStVK::kScaled, kCount = ShellStVK::kModuli;
-        require(vertices.shape(1) == 3 && elements.shape(1) == 4 &&
-                    moduli.shape(0) == elements.shape(0) && moduli.shape(1) == kScaled,
-                "needs vertices (n, 3), elements (m, 4) and moduli (m, 3)");
-        require_below(elements, vertices.shape(0), "an element has a vertex index out of range");
-        DoublesOut rows = new_array<double>({elements.shape(0), kCount});
-        std::fill_n(rows.data(), rows.size(), 0.0);
-        for (std::size_t e = 0; e < elements.shape(0); ++e) {
-          double* row = rows.data() + kCount * e;
-          std::copy_n(moduli.data() + kScaled * e, kScaled, row);
-          RestShellElement(vertices.data(), elements.data() + 4 * e).write_numbers(row + kScaled);
-        }
-        return rows;
+        const std::size_t count = elements.shape(0);
+        require(poses.shape(0) >= 1 && poses.shape(2) == 3 && elements.shape(1) == 4 &&
+                    moduli.shape(0) == count && moduli.shape(1) == kScaled,
+                "needs poses (k, n, 3), elements (m, 4) and moduli (m, 3)");
+        require_below(elements, poses.shape(1), "an element has a vertex index out of range");
+        const int index = material_index(kind.c_str());
+        require(index >= 0 && is_of_shells(index), "needs a density of shells");
+        std::vector<double> rows(kCount * count, 0.0);
+        for (std::size_t e = 0; e < count; ++e)
+          std::copy_n(moduli.data() + kScaled * e, kScaled, rows.data() + kCount * e);
+        const std::vector<MaterialField> materials = shell_pose_materials(
+            poses.data(), static_cast<int>(poses.shape(0)), static_cast<int>(poses.shape(1)),
+            elements.data(), static_cast<int>(count),
+            {index, static_cast<int>(count), rows.data()});
+        DoublesOut result = new_array<double>({poses.shape(0), count, kCount});
+        for (std::size_t k = 0; k < materials.size(); ++k)
+          std::copy_n(materials[k].view().moduli, rows.size(), result.data() + k * rows.size());
+        return result;
       },
-      nb::arg("vertices"), nb::arg("elements").noconvert(), nb::arg("moduli"),
-      "Rows of a shell's density (m, 13): mu, lam and bending (m, 3) of the triangles and hinges, "
-      "and the numbers of their rest shapes.");
+      nb::arg("poses"), nb::arg("elements").noconvert(), nb::arg("kind"), nb::arg("moduli"),
+      "Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest "
+      "shape: "
+      "mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest "
+      "shapes.");
   nb::enum_<Projection>(m, "Projection",
                         "The matrix that Newton's method uses for the Hessian of a tet.")
       .value("none", Projection::none)

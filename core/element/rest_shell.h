@@ -54,8 +54,17 @@ class RestShellElement {
     return result;
   }
 
-  /// Writes the numbers of the rest shape, at most 11, that follow the moduli of a ShellDensity.
-  void write_numbers(double* numbers) const {
+  /// Four times the product of the areas of a hinge's triangles.
+  [[nodiscard]] double area_product() const {
+    double other[3];
+    cross(edges_[2], edges_[0], other);
+    return twice_area_ * std::sqrt(dot(other, other));
+  }
+
+  /// Writes the numbers of the rest shape that follow the moduli of a ShellDensity, except those of
+  /// the rest angle.
+  /// @param product  of a hinge: the area_product() at which bending has its whole stiffness
+  void write_numbers(double* numbers, double product) const {
     for (int r = 0; r < 3; ++r) {
       if (is_triangle(corners_)) {
         const int s = (r + 1) % 3, t = (r + 2) % 3;
@@ -66,12 +75,18 @@ class RestShellElement {
         for (int j = 0; j < 3; ++j) numbers[1 + 3 * r + j] = edges_[j][r] / length_;
       }
     }
-    if (is_triangle(corners_)) return;
+    const double square = length_ * length_;  // areas in units of the edge
+    if (!is_triangle(corners_)) numbers[10] = product / square / square;
+  }
+
+  /// Bounded, so that a surface may be folded at rest.
+  [[nodiscard]] double half_angle_tangent() const {
     double other[3];
     cross(edges_[2], edges_[0], other);
-    const double square = length_ * length_;  // normals in units of the edge
-    numbers[0] = half_angle_tangent();
-    numbers[10] = twice_area_ / square * (std::sqrt(dot(other, other)) / square);
+    const double sine = length_ * dot(normal_, edges_[2]), cosine = dot(normal_, other);
+    const double length = twice_area_ * std::sqrt(dot(other, other));
+    const double flat = length + cosine;
+    return sine / (flat > kFolded * length ? flat : kFolded * length);
   }
 
  private:
@@ -102,16 +117,6 @@ class RestShellElement {
       xy += 0.5 * row[j] * x[j] * y[j];
     }
     return (2.0 * (xx * xx + yy * yy + 2.0 * xy * xy) + (xx + yy) * (xx + yy)) / 8.0;
-  }
-
-  /// Bounded, so that a surface may be folded at rest.
-  [[nodiscard]] double half_angle_tangent() const {
-    double other[3];
-    cross(edges_[2], edges_[0], other);
-    const double sine = length_ * dot(normal_, edges_[2]), cosine = dot(normal_, other);
-    const double length = twice_area_ * std::sqrt(dot(other, other));
-    const double flat = length + cosine;
-    return sine / (flat > kFolded * length ? flat : kFolded * length);
   }
 
   static constexpr double kFolded = 1e-6;

@@ -1,8 +1,8 @@
 #include "energy/blended_energy.h"
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "energy/shell_poses.h"
 #include "material/pose_blend.h"
 
 namespace snapspace {
@@ -14,6 +14,11 @@ int numbers_of(int kind) {
   return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::numbers(); });
 }
 
+/// How many of them are the same for all poses.
+int constants_of(int kind) {
+  return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::constants(); });
+}
+
 bool collapses(int kind) {
   return Densities::with(kind, []<class Density>() { return PoseBlend<Density>::kCollapses; });
 }
@@ -23,12 +28,14 @@ bool collapses(int kind) {
 BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
                              const std::int32_t* tets, int tet_count,
                              const MaterialField& material) {
-  if (is_of_shells(material.view().kind))
-    throw std::invalid_argument("the poses of a shell cannot be blended");
+  const bool shell = is_of_shells(material.view().kind);
+  const std::vector<MaterialField> materials =
+      shell ? shell_pose_materials(poses, count, vertex_count, tets, tet_count, material.view())
+            : std::vector<MaterialField>(count, material);
   const std::size_t size = 3 * static_cast<std::size_t>(vertex_count);
   for (int k = 0; k < count; ++k) {
     const double* pose = poses + k * size;
-    energies_.emplace_back(RestShape(pose, vertex_count, tets, tet_count), material);
+    energies_.emplace_back(RestShape(pose, vertex_count, tets, tet_count, shell), materials[k]);
     std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
     for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
   }
@@ -45,10 +52,10 @@ void BlendedEnergy::fill_numbers(int t, int k, double* result) const {
   const TetMaterial material = energies_[k].material.view();
   double map[3][3], moduli[kMaxModuli];
   displacement_gradient(tet, offsets_[k].data(), map);
-  for (int i = 0; i < material_moduli(material.kind); ++i)
-    moduli[i] = tet.volume * material.of(t)[i];
+  scale_moduli(material.kind, material.of(t), tet.volume, moduli);
+  const double* first = energies_[0].material.view().of(t);
   Densities::with(material.kind,
-                  [&]<class Density>() { PoseBlend<Density>::fill(moduli, map, result); });
+                  [&]<class Density>() { PoseBlend<Density>::fill(moduli, first, map, result); });
 }
 
 bool BlendedEnergy::keeps_sums() const { return collapses(kind()) && poses() > kFewPoses; }
@@ -64,12 +71,12 @@ void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) co
     for (int k = 0; k < poses(); ++k) set_lane(blend[k], lane, weights[k]);
     return;
   }
-  const int numbers = numbers_of(kind());
+  const int numbers = numbers_of(kind()), sums = numbers - constants_of(kind());
   const double* pose = numbers_.data();
   for (int t = 0; t < tets(); ++t, pose += numbers * poses())
     for (int i = 0; i < numbers; ++i, ++blend) {
-      double sum = 0.0;
-      for (int k = 0; k < poses(); ++k) sum += weights[k] * pose[k * numbers + i];
+      double sum = i < sums ? 0.0 : pose[i];
+      for (int k = 0; k < poses() && i < sums; ++k) sum += weights[k] * pose[k * numbers + i];
       set_lane(*blend, lane, sum);
     }
 }
@@ -77,9 +84,8 @@ void BlendedEnergy::set_weights(int lane, const double* weights, Real* blend) co
 template <class Density, class Real>
 Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
                                               Real P[3][3]) const {
-  if constexpr (kOfShells<Density>) return Sum<Real>(0.0);  // refused by the constructor
   using Blend = PoseBlend<Density>;
-  constexpr int kNumbers = Blend::numbers();
+  constexpr int kNumbers = Blend::numbers(), kSums = kNumbers - Blend::constants();
   const double* pose = numbers_.data() + static_cast<std::size_t>(tet) * poses() * kNumbers;
   if constexpr (Blend::kCollapses) {
     Real sums[kNumbers];
@@ -87,9 +93,10 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
     if (poses() > kFewPoses) {
       numbers = blend + static_cast<std::size_t>(tet) * kNumbers;
     } else {
-      for (int i = 0; i < kNumbers; ++i) sums[i] = blend[0] * Real(pose[i]);
+      for (int i = 0; i < kSums; ++i) sums[i] = blend[0] * Real(pose[i]);
+      for (int i = kSums; i < kNumbers; ++i) sums[i] = Real(pose[i]);
       for (int k = 1; k < poses(); ++k)
-        for (int i = 0; i < kNumbers; ++i) sums[i] += blend[k] * Real(pose[k * kNumbers + i]);
+        for (int i = 0; i < kSums; ++i) sums[i] += blend[k] * Real(pose[k * kNumbers + i]);
     }
     return widened(Density::Blend::value_and_stress(numbers, G, P));
   } else {

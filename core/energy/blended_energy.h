@@ -15,7 +15,9 @@ namespace snapspace {
 /// the weights themselves or, where the density collapses, the numbers of all tets.
 class BlendedEnergy {
  public:
-  /// @param poses  count x n x 3, row-major   @param tets  m x 4, none without volume in any pose
+  /// @param poses  count x n x 3, row-major   @param tets  m x 4, none without volume in any pose;
+  ///               of a shell its triangles and hinges
+  /// @param material  of a shell only its moduli are read, see shell_pose_materials
   BlendedEnergy(const double* poses, int count, int vertex_count, const std::int32_t* tets,
                 int tet_count, const MaterialField& material);
 

@@ -46,8 +46,8 @@ struct DensityList {
 #if !defined(__wasm__)
 using Densities =
     DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin,
-                ShellNeoHookean, ShellStVK, ShellNeoHookeanAngle, ShellStVKAngle>;
-#else  // no model has a shell whose bending is the angle itself, and it would take 20 kB
+                ShellNeoHookean, ShellStVK, ShellNeoHookeanTangent, ShellStVKTangent>;
+#else  // no model has a shell whose bending is the tangent, and it would take 20 kB
 using Densities = DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet,
                               MooneyRivlin, ShellNeoHookean, ShellStVK>;
 #endif
@@ -57,7 +57,7 @@ template <class Density>
 inline constexpr bool kOfShells = requires { Density::kScaled; };
 
 /// The largest number of moduli that a density may have, with the numbers of the rest shape.
-inline constexpr int kMaxModuli = 14;
+inline constexpr int kMaxModuli = 15;
 
 inline const char* material_name(int index) {
   return Densities::with(index, []<class Density>() { return Density::kName; });
@@ -74,6 +74,13 @@ inline int material_moduli(int index) {
 /// Whether the density at an index is one of shells.
 inline bool is_of_shells(int index) {
   return Densities::with(index, []<class Density>() { return kOfShells<Density>; });
+}
+
+/// Sets what the numbers of a hinge have of its rest angle; for shells only.
+inline void set_rest_angle(int index, double half_tangent, double* numbers) {
+  Densities::with(index, [&]<class Density>() {
+    if constexpr (kOfShells<Density>) Density::set_rest_angle(half_tangent, numbers);
+  });
 }
 
 /// How many of a density's numbers are energies: the others describe the rest shape.

@@ -1,4 +1,5 @@
 #pragma once
+#include "material/triangle.h"
 #include "simd/functions.h"
 
 /// Densities of a membrane in plane stress, per area: functions of 2 E = F^T F - I, the doubled
@@ -7,7 +8,8 @@
 /// thickness is free to change [Timoshenko & Goodier 1970].
 ///
 /// A membrane has value_and_stress, which returns the density and sets the second Piola-Kirchhoff
-/// stress S, and differential, which sets the change of S for a change of 2 E.
+/// stress S, and differential, which sets the change of S for a change of 2 E. Its Blend is the
+/// sum over several poses, with F_k = F A_k against pose k.
 namespace snapspace {
 
 /// St.Venant-Kirchhoff in the plane: psi = mu |E|^2 + lam/2 tr(E)^2.
@@ -27,6 +29,69 @@ struct PlaneStVK {
     value_and_stress(lam, mu, dE2, linear);
     for (int i = 0; i < 3; ++i) dS[i] = linear[i];
   }
+
+  /// sum_k w_k psi_k(F A_k), collapsed. The strain against a pose is B e + d with e = 2 E and
+  /// d = A^T A - I, so that the sum is the quadratic polynomial e^T Q e / 2 + l^T e + c.
+  struct Blend {
+    static constexpr int kNumbers = 10;  ///< Q (rows from the diagonal on), l, c
+
+    static void fill(double lam, double mu, const double A[2][2], double* result) {
+      const double B[3][3] = {
+          {A[0][0] * A[0][0], A[1][0] * A[1][0], 2.0 * A[0][0] * A[1][0]},
+          {A[0][1] * A[0][1], A[1][1] * A[1][1], 2.0 * A[0][1] * A[1][1]},
+          {A[0][0] * A[0][1], A[1][0] * A[1][1], A[0][0] * A[1][1] + A[0][1] * A[1][0]}};
+      double columns[4][3], stress[4][3];  // of B, and d
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) columns[j][i] = B[i][j];
+        const int c = kPlaneEntries[i][0], d = kPlaneEntries[i][1];
+        columns[3][i] = A[0][c] * A[0][d] + A[1][c] * A[1][d] - (c == d ? 1.0 : 0.0);
+      }
+      for (int j = 0; j < 4; ++j) {
+        PlaneStVK::value_and_stress(lam, mu, columns[j], stress[j]);
+        stress[j][2] *= 2.0;  // xy stands for two entries
+      }
+      double* next = result;
+      for (int i = 0; i < 4; ++i)
+        for (int j = i; j < 4; ++j) {
+          double product = 0.0;
+          for (int r = 0; r < 3; ++r) product += 0.5 * columns[i][r] * stress[j][r];
+          if (j < 3)
+            *next++ = product;
+          else
+            result[6 + i] = i < 3 ? product : 0.5 * product;
+        }
+    }
+
+    template <class Real>
+    static Real value_and_stress(const Real* numbers, const Real E2[3], Real S[3]) {
+      Real forces[3];
+      quadratic(numbers, E2, forces);
+      Real value = numbers[9];
+      for (int i = 0; i < 3; ++i) {
+        value += E2[i] * (Real(0.5) * forces[i] + numbers[6 + i]);
+        S[i] = forces[i] + numbers[6 + i];
+      }
+      S[0] += S[0];
+      S[1] += S[1];
+      return value;
+    }
+
+    static void differential(const double* numbers, const double* /*E2*/, const double dE2[3],
+                             double dS[3]) {
+      quadratic(numbers, dE2, dS);
+      dS[0] += dS[0];
+      dS[1] += dS[1];
+    }
+
+   private:
+    /// Q e
+    template <class Real>
+    static void quadratic(const Real* Q, const Real e[3], Real product[3]) {
+      product[0] = Q[0] * e[0] + Q[1] * e[1] + Q[2] * e[2];
+      product[1] = Q[1] * e[0] + Q[3] * e[1] + Q[4] * e[2];
+      product[2] = Q[2] * e[0] + Q[4] * e[1] + Q[5] * e[2];
+    }
+  };
 };
 
 /// Stable neo-Hookean in the plane: psi = mu/2 (|F|^2 - 2) - mu (J - 1) + (lam + mu)/2 (J - 1)^2,
@@ -64,6 +129,46 @@ struct PlaneNeoHookean {
     dS[1] = change * Q[1] + pressure * dE2[0] * area.inverse;
     dS[2] = change * Q[2] - pressure * dE2[2] * area.inverse;
   }
+
+  /// sum_k w_k psi_k(F A_k), collapsed. With weighted moduli it is
+  ///   tr(F M F^T) / 2 + alpha/2 J^2 - beta J + const,
+  ///   M = sum mu A A^T,  alpha = sum (lam + mu) det(A)^2,  beta = sum (lam + 2 mu) det A.
+  /// With gamma = alpha - beta and N = M + gamma I, which vanishes for pose 0 alone, it is
+  ///   N : E + psi(E) + const,  with -gamma for mu and alpha for lam + mu in psi.
+  struct Blend {
+    static constexpr int kNumbers = 6;  ///< N, gamma, alpha, psi(A)
+
+    static void fill(double lam, double mu, const double A[2][2], double* result) {
+      const double det = A[0][0] * A[1][1] - A[0][1] * A[1][0];
+      // N = mu (A A^T - I) + (gamma + mu) I
+      const double shift = (det - 1.0) * ((lam + mu) * det - mu);
+      double strain[3], stress[3];  // A^T A - I
+      for (int i = 0; i < 3; ++i) {
+        const int c = kPlaneEntries[i][0], d = kPlaneEntries[i][1];
+        const double unit = c == d ? 1.0 : 0.0;
+        result[i] = mu * (A[c][0] * A[d][0] + A[c][1] * A[d][1] - unit) + shift * unit;
+        strain[i] = A[0][c] * A[0][d] + A[1][c] * A[1][d] - unit;
+      }
+      result[3] = shift - mu;
+      result[4] = (lam + mu) * det * det;
+      result[5] = PlaneNeoHookean::value_and_stress(lam, mu, strain, stress);
+    }
+
+    template <class Real>
+    static Real value_and_stress(const Real* numbers, const Real E2[3], Real S[3]) {
+      const Real value =
+          PlaneNeoHookean::value_and_stress(numbers[4] + numbers[3], Real(0.0) - numbers[3], E2, S);
+      for (int i = 0; i < 3; ++i) S[i] += numbers[i];
+      const Real half(0.5);
+      return numbers[5] + (half * (numbers[0] * E2[0] + numbers[1] * E2[1]) + numbers[2] * E2[2]) +
+             value;
+    }
+
+    static void differential(const double* numbers, const double E2[3], const double dE2[3],
+                             double dS[3]) {
+      PlaneNeoHookean::differential(numbers[4] + numbers[3], -numbers[3], E2, dE2, dS);
+    }
+  };
 
  private:
   template <class Real>

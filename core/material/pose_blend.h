@@ -9,7 +9,8 @@ namespace snapspace {
 /// k onto those in pose 0. Each pose contributes some numbers to a tet. Most densities need the
 /// numbers of every pose: the map A_k - I, and the moduli times the tet's volume in pose k. A
 /// density with a nested `Blend` collapses: its numbers are summed over the poses, times the
-/// weights, and evaluating the sum costs the same for any number of poses.
+/// weights, and evaluating the sum costs the same for any number of poses. The elements of a shell
+/// collapse too, see ShellBlend.
 template <class Density>
 struct PoseBlend {
   static constexpr bool kCollapses = requires { typename Density::Blend; };
@@ -22,9 +23,21 @@ struct PoseBlend {
       return 9 + Density::kModuli;
   }
 
+  /// The last numbers of a pose that are the same for all poses: they are not summed.
+  static constexpr int constants() {
+    if constexpr (kOfShells<Density>)
+      return Density::Blend::kConstants;
+    else
+      return 0;
+  }
+
   /// @param moduli  times the tet's volume in the pose   @param map  A - I
-  static void fill(const double* moduli, const double map[3][3], double* result) {
-    if constexpr (kCollapses) {
+  /// @param first   the moduli in pose 0, which shells need
+  static void fill(const double* moduli, [[maybe_unused]] const double* first,
+                   const double map[3][3], double* result) {
+    if constexpr (kOfShells<Density>) {
+      Density::Blend::fill(moduli, first, map, result);
+    } else if constexpr (kCollapses) {
       Density::Blend::fill(moduli, map, result);
     } else {
       for (int e = 0; e < 9; ++e) result[e] = map[e / 3][e % 3];

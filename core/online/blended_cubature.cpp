@@ -4,10 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "element/make_rest_tet.h"
+#include "element/make_rest_element.h"
 #include "element/tet.h"
 #include "material/pose_blend.h"
 #include "material/principal_hessian.h"
+#include "material/shell_rest.h"
 #include "online/tet_density.h"
 
 namespace snapspace::online {
@@ -15,14 +16,14 @@ namespace snapspace::online {
 namespace {
 
 constexpr int kWidth = TetRows::kWidth;
-constexpr std::int32_t kCorners[4] = {0, 1, 2, 3};
+constexpr std::int32_t kCorners[4] = {0, 1, 2, 3}, kTriangle[4] = {0, 1, 2, 2};
 
-/// Displacement gradient of a tet that moves from one position (4 x 3) to another, with respect to
-/// the first.
-void gradient_between(const double* from, const double* to, double G[3][3]) {
+/// Displacement gradient of an element that moves from one position (4 x 3) to another, with
+/// respect to the first.
+void gradient_between(const RestTet& rest, const double* from, const double* to, double G[3][3]) {
   double moved[12];
   for (int i = 0; i < 12; ++i) moved[i] = to[i] - from[i];
-  displacement_gradient(make_rest_tet(from, kCorners), moved, G);
+  displacement_gradient(rest, moved, G);
 }
 
 }  // namespace
@@ -37,6 +38,7 @@ BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, con
       offsets_(9 * static_cast<std::size_t>(rows_.blocks()), Tets(0.0)) {
   Densities::with(kind_, [&]<class Density>() {
     numbers_count_ = PoseBlend<Density>::numbers();
+    sums_count_ = numbers_count_ - PoseBlend<Density>::constants();
     collapses_ = PoseBlend<Density>::kCollapses;
   });
   const std::size_t pairs = static_cast<std::size_t>(tets) * poses_;
@@ -50,25 +52,30 @@ BlendedCubature::BlendedCubature(int dimension, int tets, const float* rows, con
 
 void BlendedCubature::set_tet(int tet, double weight, const double* moduli, const PoseTets& poses) {
   const int block = tet / kWidth, lane = tet % kWidth;
+  const bool shell = is_of_shells(kind_);
+  const std::int32_t* order = shell && moduli[0] > 0.0 ? kTriangle : kCorners;
   const auto corners = [&](int pose) {
     return poses.corners + 12 * (static_cast<std::size_t>(pose) * rows_.tets() + tet);
   };
+  const RestTet first = make_rest_element(shell, corners(0), order);
   double G[3][3];
-  gradient_between(corners(0), poses.tau + 12 * static_cast<std::size_t>(tet), G);
+  gradient_between(first, corners(0), poses.tau + 12 * static_cast<std::size_t>(tet), G);
   for (int e = 0; e < 9; ++e) offsets_[9 * block + e].set(lane, G[e / 3][e % 3]);
-  const double share = weight / make_rest_tet(corners(0), kCorners).volume;
+  const double share = weight / first.volume;
   std::vector<double> numbers(numbers_count_);
   for (int k = 0; k < poses_; ++k) {
     const std::size_t pair = static_cast<std::size_t>(tet) * poses_ + k;
+    const RestTet rest = make_rest_element(shell, corners(k), order);
     // F A = F + F map: the map is pose 0's displacement gradient against pose k
     double map[3][3];
-    gradient_between(corners(k), corners(0), map);
-    const double volume = share * make_rest_tet(corners(k), kCorners).volume;
+    gradient_between(rest, corners(k), corners(0), map);
     for (int e = 0; e < 9; ++e) maps_[9 * pair + e] = map[e / 3][e % 3];
     double* weighted = moduli_.data() + moduli_count_ * pair;
-    for (int i = 0; i < moduli_count_; ++i) weighted[i] = volume * moduli[i];
-    Densities::with(
-        kind_, [&]<class Density>() { PoseBlend<Density>::fill(weighted, map, numbers.data()); });
+    scale_moduli(kind_, moduli, share * rest.volume, weighted);
+    if (shell && k > 0) set_rest_shape(kind_, corners(k), order, 0.0, weighted);
+    Densities::with(kind_, [&]<class Density>() {
+      PoseBlend<Density>::fill(weighted, moduli, map, numbers.data());
+    });
     for (int i = 0; i < numbers_count_; ++i)
       numbers_[(static_cast<std::size_t>(block) * poses_ + k) * numbers_count_ + i].set(lane,
                                                                                         numbers[i]);
@@ -84,9 +91,10 @@ void BlendedCubature::set_weights(const double* weights) {
   const Tets* numbers = numbers_.data();
   Tets* sums = blend_.data();
   for (int b = 0; b < rows_.blocks(); ++b, sums += numbers_count_) {
-    std::fill_n(sums, numbers_count_, Tets(0.0));
+    std::fill_n(sums, sums_count_, Tets(0.0));
+    std::copy(numbers + sums_count_, numbers + numbers_count_, sums + sums_count_);
     for (int k = 0; k < poses_; ++k, numbers += numbers_count_)
-      for (int i = 0; i < numbers_count_; ++i) sums[i] += Tets(weights[k]) * numbers[i];
+      for (int i = 0; i < sums_count_; ++i) sums[i] += Tets(weights[k]) * numbers[i];
   }
 }
 
@@ -150,6 +158,19 @@ void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
   }
 }
 
+/// Sets the Hessian of a shell's element by its displacement gradient against pose 0.
+void BlendedCubature::shell_curvature(int block, int lane, const double G[3][3],
+                                      double hessian[9][9]) const {
+  Densities::with(kind_, [&]<class Density>() {
+    if constexpr (kOfShells<Density>) {
+      double numbers[Density::Blend::kNumbers];
+      for (int i = 0; i < numbers_count_; ++i)
+        numbers[i] = blend_[static_cast<std::size_t>(block) * numbers_count_ + i][lane];
+      Density::Blend::hessian(numbers, G, hessian);
+    }
+  });
+}
+
 /// Hessians (9 x 9) of a block's tets for the weights of the poses; zero for lanes without a tet.
 void BlendedCubature::block_curvatures(int block, Tets hessian[9][9]) const {
   Tets G[3][3];
@@ -158,8 +179,12 @@ void BlendedCubature::block_curvatures(int block, Tets hessian[9][9]) const {
   for (int lane = 0; lane < rows_.lanes(block); ++lane) {
     double own[3][3], sum[9][9] = {};
     for (int e = 0; e < 9; ++e) own[e / 3][e % 3] = G[e / 3][e % 3][lane];
-    for (int k = 0; k < poses_; ++k)
-      if (weights_[k] != 0.0) add_curvature(block * kWidth + lane, k, own, sum);
+    if (is_of_shells(kind_)) {
+      shell_curvature(block, lane, own, sum);
+    } else {
+      for (int k = 0; k < poses_; ++k)
+        if (weights_[k] != 0.0) add_curvature(block * kWidth + lane, k, own, sum);
+    }
     for (int e = 0; e < 81; ++e) hessian[e / 9][e % 9].set(lane, sum[e / 9][e % 9]);
   }
 }

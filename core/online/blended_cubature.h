@@ -7,7 +7,7 @@
 
 namespace snapspace::online {
 
-/// Some tets of a body in several poses.
+/// Some tets of a body in several poses, or some elements of a shell.
 struct PoseTets {
   int poses;
   const double* corners;  ///< poses x tets x 4 x 3: the tets in each pose, none without volume
@@ -25,7 +25,7 @@ class BlendedCubature {
   /// Copies its arrays. The weights of the poses are initially zero.
   /// @param rows  tets x 9 x dimension, displacement gradients of the modes against pose 0
   /// @param weights  tets, the volume in pose 0 that each represents
-  /// @param material  of these tets
+  /// @param material  of these tets; of a shell that of pose 0, see shell_pose_materials
   BlendedCubature(int dimension, int tets, const float* rows, const double* weights,
                   const TetMaterial& material, const PoseTets& poses);
 
@@ -62,12 +62,14 @@ class BlendedCubature {
   [[nodiscard]] Tets block_value_and_stress(int block, const Tets G[3][3], Tets P[3][3]) const;
   void block_curvatures(int block, Tets hessian[9][9]) const;
   void add_curvature(int tet, int pose, const double G[3][3], double hessian[9][9]) const;
+  void shell_curvature(int block, int lane, const double G[3][3], double hessian[9][9]) const;
 
   TetRows rows_;
   HalfRunner* half_runner_ = nullptr;
   int kind_, poses_;
   bool collapses_;
   int numbers_count_, moduli_count_;   // per tet and pose
+  int sums_count_;                     // the numbers that are summed over the poses
   std::vector<double> weights_;        // of the poses
   std::vector<Tets> offsets_;          // block, entry: displacement gradients of tau
   std::vector<double> maps_, moduli_;  // tet, pose: A - I, and the moduli times volume

@@ -6,6 +6,7 @@
 
 #include "element/make_rest_element.h"
 #include "element/tet.h"
+#include "material/shell_rest.h"
 #include "online/reconstruct.h"
 
 namespace snapspace::online {
@@ -28,13 +29,28 @@ ResidualProbe::ResidualProbe(const ProbeBody& body, const ProbeSample& sample,
   modes_.assign(body.modes, body.modes + dimension_ * size);
   rest_shapes_.assign(body.rest_shapes, body.rest_shapes + rests_ * size);
   const std::size_t moduli = static_cast<std::size_t>(body.material.rows) * material_moduli(kind_);
-  moduli_.assign(body.material.moduli, body.material.moduli + moduli);
+  for (int k = 0; k < (is_of_shells(kind_) ? rests_ : 1); ++k)
+    moduli_.insert(moduli_.end(), body.material.moduli, body.material.moduli + moduli);
   tets_.reserve(static_cast<std::size_t>(rests_) * body.tets);
   for (int k = 0; k < rests_; ++k)
     for (int t = 0; t < body.tets; ++t)
       tets_.push_back(make_rest_element(is_of_shells(kind_), rest_shapes_.data() + k * size,
                                         body.tet_corners + 4 * t));
+  if (is_of_shells(kind_) && rests_ > 1) set_rest_numbers(body.tet_corners);
   for (auto* numbers : {&shape_, &displacement_, &gradient_}) numbers->resize(size);
+}
+
+/// The material has the numbers of the rest shape in one pose.
+void ResidualProbe::set_rest_numbers(const std::int32_t* corners) {
+  const std::size_t tets = tets_.size() / rests_, size = 3 * static_cast<std::size_t>(corners_);
+  const int width = material_moduli(kind_);
+  for (std::size_t t = 0; t < tets; ++t) {
+    const double length = 1.0 / tets_[t].inverse_edges[0][0];
+    const double product = moduli_[(t + 1) * width - 2] * length * length * length * length;
+    for (int k = 0; k < rests_; ++k)
+      set_rest_shape(kind_, rest_shapes_.data() + k * size, corners + 4 * t, product,
+                     moduli_.data() + (k * tets + t) * width);
+  }
 }
 
 double ResidualProbe::norm(const double* q, int dimension, const double* offsets,
@@ -42,9 +58,10 @@ double ResidualProbe::norm(const double* q, int dimension, const double* offsets
   reconstruct(shape_.size(), dimension, tau_.data(), modes_.data(), q, shape_.data());
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   const std::size_t tets = tets_.size() / rests_;
+  const std::size_t moduli = is_of_shells(kind_) ? tets * material_moduli(kind_) : 0;
   for (int k = 0; k < rests_; ++k)
     add_elastic(rest_shapes_.data() + k * shape_.size(), tets_.data() + k * tets,
-                weights ? weights[k] : 1.0);
+                moduli_.data() + k * moduli, weights ? weights[k] : 1.0);
   if (offsets) add_pins(offsets);
   double sum = 0.0;
   for (std::size_t i = 0; i < sampled_.size(); ++i) {
@@ -54,10 +71,10 @@ double ResidualProbe::norm(const double* q, int dimension, const double* offsets
   return std::sqrt(sum);
 }
 
-void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, double weight) {
+void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, const double* moduli,
+                                double weight) {
   for (std::size_t i = 0; i < shape_.size(); ++i) displacement_[i] = shape_[i] - rest_shape[i];
   Densities::with(kind_, [&]<class Density>() {
-    const double* moduli = moduli_.data();
     const RestTet* const end = tets + tets_.size() / rests_;
     for (const RestTet* tet = tets; tet != end; ++tet, moduli += moduli_per_tet_) {
       double weighted[Density::kModuli], G[3][3], P[3][3];

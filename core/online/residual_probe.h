@@ -52,13 +52,16 @@ class ResidualProbe {
   double norm(const double* q, int dimension, const double* offsets, const double* weights);
 
  private:
-  void add_elastic(const double* rest_shape, const RestTet* tets, double weight);
+  void set_rest_numbers(const std::int32_t* corners);
+  void add_elastic(const double* rest_shape, const RestTet* tets, const double* moduli,
+                   double weight);
   void add_pins(const double* offsets);
 
   int dimension_, corners_, rests_;
   int kind_, moduli_per_tet_;  // the density, and the stride of moduli; 0 if all tets share them
-  std::vector<double> tau_, modes_, rest_shapes_, moduli_;
-  std::vector<RestTet> tets_;  // of the first rest shape, then of the next
+  std::vector<double> tau_, modes_, rest_shapes_;
+  std::vector<double> moduli_;  // of a shell those of every rest shape
+  std::vector<RestTet> tets_;   // of the first rest shape, then of the next
   std::vector<std::int32_t> sampled_, pinned_, handles_;
   std::vector<double> sample_weights_, pulls_, arms_;
   std::vector<double> shape_, displacement_, gradient_;  // corners x 3

@@ -161,7 +161,6 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
   TetMaterial material;
   const int code = read_material(cubature->material, cubature->tets, material);
   if (code != SNAPSPACE_OK) return fail(error, code);
-  if (snapspace::is_of_shells(material.kind)) return fail(error, SNAPSPACE_BAD_ARGUMENT);
   BlendedCubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
                           {poses, corners, tau});
   return begin(std::make_unique<BlendingCubatureSolver>(std::move(elastic)), *basis, error);

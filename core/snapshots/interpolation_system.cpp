@@ -11,9 +11,29 @@ namespace snapspace {
 
 namespace {
 
+/// Of a shell: the mean of those at rest in the poses, each at its mean weight.
+Eigen::SparseMatrix<double> shell_matrix(const BlendedEnergy& energy,
+                                         const std::vector<double>& weights) {
+  const int poses = energy.poses();
+  const auto samples = static_cast<double>(weights.size() / poses);
+  Eigen::SparseMatrix<double> A;
+  for (int k = 0; k < poses; ++k) {
+    double weight = 0.0;
+    for (std::size_t i = k; i < weights.size(); i += poses) weight += weights[i] / samples;
+    const Eigen::SparseMatrix<double> pose = weight * energy.energy(k).scalar_matrix();
+    A = k == 0 ? pose : Eigen::SparseMatrix<double>(A + pose);
+  }
+  return A;
+}
+
 Eigen::SparseMatrix<double> scalar_matrix(const BlendedEnergy& energy,
                                           const std::vector<double>& shapes,
                                           const std::vector<double>& weights) {
+  if (energy.energy(0).rest.shell) {
+    Eigen::SparseMatrix<double> A = shell_matrix(energy, weights);
+    A.coeffRef(0, 0) *= 2.0;
+    return A;
+  }
   ScalarHessian hessian(energy.energy(0).rest);
   const int size = energy.size();
   std::vector<double> shifted(size);

@@ -34,7 +34,7 @@ def modal_subspace(
     else:
         rests = problem.pose_shapes.reshape(len(problem.poses), -1, 3)
         energies = [problem.pose_energy(k) for k in range(len(rests))]
-        masses = [ss.mass_matrix(ss.TetMesh(rest, problem.poses.tets)) for rest in rests]
+        masses = [ss.mass_matrix(ss.TetMesh(rest, problem.mesh.cells)) for rest in rests]
         bodies = list(zip(energies, masses, rests, strict=True))
     shares = np.full(len(bodies), dimension // len(bodies))
     shares[: dimension % len(bodies)] += 1

@@ -77,7 +77,7 @@ class ResidualProbe(ABC):
         self.corners, local = np.unique(tets[chosen], return_inverse=True)
         self.tets = local.reshape(-1, 4).astype(np.int32)
         self.rests = np.ascontiguousarray(rests.reshape(len(rests), n, 3)[:, self.corners])
-        self.material = _element_material(problem).of_tets(chosen)
+        self.material = problem.element_material.of_tets(chosen)
         self.places = np.searchsorted(self.corners, sample.vertices).astype(np.int32)
         self.weights = sample.weights
         self._find_pins(problem, sampled)
@@ -124,12 +124,6 @@ class ResidualProbe(ABC):
         self.pinned = np.searchsorted(self.corners, vertices).astype(np.int32)
         self.pulls = 2.0 * problem.pin_weights[seen]
         self.arms = problem.mesh.vertices[vertices] - problem.centroids[self.handles]
-
-
-def _element_material(problem: PosingProblem | InterpolationProblem) -> Material | ShellMaterial:
-    if isinstance(problem, PosingProblem):
-        return problem.energy.element_material
-    return problem.material
 
 
 class PosingProbe(ResidualProbe):

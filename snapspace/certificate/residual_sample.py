@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..mesh import tet_volumes
+from ..mesh import ShellMesh, tet_volumes
 from ..problem import InterpolationProblem, PosingProblem
 
 FloatArray = NDArray[np.float64]
@@ -73,11 +73,18 @@ def residual_sample(
 
 
 def scalar_diagonal(problem: PosingProblem | InterpolationProblem) -> FloatArray:
-    """D, (n,): the diagonal of the scalar matrix + 2 weights of pins, at tau."""
+    """D, (n,): the diagonal of the scalar matrix + 2 weights of pins, at tau.
+
+    Of blended shells it is the mean of those at rest in the poses.
+    """
     if isinstance(problem, PosingProblem):
         diagonal: FloatArray = problem.energy.core.scalar_diagonal()
         np.add.at(diagonal, problem.pinned, 2.0 * problem.pin_weights)
         return diagonal
+    if isinstance(problem.mesh, ShellMesh):
+        poses = range(len(problem.poses))
+        diagonals = [problem.pose_energy(k).scalar_diagonal() for k in poses]
+        return np.asarray(np.mean(diagonals, axis=0))
     tets = problem.mesh.elements
     corners = problem.tau.reshape(-1, 3)[tets]
     edges = corners[:, 1:] - corners[:, :1]

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..animation import write_shape
-from ..mesh import tet_volumes
 from ..reduction import InterpolationModel
 from ..session import BlendingSession, FrameReport
 
@@ -62,7 +61,7 @@ def shape_at(
     report = session.blend(weights, extrapolate=extrapolate)
     vertices = session.vertices
     frame_ms = 1e3 * (time.perf_counter() - begin)
-    volumes = tet_volumes(vertices, model.problem.poses.tets)
+    volumes = model.problem.volumes(vertices)
     straight = model.problem.linear_blend(weights, extrapolate=True) if linear else None
     return BlendedShape(
         weights,

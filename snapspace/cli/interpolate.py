@@ -18,7 +18,7 @@ from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
 from ..material import MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
-from ..problem import InterpolationProblem, Simplex
+from ..problem import InterpolationProblem, Poses, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
 from .accurate_pipeline import budget_option, chosen_build, decided_by_hand
 from .build import check_output
@@ -29,9 +29,10 @@ from .dask_cluster import dask_executor
 from .files import make_folder
 from .fit_cache import FitCache
 from .given_options import given_options
-from .options import FILE, TET_COUNT, dask_option, json_option, threads_option
+from .options import FILE, TET_COUNT, dask_option, json_option, shell_option, threads_option
 from .pose_files import PoseOptions, PoseSet, read_poses
 from .printable import printable
+from .shell_pose_files import check_shell_options
 from .summary import print_summary
 
 SAMPLES, DIMENSION = 40, 30
@@ -63,6 +64,7 @@ SAMPLES, DIMENSION = 40, 30
     help="Rms distance at which surface fits end, relative to the diagonal; a larger one is "
     "softer.",
 )
+@shell_option
 @click.option(
     "--scale",
     type=click.Choice(SCALE_POLICIES),
@@ -123,6 +125,7 @@ def interpolate(
     tets: Path | None,
     edge_length: float | None,
     deviation: float,
+    thickness: float | None,
     scale: ScalePolicy,
     accept_inverted: bool,
     save_poses: Path | None,
@@ -143,18 +146,19 @@ def interpolate(
 
     Poses are surfaces (.obj, .off, .ply) with the same faces, or tet meshes (.mesh, .msh, ...) with
     the same tets; vertex i of all poses is the same point of the object. Each pose may have its own
-    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others.
+    frame. Surfaces are filled with tets in the first pose, and the tets are fitted to the others;
+    with --shell they are blended as they are, also open ones.
 
-    Samples and dimension follow from the error of unseen blends, see --target-error, unless you
-    give them.
+    Samples and dimension follow from the error of unseen blends (--target-error), unless given.
 
-    Ctrl-C keeps finished poses and samples beside the model; the same command resumes from there.
+    Ctrl-C keeps finished poses and samples beside the model; the same command resumes.
 
     \b
     Examples:
       snapspace interpolate cylinder.mesh helix.mesh --samples 30 -o helix.snapspace
       snapspace interpolate stand.obj sit.obj run.obj -o cat.snapspace
       snapspace interpolate stand.off sit.off --tets stand.mesh -o cat.snapspace
+      snapspace interpolate calm.obj smile.obj --shell 0.02 -o face.snapspace
     """
     begin = time.perf_counter()
     check_output(output)
@@ -162,14 +166,15 @@ def interpolate(
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     if tets is not None and edge_length is not None:
         raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
-    # faults of options are reported before the work begins
+    if thickness is not None:
+        check_shell_options(kind)
     material = material_class(kind).from_lame(lam=lam, mu=mu)
     domain = Simplex(corners=len(files), extrapolation=extrapolation)
     recipe = choices.recipe(domain, dimension=DIMENSION, threads=threads, known=len(files))
     check_target(target_error)
     check_budget(budget)
     recipe = replace(recipe, tets=cubature_tets)
-    exact = material.exact_degree == 4
+    exact = material.exact_degree == 4 and thickness is None
     if exact and cubature_tets is not None:
         raise ValueError(
             "--cubature-tets is for materials whose reduced energy is a sum over a few tets, but "
@@ -190,6 +195,7 @@ def interpolate(
         tets=tets,
         edge_length=edge_length,
         deviation=deviation,
+        thickness=thickness,
         scale=scale,
         accept_inverted=accept_inverted,
         repair=repair,
@@ -272,6 +278,7 @@ def print_fits(fits: Sequence[PoseFit]) -> None:
 
 def _save_poses(folder: Path, pose_set: PoseSet) -> None:
     poses = pose_set.poses
+    assert isinstance(poses, Poses)  # --shell refuses --save-poses
     for name, shape in zip(poses.names, poses.shapes, strict=True):
         file = folder / f"{name.replace('/', '-').replace(': ', '-')}.msh"
         write_tets(file, poses.reference, vertices=shape)

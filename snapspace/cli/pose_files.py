@@ -27,17 +27,16 @@ from ..mesh import (
 from ..mesh.correspondence import check_same_faces, check_same_tets
 from ..mesh.embed_surface import WHOLE_DIAGONAL
 from ..mesh.input_path import existing_file
-from ..problem import Poses
-from ..registration import ScalePolicy, matched_scales, scale_factors
+from ..problem import Poses, ShellPoses
+from ..registration import ScalePolicy
 from .console import notice
 from .files import SURFACE_INPUTS, TET_INPUTS
 from .fit_cache import FitCache
+from .pose_scales import notice_sizes, scaled_poses
 from .progress import spinner, step_progress
+from .shell_pose_files import read_shell_poses
 
 FloatArray = NDArray[np.float64]
-
-#: A pose whose edges differ from the first one's by more than this factor gets a notice.
-LARGE_CHANGE = 1.05
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +47,7 @@ class PoseOptions:
     edge_length : edge length of the tets that fill it, relative to the diagonal; None for the
         default
     deviation : rms distance from the surfaces that fits aim at, relative to the diagonal
+    thickness : of surfaces that are used as shells; None fills them
     scale : when to scale poses to the size of the first one
     accept_inverted : whether inverted tets in a pose are accepted
     repair : whether to repair faults of the mesh of --tets
@@ -57,6 +57,7 @@ class PoseOptions:
     tets: Path | None
     edge_length: float | None
     deviation: float
+    thickness: float | None
     scale: ScalePolicy
     accept_inverted: bool
     repair: bool
@@ -67,7 +68,7 @@ class PoseOptions:
 class PoseSet:
     """Poses with the user's surface, how they were fitted, and seconds by stage."""
 
-    poses: Poses
+    poses: Poses | ShellPoses
     surface: EmbeddedSurface
     fits: Sequence[PoseFit] = ()
     seconds: dict[str, float] = field(default_factory=dict)
@@ -87,6 +88,11 @@ def read_poses(files: Sequence[Path], options: PoseOptions, cache: FitCache) -> 
     names = pose_names(files)
     for file in files:
         existing_file(file, known=SURFACE_INPUTS + TET_INPUTS)
+    if options.thickness is not None:
+        poses, surface = read_shell_poses(
+            files, names, thickness=options.thickness, scale=options.scale
+        )
+        return PoseSet(poses, surface)
     kinds = {file.suffix.lower() in SURFACE_INPUTS for file in files}
     if len(kinds) == 2:
         raise ValueError(
@@ -124,9 +130,11 @@ def _from_tets(files: Sequence[Path], names: Sequence[str], options: PoseOptions
     if (tet_volumes(*meshes[0]) < 0).all():
         notice(f"notice: {names[0]}: all {len(tets)} tets were inverted and have been flipped")
         tets = np.ascontiguousarray(tets[:, [0, 2, 1, 3]])
-    shapes = _scaled(np.stack([vertices for vertices, _ in meshes]), tets, names, options)
+    shapes = scaled_poses(
+        np.stack([vertices for vertices, _ in meshes]), tets, names, policy=options.scale
+    )
     poses = Poses(shapes, tets, names=names, accept_inverted=options.accept_inverted)
-    _notice_sizes(shapes, tets, names, options)
+    notice_sizes(shapes, tets, names, policy=options.scale)
     return PoseSet(poses, boundary_surface(poses.reference))
 
 
@@ -136,7 +144,9 @@ def _from_surfaces(
     surfaces = [read_surface(file) for file in files]
     check_same_faces(surfaces, names)
     faces = surfaces[0][1]
-    targets = _scaled(np.stack([vertices for vertices, _ in surfaces]), faces, names, options)
+    targets = scaled_poses(
+        np.stack([vertices for vertices, _ in surfaces]), faces, names, policy=options.scale
+    )
     seconds: dict[str, float] = {}
     begin = time.perf_counter()
     mesh = _tets_of(targets[0], faces, options, cache)
@@ -155,37 +165,8 @@ def _from_surfaces(
         names=names,
         accept_inverted=options.accept_inverted,
     )
-    _notice_sizes(targets, faces, names, options)
+    notice_sizes(targets, faces, names, policy=options.scale)
     return PoseSet(poses, surface, fits, seconds)
-
-
-def _scaled(
-    shapes: FloatArray,
-    cells: NDArray[np.int32],
-    names: Sequence[str],
-    options: PoseOptions,
-) -> FloatArray:
-    scaled, factors = matched_scales(shapes, cells, policy=options.scale)
-    for name, factor in zip(names, factors, strict=True):
-        if factor != 1.0:
-            notice(f"notice: {name} is scaled by {factor:.6g} to the size of {names[0]}")
-    return scaled
-
-
-def _notice_sizes(
-    shapes: FloatArray,
-    cells: NDArray[np.int32],
-    names: Sequence[str],
-    options: PoseOptions,
-) -> None:
-    """A notice for each pose of another size, which is elastic strain, with --scale auto."""
-    if options.scale == "auto":
-        for name, factor in zip(names, scale_factors(shapes, cells), strict=True):
-            if abs(np.log(factor)) > np.log(LARGE_CHANGE):
-                notice(
-                    f"notice: the edges of {name} are {1 / factor:.3g} times as long as those of "
-                    f"{names[0]}; --scale match removes that, --scale keep accepts it"
-                )
 
 
 def _tets_of(

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
+from ..energy import ShellMaterial
 from ..material import Material
 from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
@@ -28,13 +29,14 @@ class BlendedCubature:
     Parameters
     ----------
     tets : (r,) int32
-        Which tets of the mesh, ascending.
+        Which tets of the mesh, or which elements of a shell, ascending.
     weights : (r,) float64
-        The volume that each tet stands for in the first pose, > 0.
+        The volume that each tet stands for in the first pose, or the measure of an element, > 0.
     rows : (r, 9, d) float32
         Displacement gradients of the modes against the first pose, see `displacement_gradients`.
-    material : Material
-        The density of these tets, with constant moduli or r values of each.
+    material : Material or ShellMaterial
+        The density of these tets, with constant moduli or r values of each; of a shell that of the
+        first pose.
     corners : (poses + 1, r, 4, 3) float64
         Corners of the tets in every pose, and last in the mean shape.
 
@@ -50,7 +52,7 @@ class BlendedCubature:
         tets: NDArray[np.int32],
         weights: FloatArray,
         rows: NDArray[np.float32],
-        material: Material,
+        material: Material | ShellMaterial,
         corners: FloatArray,
     ) -> None:
         check_chosen(tets, weights, rows, material, who="BlendedCubature")
@@ -86,8 +88,8 @@ class BlendedCubature:
         check_in_mesh(tets, len(problem.mesh.elements), who="BlendedCubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
         shapes = np.concatenate([problem.poses.shapes, subspace.tau.reshape(1, -1, 3)])
-        corners = shapes[:, problem.poses.tets[tets]]
-        return cls(tets, weights, rows, problem.material.of_tets(tets), corners)
+        corners = shapes[:, problem.mesh.elements[tets]]
+        return cls(tets, weights, rows, problem.element_material.of_tets(tets), corners)
 
     def __reduce__(self) -> tuple[type[BlendedCubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""

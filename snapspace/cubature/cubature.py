@@ -78,7 +78,7 @@ class Cubature:
         """
         check_in_mesh(tets, len(problem.mesh.elements), who="Cubature")
         rows = displacement_gradients(problem.mesh, subspace.basis, tets)
-        return cls(tets, weights, rows, problem.energy.element_material.of_tets(tets))
+        return cls(tets, weights, rows, problem.element_material.of_tets(tets))
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh import triangle_areas
 from .finding import Finding
 from .intersections import crossing_faces
 
@@ -22,7 +23,7 @@ _FAR = 100.0
 def face_areas(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, FloatArray]:
     """Areas of faces, and their heights over the longest side as shares of that, (f,) each."""
     a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+    area = triangle_areas(vertices, faces)
     longest = np.maximum.reduce([((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))])
     shape = np.divide(2.0 * area, longest, out=np.zeros_like(area), where=longest > 0)
     return area, shape

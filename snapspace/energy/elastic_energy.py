@@ -29,9 +29,10 @@ class ElasticEnergy:
     material : Material
         Its moduli may be constant, or given per tet or triangle. A shell is `StableNeoHookean` or
         `StVK`, in plane stress.
-    bending : "tangent" or "angle", default "tangent"
-        The strain of a hinge, less that at rest: 2 tan(theta / 2), which grows without bound where
-        a hinge folds onto itself, or the angle theta. For shells only.
+    bending : "angle" or "tangent", default "angle"
+        What measures how far a hinge of a shell is bent: its angle theta, with a hundredth of
+        2 tan(theta / 2) - theta, or 2 tan(theta / 2). Both grow without bound where a hinge folds
+        onto itself. The strain is the difference from rest, over the slope at rest.
 
     Raises
     ------
@@ -48,7 +49,7 @@ class ElasticEnergy:
     ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.
     """
 
-    def __init__(self, mesh: Body, material: Material, *, bending: Bending = "tangent") -> None:
+    def __init__(self, mesh: Body, material: Material, *, bending: Bending = "angle") -> None:
         self.mesh = mesh
         self.material = checked_material(material, len(mesh.cells), "ElasticEnergy")
         self.element_material = element_material(

@@ -14,10 +14,10 @@ from ..material import Material, StableNeoHookean, StVK
 from ..mesh import Body, ShellMesh
 
 FloatArray = NDArray[np.float64]
-Bending = Literal["tangent", "angle"]
+Bending = Literal["angle", "tangent"]
 
 #: Measures of bending, with the ends of their names in the core.
-BENDINGS: dict[Bending, str] = {"tangent": "", "angle": "-angle"}
+BENDINGS: dict[Bending, str] = {"angle": "", "tangent": "-tangent"}
 #: Materials whose membranes the core has.
 MEMBRANES: tuple[type[Material], ...] = (StableNeoHookean, StVK)
 
@@ -27,7 +27,7 @@ class ShellMaterial:
     """What the elements of a shell are made of; for tets it is the `Material` itself.
 
     kind : name of the density in the core
-    moduli : (e, 13), mu and lam of the plane and the bending stiffness, each times its power of the
+    moduli : (e, 15), mu and lam of the plane and the bending stiffness, each times its power of the
         thickness, and numbers of the rest shape; see core/material/shell.h
     """
 
@@ -61,7 +61,7 @@ class ShellMaterial:
 
 
 def element_material(
-    mesh: Body, material: Material, *, bending: Bending = "tangent", who: str
+    mesh: Body, material: Material, *, bending: Bending = "angle", who: str
 ) -> Material | ShellMaterial:
     """The material of a body's elements: that of its tets, or of its triangles and hinges.
 
@@ -74,6 +74,27 @@ def element_material(
         raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
     if not isinstance(mesh, ShellMesh):
         return material
+    return shell_materials(mesh, mesh.vertices[None], material, bending=bending, who=who)[0]
+
+
+def shell_materials(
+    mesh: ShellMesh,
+    poses: FloatArray,
+    material: Material,
+    *,
+    bending: Bending = "angle",
+    who: str,
+) -> list[ShellMaterial]:
+    """The materials of a shell's elements with each of several poses (k, n, 3) as the rest shape.
+
+    Moduli are those in the mesh itself. Bending vanishes where a triangle collapses, relative to
+    the mean areas of all poses, so that blends of energies collapse (core/energy/shell_poses.h).
+
+    Raises
+    ------
+    ValueError
+        For a material without a membrane.
+    """
     if not isinstance(material, MEMBRANES):
         known = " or ".join(one.__name__ for one in MEMBRANES)
         raise ValueError(
@@ -87,8 +108,9 @@ def element_material(
     sides = mesh.areas[mesh.hinge_triangles]
     shares = sides * rigidities(mesh, material)[mesh.hinge_triangles]
     moduli[count:, 2] = shares.sum(axis=1) / sides.sum(axis=1)
-    rows = _core.shell_moduli(mesh.vertices, mesh.elements, moduli)
-    return ShellMaterial(f"shell-{material.kind}{BENDINGS[bending]}", rows)
+    kind = f"shell-{material.kind}{BENDINGS[bending]}"
+    rows = _core.shell_moduli(np.ascontiguousarray(poses), mesh.elements, kind, moduli)
+    return [ShellMaterial(kind, row) for row in rows]
 
 
 def rigidities(mesh: ShellMesh, material: Material) -> FloatArray:

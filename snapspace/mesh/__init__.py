@@ -13,7 +13,7 @@ from .mass import (
     mass_of_cells,
 )
 from .mirror_plane import MirrorPlane
-from .quality import dihedral_angles, tet_volumes
+from .quality import dihedral_angles, tet_volumes, triangle_areas
 from .read import TET_SUFFIXES, MeshNotice, read_tet_arrays, read_tets
 from .read_surface import SURFACE_SUFFIXES, read_surface
 from .repair import repair_tets
@@ -63,6 +63,7 @@ __all__ = [
     "shell_of_file",
     "solid_of",
     "tet_volumes",
+    "triangle_areas",
     "vertex_normals",
     "write_surface",
     "write_tets",

@@ -1,4 +1,4 @@
-"""Sizes and angles of tets: volumes, longest edges, dihedral angles."""
+"""Sizes and angles: areas of triangles; volumes, longest edges and dihedral angles of tets."""
 
 from __future__ import annotations
 
@@ -11,6 +11,13 @@ _EDGES = ((0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3))
 # |volume| <= _FLAT * (longest edge)^3 is called zero. A regular tet has 0.118; rounding of float64
 # coordinates gives about 1e-16; the worst slivers of constrained TetGen meshes have about 1e-9.
 _FLAT = 1e-13
+
+
+def triangle_areas(vertices: FloatArray, triangles: IndexArray) -> FloatArray:
+    """Areas (f,) of triangles (f, 3) between vertices (n, 3)."""
+    a, b, c = (vertices[triangles[:, corner]] for corner in range(3))
+    areas: FloatArray = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2.0
+    return areas
 
 
 def tet_volumes(vertices: FloatArray, tets: IndexArray) -> FloatArray:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .arrays import FloatArray, IndexArray
 from .embedded_surface import EmbeddedSurface, single_vertices
 from .shell_mesh import ShellMesh
 from .surface_file import SurfaceFile
@@ -37,7 +38,20 @@ def shell_of_file(file: SurfaceFile, *, thickness: ArrayLike) -> tuple[ShellMesh
         As for `ShellMesh`.
     """
     compact = file.compact()
-    first, group = equal_points(compact.vertices)
-    places = group.astype(np.int32)
-    mesh = ShellMesh(compact.vertices[first], places[compact.faces], thickness=thickness)
-    return mesh, replace(single_vertices(compact.faces, places), source=compact)
+    mesh = ShellMesh(*welded(compact.vertices, compact.faces)[:2], thickness=thickness)
+    return mesh, welded_surface(compact)
+
+
+def welded(vertices: FloatArray, faces: IndexArray) -> tuple[FloatArray, IndexArray, IndexArray]:
+    """Vertices (w, 3) at different positions, in order; faces (f, 3) of them; and their indices.
+
+    The indices (w,) are those of the first vertex at each position.
+    """
+    first, group = equal_points(vertices)
+    return vertices[first], group.astype(np.int32)[faces], first.astype(np.int32)
+
+
+def welded_surface(file: SurfaceFile) -> EmbeddedSurface:
+    """A file's own surface, whose vertices follow those of `welded`."""
+    group = equal_points(file.vertices)[1].astype(np.int32)
+    return replace(single_vertices(file.faces, group), source=file)

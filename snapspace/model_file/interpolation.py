@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..problem import InterpolationProblem, Poses
+from ..problem import InterpolationProblem, Poses, ShellPoses
 from ..reduction import (
     BlendedCubature,
     FullBlends,
@@ -16,30 +16,31 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, shown_surface, snapshot_energies
+from . import basis, cells, shown_surface, snapshot_energies
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
 _COMMON: dict[str, Types] = {
     "poses": np.float64,
-    "tets": np.int32,
     "mean_shape": np.float64,
     **shown_surface.DTYPES,
     "basis": basis.DTYPES,
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-DTYPES = {**_COMMON, "quartics": np.float64}
-#: With few tets in place of the quartics; their rows are computed from the basis on loading.
-CUBATURE_DTYPES = {**_COMMON, "cubature_tets": np.int32, "cubature_weights": np.float64}
+#: Few tets in place of the quartics; their rows are computed from the basis on loading.
+_CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
+DTYPES = {**_COMMON, **cells.TETS, "quartics": np.float64}
+CUBATURE_DTYPES = {**_COMMON, **cells.TETS, **_CUBATURE}
+SHELL_DTYPES = {**_COMMON, **cells.SHELL, **_CUBATURE}
 
 
 def interpolation_arrays(model: InterpolationModel) -> Arrays:
-    """The arrays of a model; the names are those of DTYPES or CUBATURE_DTYPES."""
+    """The arrays of a model; the names are those of DTYPES, CUBATURE_DTYPES or SHELL_DTYPES."""
     problem = model.problem
     return {
         "poses": problem.poses.shapes,
-        "tets": problem.poses.tets,
+        **cells.cell_arrays(problem.mesh),
         "mean_shape": model.subspace.tau,
         **shown_surface.surface_arrays(model.surface),
         "basis": basis.stored_basis(model.subspace),
@@ -68,15 +69,10 @@ def interpolation_model(
     arrays: Arrays, content: dict[str, Any], provenance: dict[str, Any]
 ) -> InterpolationModel:
     """The model of arrays and content; KeyError, TypeError or ValueError if they do not match."""
-    poses = Poses(
-        arrays["poses"],
-        arrays["tets"],
-        names=content["poses"],
-        accept_inverted=content["accept_inverted"],
-    )
+    poses = _poses(arrays, content)
     problem = InterpolationProblem(
         poses,
-        material=material_file.material(arrays, content["material"], len(poses.tets)),
+        material=material_file.material(arrays, content["material"], len(poses.reference.cells)),
         extrapolation=content["extrapolation"],
         mean_shape=arrays["mean_shape"],
     )
@@ -102,6 +98,22 @@ def interpolation_model(
         training_parameters=arrays["training_parameters"],
         training_coordinates=arrays["training_coordinates"],
         provenance=provenance,
+    )
+
+
+def _poses(arrays: Arrays, content: dict[str, Any]) -> Poses | ShellPoses:
+    if "triangles" in arrays:
+        return ShellPoses(
+            arrays["poses"],
+            arrays["triangles"],
+            thickness=cells.thickness(arrays),
+            names=content["poses"],
+        )
+    return Poses(
+        arrays["poses"],
+        arrays["tets"],
+        names=content["poses"],
+        accept_inverted=content["accept_inverted"],
     )
 
 

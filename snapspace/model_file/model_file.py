@@ -35,12 +35,14 @@ READABLE = (1, 2, 3, 4)
 SUFFIX = ".snapspace"
 POSING, CUBATURE, SHELL = "posing", "posing-cubature", "posing-shell"
 INTERPOLATION, BLENDED_CUBATURE = "interpolation", "interpolation-cubature"
+BLENDED_SHELL = "interpolation-shell"
 _DTYPES = {
     POSING: posing.DTYPES,
     CUBATURE: posing.CUBATURE_DTYPES,
     SHELL: posing.SHELL_DTYPES,
     INTERPOLATION: interpolation.DTYPES,
     BLENDED_CUBATURE: interpolation.CUBATURE_DTYPES,
+    BLENDED_SHELL: interpolation.SHELL_DTYPES,
 }
 
 
@@ -66,6 +68,8 @@ def save_model(model: ReducedModel, path: str | Path) -> Path:
         arrays, content = posing.posing_arrays(model), posing.posing_content(model)
     elif isinstance(model, InterpolationModel):
         kind = INTERPOLATION if model.cubature is None else BLENDED_CUBATURE
+        if isinstance(model.problem.mesh, ShellMesh):
+            kind = BLENDED_SHELL
         arrays = interpolation.interpolation_arrays(model)
         content = interpolation.interpolation_content(model)
     else:
@@ -121,7 +125,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: the checksum does not match: the file was altered; build it again"
         )
     check_finite(path, arrays)
-    blends = kind in (INTERPOLATION, BLENDED_CUBATURE)
+    blends = kind in (INTERPOLATION, BLENDED_CUBATURE, BLENDED_SHELL)
     make = interpolation.interpolation_model if blends else posing.posing_model
     try:
         record = parsed(header, "provenance")

@@ -18,7 +18,7 @@ from ..reduction import (
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, shown_surface, snapshot_energies
+from . import basis, cells, shown_surface, snapshot_energies
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -33,14 +33,11 @@ _COMMON: dict[str, Types] = {
     "training_parameters": np.float64,
     "training_coordinates": np.float64,
 }
-_TETS: dict[str, Types] = {"tets": np.int32}
-#: The thickness has one entry, or one per triangle.
-_SHELL: dict[str, Types] = {"triangles": np.int32, "thickness": np.float64}
 #: Few tets in place of the quartic; their rows are computed from the basis on loading.
 _CUBATURE: dict[str, Types] = {"cubature_tets": np.int32, "cubature_weights": np.float64}
-DTYPES = {**_COMMON, **_TETS, "quartic": np.float64}
-CUBATURE_DTYPES = {**_COMMON, **_TETS, **_CUBATURE}
-SHELL_DTYPES = {**_COMMON, **_SHELL, **_CUBATURE}
+DTYPES = {**_COMMON, **cells.TETS, "quartic": np.float64}
+CUBATURE_DTYPES = {**_COMMON, **cells.TETS, **_CUBATURE}
+SHELL_DTYPES = {**_COMMON, **cells.SHELL, **_CUBATURE}
 
 
 def posing_arrays(model: PosingModel) -> Arrays:
@@ -52,7 +49,8 @@ def posing_arrays(model: PosingModel) -> Arrays:
     problem = model.problem
     sizes = [len(handle.vertices) for handle in problem.handles]
     return {
-        **_body_arrays(problem.mesh),
+        "vertices": problem.mesh.vertices,
+        **cells.cell_arrays(problem.mesh),
         "handle_vertices": problem.pinned,
         "handle_sizes": np.array(sizes, np.int32),
         "basis": basis.stored_basis(model.subspace),
@@ -120,22 +118,10 @@ def posing_model(
     )
 
 
-def _body_arrays(mesh: Body) -> Arrays:
-    if isinstance(mesh, ShellMesh):
-        thickness = np.atleast_1d(np.asarray(mesh.thickness, np.float64))
-        return {"vertices": mesh.vertices, "triangles": mesh.triangles, "thickness": thickness}
-    return {"vertices": mesh.vertices, "tets": mesh.cells}
-
-
 def _body(arrays: Arrays) -> Body:
     if "triangles" not in arrays:
         return TetMesh(arrays["vertices"], arrays["tets"])
-    thickness = arrays["thickness"]
-    return ShellMesh(
-        arrays["vertices"],
-        arrays["triangles"],
-        thickness=thickness[0] if thickness.size == 1 else thickness,
-    )
+    return ShellMesh(arrays["vertices"], arrays["triangles"], thickness=cells.thickness(arrays))
 
 
 def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:

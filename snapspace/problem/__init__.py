@@ -17,6 +17,7 @@ from .problem_file import (
     read_problem_surface,
 )
 from .region import in_box, in_sphere
+from .shell_poses import ShellPoses
 from .simplex import Simplex
 from .solver_traits import Projection, SolverTraits
 from .surface_handles import handles_in_tets
@@ -31,6 +32,7 @@ __all__ = [
     "PosingProblem",
     "Problem",
     "Projection",
+    "ShellPoses",
     "Simplex",
     "SolverTraits",
     "affine_offset",

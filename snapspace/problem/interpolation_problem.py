@@ -13,13 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
+from ..energy import ShellMaterial, shell_materials
 from ..interruptible import run_abandonable
 from ..material import Material, StableNeoHookean, checked_material
-from ..mesh import TetMesh, mass_matrix, mass_of_cells, tet_volumes
+from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
-from .mean_shape import mean_displacement
+from .mean_shape import checked_mean_shape, mean_displacement
+from .pose_sets import as_poses, pose_arguments, restored_poses
 from .poses import Poses
+from .shell_poses import ShellPoses
 from .simplex import Simplex
 from .solver_traits import SolverTraits, interpolation_traits
 
@@ -36,10 +39,11 @@ class InterpolationProblem:
 
     Parameters
     ----------
-    poses : Poses, or a sequence of TetMesh
+    poses : Poses or ShellPoses, or a sequence of TetMesh or of ShellMesh
         Two or more; each may be in its own frame.
     material : Material, default StableNeoHookean(lam=1, mu=1)
-        Any of `MATERIALS`. Moduli are numbers, or arrays with one number per tet.
+        Any of `MATERIALS`; of shells StableNeoHookean or StVK. Moduli are numbers, or arrays with
+        one number per tet or triangle.
     extrapolation : float, default 0
         Samples also come from outside the simplex, which is enlarged by this share about its
         centre. F may have no minimum for negative weights; such samples are reported as not
@@ -50,8 +54,8 @@ class InterpolationProblem:
     Raises
     ------
     ValueError
-        As for `Poses.of`, and for moduli for another number of tets, a negative extrapolation, or
-        a mean shape of another size.
+        As for `Poses.of` and `ShellPoses.of`, and for moduli for another number of tets, a negative
+        extrapolation, or a mean shape of another size.
 
     Notes
     -----
@@ -60,20 +64,21 @@ class InterpolationProblem:
 
     def __init__(
         self,
-        poses: Poses | Sequence[TetMesh],
+        poses: Poses | ShellPoses | Sequence[TetMesh] | Sequence[ShellMesh],
         *,
         material: Material | None = None,
         extrapolation: float = 0.0,
         mean_shape: ArrayLike | None = None,
     ) -> None:
-        self.poses = poses if isinstance(poses, Poses) else Poses.of(poses)
-        self.material = self._checked_material(StableNeoHookean() if material is None else material)
+        self.poses = as_poses(poses)
+        made_of = StableNeoHookean() if material is None else material
+        self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
-            self.mean_shape = self._checked_shape(mean_shape)
+            self.mean_shape = checked_mean_shape(mean_shape, len(self.base))
 
     @property
-    def mesh(self) -> TetMesh:
+    def mesh(self) -> TetMesh | ShellMesh:
         """The first pose."""
         return self.poses.reference
 
@@ -81,7 +86,8 @@ class InterpolationProblem:
     def solving(self) -> SolverTraits:
         """What this problem needs of the solvers."""
         # made anew each time: a stored one and the problem would keep each other in memory
-        return interpolation_traits(self.material, system_near=self._system_near)
+        shell = isinstance(self.mesh, ShellMesh)
+        return interpolation_traits(self.material, shell=shell, system_near=self._system_near)
 
     @property
     def parameter_count(self) -> int:
@@ -138,9 +144,16 @@ class InterpolationProblem:
     def certain_range(self) -> CertainRange | None:
         """Weights for which F certainly has a minimum, tested in all tets; None: no test is known.
 
-        A reduced model has its own range, which is larger because its energy has fewer tets.
+        A reduced model has its own, larger range: its energy has fewer tets.
         """
-        return certain_range(self.material, self.poses.shapes[:, self.poses.tets])
+        if isinstance(self.mesh, ShellMesh):
+            return None
+        return certain_range(self.material, self.poses.shapes[:, self.mesh.cells])
+
+    @cached_property
+    def element_material(self) -> Material | ShellMaterial:
+        """The material of the elements of the first pose."""
+        return self._pose_materials(self.poses.shapes)[0]
 
     @cached_property
     def fingerprint(self) -> str:
@@ -158,6 +171,13 @@ class InterpolationProblem:
     def mass(self, *, lumped: bool = False) -> csr_array:
         """Mass matrix (n, n) of the mean shape; an inverted tet counts with its absolute volume."""
         return self._mass_of(self.tau, lumped=True) if lumped else self._mean_mass
+
+    def volumes(self, x: ArrayLike) -> FloatArray:
+        """Signed volumes (m,) of tets, or areas times thickness, at positions (3n,) or (n, 3)."""
+        vertices, mesh = np.asarray(x, np.float64).reshape(-1, 3), self.mesh
+        if isinstance(mesh, ShellMesh):
+            return np.asarray(triangle_areas(vertices, mesh.cells) * mesh.thickness)
+        return tet_volumes(vertices, mesh.cells)
 
     def check(self, parameters: FloatArray) -> None:
         """ValueError unless the weights (p,) are in the domain."""
@@ -204,7 +224,7 @@ class InterpolationProblem:
     def pose_energy(self, pose: int) -> core.ElasticEnergy:
         """E_k of a pose registered to the mean shape; it takes displacements from there."""
         rest = self.pose_shapes[pose].reshape(-1, 3)
-        return core.ElasticEnergy(rest, self.poses.tets, self.material.core)
+        return core.ElasticEnergy(rest, self.mesh.elements, self._mean_materials[pose].core)
 
     def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
         """Vertices (n, 3) of sum_k w_k pose_k, the linear blend of the registered poses."""
@@ -217,33 +237,28 @@ class InterpolationProblem:
         mean = self.base + mean_displacement(self._rest_system, poses, threads=threads)
         return registered(mean, self.base, self._mass_of(mean))
 
-    def _checked_material(self, material: Material) -> Material:
-        return checked_material(material, len(self.poses.tets), "InterpolationProblem")
-
-    def _checked_shape(self, shape: ArrayLike) -> FloatArray:
-        x = np.array(shape, np.float64).reshape(-1)
-        if x.shape != self.base.shape:
-            raise ValueError(
-                f"InterpolationProblem: the mean shape has {x.size} coordinates, but the poses "
-                f"have {self.base.size}"
-            )
-        if not np.isfinite(x).all():
-            raise ValueError(
-                "InterpolationProblem: the mean shape has a coordinate that is not finite"
-            )
-        return x
-
     @cached_property
     def _rest_system(self) -> core.InterpolationSystem:
         # energies do not depend on the poses' frames, but differences lose digits in distant ones
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        tets, material = self.poses.tets, self.material
-        return run_abandonable(lambda: core.InterpolationSystem(shapes, tets, material.core))
+        elements, material = self.mesh.elements, self.element_material
+        return run_abandonable(lambda: core.InterpolationSystem(shapes, elements, material.core))
 
     def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""
         rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
         return run_abandonable(lambda: rest.adapted(shapes, self.domain.center[None]))
+
+    def _pose_materials(self, shapes: FloatArray) -> Sequence[Material | ShellMaterial]:
+        """The material of the elements with each of the shapes (k, n, 3) of the poses at rest."""
+        if not isinstance(self.mesh, ShellMesh):
+            return [self.material] * len(shapes)
+        return shell_materials(self.mesh, shapes, self.material, who="InterpolationProblem")
+
+    @cached_property
+    def _mean_materials(self) -> Sequence[Material | ShellMaterial]:
+        """Those of the poses registered to the mean shape."""
+        return self._pose_materials(self.pose_shapes.reshape(self.poses.shapes.shape))
 
     @cached_property
     def _mean_mass(self) -> csr_array:
@@ -258,34 +273,28 @@ class InterpolationProblem:
         return near
 
     def _mass_of(self, shape: FloatArray, *, lumped: bool = False) -> csr_array:
-        tets = self.poses.tets
-        volumes = np.abs(tet_volumes(shape.reshape(-1, 3), tets))
-        return mass_of_cells(tets, volumes, lumped=lumped)
+        return mass_of_cells(self.mesh.cells, np.abs(self.volumes(shape)), lumped=lumped)
 
     def __reduce__(self) -> tuple[Callable[..., InterpolationProblem], tuple[Any, ...]]:
         # pickles the definition, and the mean shape if it is known because it takes long to find.
         # The compiled system and other caches are made again where needed
-        poses = self.poses
-        inverted = bool(poses.inverted_tets.any())
-        mean_shape = vars(self).get("mean_shape")
-        definition = (poses.shapes, poses.tets, poses.names, inverted, self.material)
-        return _interpolation_problem, (*definition, self.domain.extrapolation, mean_shape)
+        poses, mean_shape = pose_arguments(self.poses), vars(self).get("mean_shape")
+        return _restored, (poses, self.material, self.domain.extrapolation, mean_shape)
 
     def __repr__(self) -> str:
         return f"InterpolationProblem({self.poses!r})"
 
 
-def _interpolation_problem(
-    shapes: FloatArray,
-    tets: NDArray[np.int32],
-    names: Sequence[str],
-    accept_inverted: bool,
+def _restored(
+    poses: tuple[Any, ...],
     material: Material,
     extrapolation: float,
     mean_shape: FloatArray | None,
 ) -> InterpolationProblem:
     """The problem from a pickle, checked again and with read-only arrays."""
-    poses = Poses(shapes, tets, names=names, accept_inverted=accept_inverted)
     return InterpolationProblem(
-        poses, material=material, extrapolation=extrapolation, mean_shape=mean_shape
+        restored_poses(*poses),
+        material=material,
+        extrapolation=extrapolation,
+        mean_shape=mean_shape,
     )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
@@ -16,6 +16,19 @@ TOLERANCE = 1e-9
 #: On the Lion 40, 80 and 160 need 240, 240 and 330 iterations in all; no adaptation needs 1100.
 _STAGE = 80
 _MOST_STAGES = 200
+
+
+def checked_mean_shape(shape: ArrayLike, size: int) -> FloatArray:
+    """A mean shape (3n,) that is already known; ValueError for another size than that of poses."""
+    x = np.array(shape, np.float64).reshape(-1)
+    if len(x) != size:
+        raise ValueError(
+            f"InterpolationProblem: the mean shape has {len(x)} coordinates, but the poses have "
+            f"{size}"
+        )
+    if not np.isfinite(x).all():
+        raise ValueError("InterpolationProblem: the mean shape has a coordinate that is not finite")
+    return x
 
 
 def mean_displacement(

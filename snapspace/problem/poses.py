@@ -11,7 +11,7 @@ from ..input_error import InputError, fault_of
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
 from ..mesh.quality import flat_tets
-from .names import check_names
+from .pose_shapes import as_names, as_shapes, check_finite_shapes, check_pose_count
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
@@ -48,9 +48,9 @@ class Poses:
         names: Sequence[str] | None = None,
         accept_inverted: bool = False,
     ) -> None:
-        self._shapes = _as_shapes(shapes)
-        self._names = _as_names(names, len(self._shapes))
-        _check_finite(self._shapes, self._names)
+        self._shapes = as_shapes(shapes, who="Poses")
+        self._names = as_names(names, len(self._shapes), who="Poses")
+        check_finite_shapes(self._shapes, self._names, who="Poses")
         self._reference = _reference(self._shapes[0], tets, self._names[0])
         self._volumes = np.stack([self._volumes_of(pose) for pose in range(len(self))])
         inverted: NDArray[np.int64] = (self._volumes < 0).sum(axis=1)
@@ -69,9 +69,8 @@ class Poses:
         accept_inverted: bool = False,
     ) -> Poses:
         """Poses from meshes with the same tets; ValueError names the first difference."""
-        if len(meshes) < 2:
-            raise ValueError(f"Poses: got {_poses(len(meshes))}, but at least two are needed")
-        names = _as_names(names, len(meshes))
+        check_pose_count(len(meshes), who="Poses")
+        names = as_names(names, len(meshes), who="Poses")
         try:
             check_same_tets([(mesh.vertices, mesh.tets) for mesh in meshes], names)
         except ValueError as error:
@@ -149,46 +148,6 @@ class Poses:
                     "mend it, or pass accept_inverted=True (command line: "
                     "--accept-inverted)"
                 )
-
-
-def _poses(count: int) -> str:
-    return f"{count} pose{'' if count == 1 else 's'}"
-
-
-def _as_shapes(shapes: ArrayLike) -> FloatArray:
-    """A new (k, n, 3) float64 array of two or more shapes; ValueError for any other input."""
-    try:
-        array = np.asarray(shapes)
-    except ValueError:
-        raise ValueError(
-            "Poses: shapes must be one array (k, n, 3); the poses have different vertex counts"
-        ) from None
-    if array.ndim != 3 or array.shape[2] != 3 or array.dtype.kind not in "fiu":
-        raise ValueError(
-            f"Poses: shapes must be real numbers (k, n, 3), got {array.dtype} of shape "
-            f"{array.shape}"
-        )
-    if len(array) < 2:
-        raise ValueError(f"Poses: got {_poses(len(array))}, but at least two are needed")
-    return np.array(array, dtype=np.float64, order="C")
-
-
-def _as_names(names: Sequence[str] | None, count: int) -> tuple[str, ...]:
-    if names is None:
-        return tuple(f"pose {i}" for i in range(count))
-    check_names(names, count, who="Poses", what=_poses(count))
-    return tuple(names)
-
-
-def _check_finite(shapes: FloatArray, names: tuple[str, ...]) -> None:
-    bad = np.argwhere(~np.isfinite(shapes).all(axis=2))
-    if len(bad):
-        pose, vertex = bad[0]
-        x, y, z = shapes[pose, vertex]
-        raise ValueError(
-            f"Poses: {names[pose]}: vertex {vertex} is not finite ({x:g}, {y:g}, {z:g}); correct "
-            "the coordinates at their source"
-        )
 
 
 def _reference(vertices: FloatArray, tets: ArrayLike, name: str) -> TetMesh:

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..energy import ElasticEnergy
+from ..energy import ElasticEnergy, ShellMaterial
 from ..interruptible import run_abandonable
 from ..material import DEFAULT_MATERIAL, Material, checked_material
 from ..mesh import Body, ShellMesh, mass_matrix
@@ -119,6 +119,11 @@ class PosingProblem:
         return other
 
     @property
+    def element_material(self) -> Material | ShellMaterial:
+        """The material of the elements."""
+        return self.energy.element_material
+
+    @property
     def solving(self) -> SolverTraits:
         """What this problem needs of the solvers."""
         # made anew each time: a stored one and the problem would keep each other in memory
@@ -191,7 +196,7 @@ class PosingProblem:
     @cached_property
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
-        elastic = self.mesh.vertices, self.mesh.elements, self.energy.element_material.core
+        elastic = self.mesh.vertices, self.mesh.elements, self.element_material.core
         pins = self.pinned, self.pin_weights
         return run_abandonable(lambda: core.PosingSystem(*elastic, *pins))
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
+from ..energy import ShellMaterial
 from ..material import Material
 from ..mesh import Body, TetMesh
 from ..sampling import Domain
@@ -38,6 +39,11 @@ class Problem(Protocol):
     @property
     def material(self) -> Material:
         """What the body is made of; moduli are uniform, or one per cell of the mesh."""
+        ...
+
+    @property
+    def element_material(self) -> Material | ShellMaterial:
+        """What the elements of the mesh are made of: tets, or triangles and hinges."""
         ...
 
     @property

@@ -117,7 +117,7 @@ def _shear_share(material: Material) -> float:
 
 
 def interpolation_traits(
-    material: Material, *, system_near: Callable[[FloatArray], Any]
+    material: Material, *, shell: bool, system_near: Callable[[FloatArray], Any]
 ) -> SolverTraits:
     """Traits of interpolation.
 
@@ -130,7 +130,7 @@ def interpolation_traits(
         loose_tolerance=1e-6,
         settling=0.0,
         patience=PATIENCE,
-        projection=_projection(material),
+        projection="clamp" if shell else _projection(material),
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,

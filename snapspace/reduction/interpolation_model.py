@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..cubature import BlendedCubature, WeightedCubature
+from ..mesh import ShellMesh
 from ..problem import CertainRange, InterpolationProblem, certain_range
 from .full_energy import FullBlends, FullEnergy
 from .quartic import PoseQuartics, Quartic
@@ -48,9 +49,9 @@ class InterpolationModel(ReducedModel):
         Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
         full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
         """
-        if self.cubature is None:
+        if self.cubature is None or isinstance(self.problem.mesh, ShellMesh):
             return None
-        return certain_range(self.cubature.material, self.cubature.corners[:-1])
+        return certain_range(self.problem.material, self.cubature.corners[:-1])
 
     def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
         """The reduced energy for weights (poses,)."""

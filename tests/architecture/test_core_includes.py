@@ -11,7 +11,7 @@ CORE = Path(__file__).parents[2] / "core"
 ALLOWED: dict[str, set[str]] = {
     "dense": set(),
     "element": set(),
-    "material": {"simd"},
+    "material": {"element", "simd"},
     "memory": set(),
     "mesh": {"element", "memory"},
     "simd": set(),

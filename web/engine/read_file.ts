@@ -27,7 +27,7 @@ import { diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
 export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
   if (kind === "posing" || kind === "posing-cubature") return readPosing(container, name);
-  if (kind === "posing-shell")
+  if (kind === "posing-shell" || kind === "interpolation-shell")
     throw new UnreadableModel("This is a model of a shell. Open it with `snapspace view FILE`.");
   if (kind === "interpolation" || kind === "interpolation-cubature")
     return readInterpolation(container, name);

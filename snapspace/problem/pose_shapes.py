@@ -1,0 +1,60 @@
+"""Checks of the shapes and the names of poses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .names import check_names
+
+FloatArray = NDArray[np.float64]
+
+
+def pose_count(count: int) -> str:
+    """1 pose, 2 poses, ..."""
+    return f"{count} pose{'' if count == 1 else 's'}"
+
+
+def check_pose_count(count: int, *, who: str) -> None:
+    """ValueError for fewer than two poses."""
+    if count < 2:
+        raise ValueError(f"{who}: got {pose_count(count)}, but at least two are needed")
+
+
+def as_shapes(shapes: ArrayLike, *, who: str) -> FloatArray:
+    """A new (k, n, 3) float64 array of two or more shapes; ValueError for any other input."""
+    try:
+        array = np.asarray(shapes)
+    except ValueError:
+        raise ValueError(
+            f"{who}: shapes must be one array (k, n, 3); the poses have different vertex counts"
+        ) from None
+    if array.ndim != 3 or array.shape[2] != 3 or array.dtype.kind not in "fiu":
+        raise ValueError(
+            f"{who}: shapes must be real numbers (k, n, 3), got {array.dtype} of shape "
+            f"{array.shape}"
+        )
+    check_pose_count(len(array), who=who)
+    return np.array(array, dtype=np.float64, order="C")
+
+
+def as_names(names: Sequence[str] | None, count: int, *, who: str) -> tuple[str, ...]:
+    """The names, or pose 0, pose 1, ...; ValueError unless there is a unique one per pose."""
+    if names is None:
+        return tuple(f"pose {i}" for i in range(count))
+    check_names(names, count, who=who, what=pose_count(count))
+    return tuple(names)
+
+
+def check_finite_shapes(shapes: FloatArray, names: tuple[str, ...], *, who: str) -> None:
+    """ValueError that names the first vertex (k, n, 3) that is not finite."""
+    bad = np.argwhere(~np.isfinite(shapes).all(axis=2))
+    if len(bad):
+        pose, vertex = bad[0]
+        x, y, z = shapes[pose, vertex]
+        raise ValueError(
+            f"{who}: {names[pose]}: vertex {vertex} is not finite ({x:g}, {y:g}, {z:g}); correct "
+            "the coordinates at their source"
+        )
