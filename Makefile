@@ -5,6 +5,8 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.tools
 CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
+# Programs that tests and checks start load compiled modules, also where the user's Python makes none.
+export PYTHONDONTWRITEBYTECODE :=
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
 .PHONY: setup demo wheel wheels viewer blender paper test sanitize docs lint format clean
