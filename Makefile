@@ -9,7 +9,7 @@ CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp')
 export PYTHONDONTWRITEBYTECODE :=
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo wheel wheels viewer blender paper test sanitize docs lint format clean
+.PHONY: setup demo wheel wheels viewer blender paper test sanitize fuzz docs lint format clean
 
 setup: $(STAMP) $(TOOLS)
 
@@ -60,6 +60,10 @@ test: setup
 # Tests the core with ASan, UBSan and assertions; see `$(BIN)/python tools/sanitize.py --help`.
 sanitize: setup
 	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
+
+# Gives every reader mutated files, the same in every run.
+fuzz: setup
+	$(BIN)/python -m fuzz --seconds 240 --executions 6000
 
 # Builds the site, build/docs/index.html. Warnings are errors.
 docs: setup
