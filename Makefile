@@ -5,9 +5,11 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 TOOLS := $(VENV)/.tools
 CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp') CMakeLists.txt pyproject.toml
+# Programs that tests and checks start load compiled modules, also where the user's Python makes none.
+export PYTHONDONTWRITEBYTECODE :=
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo wheel wheels viewer blender paper test sanitize docs lint format clean
+.PHONY: setup demo wheel wheels viewer blender paper test sanitize fuzz docs lint format clean
 
 setup: $(STAMP) $(TOOLS)
 
@@ -58,6 +60,10 @@ test: setup
 # Tests the core with ASan, UBSan and assertions; see `$(BIN)/python tools/sanitize.py --help`.
 sanitize: setup
 	$(BIN)/python tools/sanitize.py --numprocesses 2 --dist worksteal
+
+# Gives every reader mutated files, the same in every run.
+fuzz: setup
+	$(BIN)/python -m fuzz --seconds 240 --executions 6000
 
 # Builds the site, build/docs/index.html. Warnings are errors.
 docs: setup

@@ -16,7 +16,6 @@ from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import CellArray, FileContent
 from .input_path import existing_file
 from .medit import read_medit
-from .meshio_reader import read_with_meshio
 from .quality import tet_volumes
 from .repair import repair_tets
 from .tet_mesh import TetMesh
@@ -120,12 +119,19 @@ def _flip_if_all_inverted(points: FloatArray, tets: CellArray) -> tuple[CellArra
     return tets[:, [0, 2, 1, 3]], [note]
 
 
+def _read_with_meshio(path: Path, file_format: str) -> FileContent:
+    # imported here: meshio takes a tenth of the time of loading this package
+    from .meshio_reader import read_with_meshio
+
+    return read_with_meshio(path, file_format)
+
+
 _READERS: dict[str, Callable[[Path], FileContent]] = {
     ".mesh": read_medit,
-    ".meshb": partial(read_with_meshio, file_format="MEDIT"),
-    ".msh": partial(read_with_meshio, file_format="Gmsh"),
-    ".vtk": partial(read_with_meshio, file_format="VTK"),
-    ".vtu": partial(read_with_meshio, file_format="VTU"),
+    ".meshb": partial(_read_with_meshio, file_format="MEDIT"),
+    ".msh": partial(_read_with_meshio, file_format="Gmsh"),
+    ".vtk": partial(_read_with_meshio, file_format="VTK"),
+    ".vtu": partial(_read_with_meshio, file_format="VTU"),
     ".node": read_tetgen,
     ".ele": read_tetgen,
     ".veg": read_veg,

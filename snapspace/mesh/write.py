@@ -7,8 +7,8 @@ import io
 import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
-import meshio
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -73,9 +73,9 @@ def write_tets(
         ones = np.ones(len(mesh.tets), dtype=np.int32)
         cell_data = {"gmsh:physical": [ones], "gmsh:geometrical": [ones]}
         data["gmsh:dim_tags"] = np.tile([3.0, 1.0], (len(points), 1)).astype(np.int32)
-    content = meshio.Mesh(points, cells, point_data=data, cell_data=cell_data)
     file_format, options = _TET_FORMATS[file.suffix.lower()]
     with atomic_file(file) as temporary:
+        content = {"points": points, "cells": cells, "point_data": data, "cell_data": cell_data}
         _write_with_meshio(temporary, content, file_format, options)
 
 
@@ -147,12 +147,15 @@ def _checked_data(name: str, values: ArrayLike, count: int, suffix: str) -> Floa
 
 
 def _write_with_meshio(
-    path: Path, content: meshio.Mesh, file_format: str, options: _Options
+    path: Path, content: Mapping[str, Any], file_format: str, options: _Options
 ) -> None:
+    # imported here: it takes a tenth of the time of loading this package
+    import meshio
+
     # meshio prints advice to the console
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         try:
-            meshio.write(path, content, file_format=file_format, **options)
+            meshio.write(path, meshio.Mesh(**content), file_format=file_format, **options)
         except meshio.WriteError as error:
             raise ValueError(f"the file cannot be written as {file_format}: {error}") from None
 

@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import RBFInterpolator
 from scipy.spatial import cKDTree
 
 from .. import _core as core
@@ -90,6 +89,9 @@ def _weights_of_distinct(points: FloatArray, wanted: FloatArray) -> FloatArray:
 def _radial_weights(
     points: FloatArray, wanted: FloatArray, *, kernel: Kernel, degree: int
 ) -> FloatArray:
+    # imported here: scipy.interpolate takes a sixth of the time of loading this package
+    from scipy.interpolate import RBFInterpolator
+
     neighbours = min(NEIGHBOURS, len(points))
     data = np.eye(len(points))
     interpolant = RBFInterpolator(points, data, kernel=kernel, degree=degree, neighbors=neighbours)

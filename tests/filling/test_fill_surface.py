@@ -16,7 +16,7 @@ from snapspace.mesh.tet_search import closest_boundary_faces
 
 from .surfaces import Surface, surface_of
 
-COARSE = {"edge_length": 0.3, "tolerance": 4e-3}
+COARSE = {"edge_length": 0.3, "tolerance": 1e-2}
 
 
 @pytest.fixture(scope="module")

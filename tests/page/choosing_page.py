@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from snapspace.generators import bar
 
-from .pages import SECONDS, OpenPage, Page, Point
+from .pages import PAUSE, SECONDS, OpenPage, Page, Point
 
 #: Most tests choose handles on it.
 BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
@@ -110,11 +110,18 @@ def set_number(page: Page, label: str, value: float) -> None:
     field.fill(str(value))
 
 
+def compute(page: Page, most_samples: int = 20, percent: float = 50.0) -> None:
+    """Begins to compute; as it stands, one model is good enough."""
+    set_number(page, "Error of unseen motions, %", percent)
+    set_number(page, "Samples, at most", most_samples)
+    press(page, "Compute")
+
+
 def wait_for_text(page: Page, selector: str, text: str) -> None:
     end = time.monotonic() + SECONDS
     while text not in (found := page.text(selector)):
         assert time.monotonic() < end, f"no '{text}' in: {found}"
-        page.page.wait_for_timeout(20)
+        page.page.wait_for_timeout(PAUSE)
 
 
 def widen(page: Page, degrees: float = 120.0) -> None:

@@ -15,6 +15,7 @@ SECONDS = 60.0  # software rendering on a busy machine is slow
 BLANK = "about:blank"
 #: Pixels of the picture per pixel of the page: software draws a quarter of them, places stay.
 SCALE = 0.5
+PAUSE = 40  # milliseconds between two looks
 
 
 class Page:
@@ -64,7 +65,7 @@ class Page:
         end = time.monotonic() + SECONDS
         while not self.run(condition):
             assert time.monotonic() < end, f"still not: {condition}"
-            self.page.wait_for_timeout(20)
+            self.page.wait_for_timeout(PAUSE)
 
     def settle(self) -> None:
         """Waits until everything that was asked for is drawn."""
@@ -89,8 +90,8 @@ class Page:
         if shift:
             keyboard.down("Shift")
         mouse.down()
-        for step in range(1, 6):
-            mouse.move(start[0] + dx * step / 5, start[1] + dy * step / 5)
+        for step in range(1, 4):
+            mouse.move(start[0] + dx * step / 3, start[1] + dy * step / 3)
             self.settle()
         mouse.up()
         if shift:
@@ -126,9 +127,12 @@ class Tabs:
         self._options: dict[Page, str] = {}
 
     def open(self, address: str, *, size: tuple[int, int] = (800, 480), **options: Any) -> Page:
-        """A page of `size`; other options are those of Playwright's contexts."""
+        """A page of `size`; other options are those of Playwright's contexts.
+
+        Nothing in it moves by itself, such as a progress bar: that would take half of a processor.
+        """
         viewport = {"width": size[0], "height": size[1]}
-        options = {"device_scale_factor": SCALE, **options}
+        options = {"device_scale_factor": SCALE, "reduced_motion": "reduce", **options}
         key = repr(sorted(options.items()))
         free = self._free.setdefault(key, [])
         if free:

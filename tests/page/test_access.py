@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from .choosing_page import press, wait_for_text
-from .pages import OpenPage, Page
+from .pages import OpenPage, Page, Tabs
 from .serving import served
 
 #: Controls that are too small for fingers: narrower or lower than 44 pixels.
@@ -22,6 +23,7 @@ OVERFLOWING = """[...document.querySelectorAll("#panel, #panel section *")].filt
     && getComputedStyle(e).display !== "inline" && !["INPUT", "SELECT"].includes(e.tagName)
 ).map((e) => `${e.outerHTML.slice(0, 90)} ${e.scrollWidth} > ${e.clientWidth}`)"""
 
+PHONE: dict[str, Any] = {"size": (390, 844), "has_touch": True, "is_mobile": True}
 LONG = "the_left_hand_of_the_creature_that_waves_to_everybody"
 #: Parts of the page that the notice of the connection covers.
 COVERED = """(() => {
@@ -54,16 +56,19 @@ def with_everything(page: Page) -> None:
 
 
 def test_controls_are_large_enough_for_fingers(
-    bar_server: str, posing_page: Path, many_poses_page: Path, opened: OpenPage
+    bar_server: str, posing_page: Path, many_poses_page: Path, tabs: Tabs
 ) -> None:
-    phone = {"size": (390, 844), "has_touch": True, "is_mobile": True}
-    page = opened(bar_server, **phone)
+    """One page after the other, in the same tab."""
+    page = tabs.open(bar_server, **PHONE)
     with_everything(page)
     assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
-    page = opened(posing_page.as_uri(), **phone)
+    tabs.close(page)
+    page = tabs.open(posing_page.as_uri(), **PHONE)
     assert page.run(SMALL) == [] and page.run(OVERFLOWING) == []
-    page = opened(many_poses_page.as_uri(), **phone)
+    tabs.close(page)
+    page = tabs.open(many_poses_page.as_uri(), **PHONE)
     assert page.run(SMALL) == []
+    tabs.close(page)
 
 
 def test_forced_colours_and_long_names(bar_server: str, opened: OpenPage) -> None:

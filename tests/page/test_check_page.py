@@ -8,7 +8,7 @@ import numpy as np
 
 from snapspace.mesh import write_surface
 
-from .choosing_page import BAR, ends_as_handles, press, set_number, wait_for_text
+from .choosing_page import BAR, compute, ends_as_handles, press, wait_for_text
 from .pages import OpenPage
 from .serving import served
 
@@ -37,8 +37,7 @@ def test_holes_are_listed_and_what_closes_them_is_drawn(
         for corner in missing.reshape(-1, 3):
             assert np.abs(corners - corner).max(axis=1).min() < 1e-6
         ends_as_handles(page)
-        set_number(page, "Samples, at most", 20)
-        press(page, "Compute")
+        compute(page)
         page.wait("snapspace.kind === 'posing'")
         assert page.run(INVENTED) == [], "a posed shape is not that surface"
         press(page, "Choose handles")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from snapspace.page import export_html
 
 from ..conftest import interpolation_model
 from ..shapes import bent, irregular_bar
-from .pages import OpenPage, Page
+from .pages import OpenPage, Page, Tabs
 
 NOTICE = ".notice"
 
@@ -26,13 +27,25 @@ def model() -> InterpolationModel:
     return interpolation_model(problem, 20, 8)
 
 
+@pytest.fixture(scope="module")
+def kept_page(
+    model: InterpolationModel, tabs: Tabs, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Page]:
+    path = export_html(model, tmp_path_factory.mktemp("beyond") / "poses.html")
+    page = tabs.open(path.as_uri(), size=(900, 800))
+    yield page
+    tabs.close(page)
+
+
 @pytest.fixture
-def page(model: InterpolationModel, tmp_path: Path, opened: OpenPage) -> Page:
-    path = export_html(model, tmp_path / "poses.html")
-    page = opened(path.as_uri(), size=(900, 800))
-    page.page.get_by_role("button", name="Beyond").click()
-    page.settle()
-    return page
+def page(kept_page: Page) -> Page:
+    """Equal weights, and sliders that go beyond; tests share the page."""
+    beyond = kept_page.page.get_by_role("button", name="Beyond")
+    if beyond.get_attribute("aria-pressed") != "true":
+        beyond.click()
+    kept_page.page.get_by_role("button", name="Mean").click()
+    kept_page.settle()
+    return kept_page
 
 
 def fill(page: Page, name: str, weight: float) -> None:

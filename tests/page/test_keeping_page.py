@@ -23,6 +23,7 @@ from .choosing_page import (
     ENDS,
     bar_with_ends,
     cancel,
+    compute,
     handles,
     press,
     saved_file,
@@ -31,7 +32,7 @@ from .choosing_page import (
 from .pages import OpenPage, Page
 from .serving import served
 from .test_pull_page import free_vertex, press_pull, window
-from .test_workspace_page import RECORDING, compute
+from .test_workspace_page import RECORDING, recorded
 
 NAMES = "snapspace.session.model.handles.map(({ name }) => name)"
 
@@ -82,7 +83,7 @@ def test_a_kept_point_becomes_a_handle_without_a_jolt(
         np.testing.assert_allclose(np.concatenate(page.motions()[handle]), np.concatenate(motion))
     page.page.wait_for_timeout(600)
     improved = page.shown()
-    steps = np.array(page.run("window.recorded"))
+    steps = recorded(page)
     assert steps.max() < 0.8 * steps.sum(), "the better shape comes in several steps"
     assert not page.page.get_by_role("button", name="Let go").is_visible() or (
         page.page.get_by_role("button", name="Let go").is_disabled()

@@ -14,11 +14,11 @@ from snapspace.material import MATERIALS
 from .choosing_page import (
     BAR,
     bar_with_ends,
+    compute,
     handles,
     places,
     press,
     saved_file,
-    set_number,
     stroke,
     tool,
     wait_for_text,
@@ -117,8 +117,7 @@ def test_they_are_computed_with_and_saved(page: Page, bar_folder: Path, kind: st
         page.page.get_by_label("Poisson's ratio").fill("0.4")
     make_part(page, "Stiff", 0.3, 0.6)
     make_part(page, "Soft", 0.5, 0.7)
-    set_number(page, "Samples, at most", 20)
-    press(page, "Compute")
+    compute(page)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Done in")
     assert page.run("snapspace.session.model.material") == kind

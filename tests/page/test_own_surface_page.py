@@ -12,7 +12,7 @@ import pytest
 from snapspace import PosingModel, export_html, load, read_surface
 from snapspace.mesh import write_surface
 
-from .choosing_page import BAR, ends_as_handles, handles, press, set_number, tool, wait_for_text
+from .choosing_page import BAR, compute, ends_as_handles, handles, press, tool, wait_for_text
 from .frames import session_at_frame
 from .pages import OpenPage, Page
 from .serving import served
@@ -56,8 +56,7 @@ def test_it_is_chosen_on_computed_dragged_polished_and_saved(
     foot = vertices[sorted(chosen["foot"]), 0]
     assert foot.max() < 1.7 and len(foot) >= np.count_nonzero(vertices[:, 0] < 0.5)
 
-    set_number(page, "Samples, at most", 20)
-    press(page, "Compute")
+    compute(page)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Done in")
     assert page.run("snapspace.session.model.space.vertices") == len(vertices)

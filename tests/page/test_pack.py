@@ -16,6 +16,7 @@ from snapspace import Cubature, InterpolationModel, PosingModel, Quartic, Reduce
 from snapspace.material import MATERIALS
 from snapspace.model_file.container import Arrays, read_container
 from snapspace.page import packed
+from snapspace.page.painted import handle_of_vertex
 from snapspace.page.shape_space import quantised
 
 from .material_models import material_model
@@ -87,14 +88,18 @@ def test_handles_look_as_they_were_painted(own_surface_model: PosingModel, tmp_p
     count, names = len(own_surface_model.surface.corners), own_surface_model.problem.handles.names
     painted = {name: [3 * index, 3 * index + 1] for index, name in enumerate(names)}
 
+    def painted_model(record: object) -> PosingModel:
+        return replace(own_surface_model, provenance={"painted": record})
+
     def owners(record: object) -> np.ndarray:
-        model = replace(own_surface_model, provenance={"painted": record})
-        return unpacked(model, tmp_path)[0]["handle_of_vertex"]
+        return handle_of_vertex(painted_model(record))
 
     expected = np.full(count, -1)
     for index, name in enumerate(names):
         expected[painted[name]] = index
     assert np.array_equal(owners(painted), expected)
+    arrays, _ = unpacked(painted_model(painted), tmp_path)
+    assert np.array_equal(arrays["handle_of_vertex"], expected)
     nearest = owners(None)
     assert np.count_nonzero(nearest >= 0) > 6
     first = names[0]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from snapspace import PosingModel, load, read_problem
 from snapspace.generators import bar
@@ -18,6 +19,7 @@ from .choosing_page import (
     BAR,
     bar_with_ends,
     cancel,
+    compute,
     ends_as_handles,
     handles,
     press,
@@ -48,7 +50,7 @@ def page(bar_server: str, opened: OpenPage) -> Page:
 RECORDING = """window.recorded = [];
 let last = snapspace.shown();
 const record = () => {
-    if (snapspace.kind !== "posing") return;
+    if (snapspace.kind !== "posing" || window.recorded === null) return;
     const now = snapspace.shown();
     const step = now.reduce((most, x, i) => Math.max(most, Math.abs(x - last[i])), 0);
     if (step > 0) window.recorded.push(step);
@@ -57,12 +59,12 @@ const record = () => {
 };
 requestAnimationFrame(record);
 snapspace.session.model.dimension"""
+STOP = "(() => { const { recorded } = window; window.recorded = null; return recorded; })()"
 
 
-def compute(page: Page, most_samples: int = 20, percent: float = 50.0) -> None:
-    set_number(page, "Error of unseen motions, %", percent)
-    set_number(page, "Samples, at most", most_samples)
-    press(page, "Compute")
+def recorded(page: Page) -> NDArray[np.float64]:
+    """Ends the recording, which reads every picture."""
+    return np.array(page.run(STOP))
 
 
 def test_it_is_dragged_while_it_improves_and_saved(
@@ -71,7 +73,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
     chosen = handles(page)
     press(page, "Range")
     page.page.get_by_label("Turn, plus or minus").first.fill("30")
-    compute(page, most_samples=300, percent=0.01)
+    compute(page, most_samples=200, percent=0.01)
     page.wait("snapspace.kind === 'posing'")
     wait_for_text(page, "#panel", "Ready to pose, and improving")
     first = page.run(RECORDING)  # before the drag, in which better models may come
@@ -85,7 +87,7 @@ def test_it_is_dragged_while_it_improves_and_saved(
     assert np.linalg.norm(before) > 0.02
     page.wait(f"snapspace.session.model.dimension > {first}")
     page.page.wait_for_timeout(600)
-    steps = np.array(page.run("window.recorded"))
+    steps = recorded(page)
     assert steps.max() < 0.8 * steps.sum(), "the better shape comes in several steps"
     assert page.motions()[1][1] == before, "the drag continued where it was"
     mouse.move(x + 50, y - 40, steps=4)

@@ -82,13 +82,20 @@ def address(folder: Path) -> Iterator[str]:
         yield address
 
 
+@pytest.fixture(scope="session")
+def tab(chromium: Any) -> Any:
+    """Used by one test after the other: a new tab costs more than a page in it."""
+    return chromium.new_page(
+        viewport={"width": 480, "height": 360}, device_scale_factor=0.5, reduced_motion="reduce"
+    )
+
+
 @pytest.fixture
-def viewer(chromium: Any) -> Iterator[Viewer]:
-    """A tab; at the end its pages must have met no faults."""
-    tab = chromium.new_page(viewport={"width": 480, "height": 360}, device_scale_factor=0.5)
+def viewer(tab: Any) -> Iterator[Viewer]:
+    """The pages of a tab; at the end they must have met no faults."""
     viewer = Viewer(tab)
     yield viewer
-    tab.close()
+    viewer.close()
     assert viewer.faults == []
 
 

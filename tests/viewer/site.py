@@ -55,7 +55,16 @@ class Viewer:
         self.page = page
         self.faults: list[str] = []
         page.on("console", self._console)
-        page.on("pageerror", lambda error: self.faults.append(f"exception: {error}"))
+        page.on("pageerror", self._exception)
+
+    def close(self) -> None:
+        """Leaves the page; its tab can show another one."""
+        self.page.goto("about:blank")
+        self.page.remove_listener("console", self._console)
+        self.page.remove_listener("pageerror", self._exception)
+
+    def _exception(self, error: Any) -> None:
+        self.faults.append(f"exception: {error}")
 
     def _console(self, message: Any) -> None:
         if message.type in ("error", "warning") and "GPU stall" not in message.text:

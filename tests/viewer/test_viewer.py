@@ -69,7 +69,7 @@ def test_events_tell_what_was_solved(opened: Open) -> None:
     viewer.settle()
     (detail,) = viewer.run("told")
     assert detail["handles"]["head"]["translation"] == pytest.approx([0.1, 0, 0])
-    assert detail["milliseconds"] > 0
+    assert 0 <= detail["milliseconds"] < 1e4  # a browser's clock may stand still meanwhile
 
 
 def test_a_handle_is_dragged_without_any_controls(opened: Open) -> None:
@@ -99,42 +99,33 @@ def test_a_handle_is_dragged_without_any_controls(opened: Open) -> None:
     assert np.linalg.norm(after[moved[0]]["translation"]) > 0.02
 
 
-@pytest.mark.parametrize(
-    ("script", "words"),
-    [
-        ("viewer.setHandles({ tail: {} })", "no handle 'tail', but foot, head, belly"),
-        ("viewer.setHandles({ head: { degrees: [1, 2] } })", "three finite numbers"),
-        ("viewer.setHandles({ head: { translation: [NaN, 0, 0] } })", "three finite numbers"),
-        ("viewer.setWeights({ rest: 1 })", "has handles, no poses"),
-        ("viewer.play()", "no timeline"),
-    ],
-)
-def test_mistakes_of_scripts_are_errors_that_change_nothing(
-    opened: Open, script: str, words: str
-) -> None:
-    viewer = opened("posing.html")
+#: What scripts do wrong with a page's model, and words of the answer.
+MISTAKES = {
+    "posing.html": {
+        "viewer.setHandles({ tail: {} })": "no handle 'tail', but foot, head, belly",
+        "viewer.setHandles({ head: { degrees: [1, 2] } })": "three finite numbers",
+        "viewer.setHandles({ head: { translation: [NaN, 0, 0] } })": "three finite numbers",
+        "viewer.setWeights({ rest: 1 })": "has handles, no poses",
+        "viewer.play()": "no timeline",
+    },
+    "blending.html": {
+        "viewer.setWeights({ nobody: 1 })": "no pose 'nobody', but rest, bent, twisted",
+        "viewer.setWeights({ rest: 0.5 })": "sum to 0.5, but must sum to 1",
+        "viewer.setHandles({ head: {} })": "has poses, no handles",
+    },
+}
+
+
+@pytest.mark.parametrize("page", MISTAKES)
+def test_mistakes_of_scripts_are_errors_that_change_nothing(opened: Open, page: str) -> None:
+    viewer = opened(page)
     before = viewer.shape
-    told = viewer.run(
-        f"(() => {{ try {{ {script}; }} catch (error) {{ return error.message; }} }})()"
-    )
-    assert words in told
-    np.testing.assert_array_equal(viewer.shape, before)
-
-
-@pytest.mark.parametrize(
-    ("script", "words"),
-    [
-        ("viewer.setWeights({ nobody: 1 })", "no pose 'nobody', but rest, bent, twisted"),
-        ("viewer.setWeights({ rest: 0.5 })", "sum to 0.5, but must sum to 1"),
-        ("viewer.setHandles({ head: {} })", "has poses, no handles"),
-    ],
-)
-def test_mistakes_with_weights_are_errors(opened: Open, script: str, words: str) -> None:
-    viewer = opened("blending.html")
-    told = viewer.run(
-        f"(() => {{ try {{ {script}; }} catch (error) {{ return error.message; }} }})()"
-    )
-    assert words in told
+    for script, words in MISTAKES[page].items():
+        told = viewer.run(
+            f"(() => {{ try {{ {script}; }} catch (error) {{ return error.message; }} }})()"
+        )
+        assert words in told, script
+        np.testing.assert_array_equal(viewer.shape, before)
 
 
 def test_the_bar_has_handles_or_weights(opened: Open) -> None:
