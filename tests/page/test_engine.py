@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    ARAP,
     BlendingSession,
     Dynamics,
     HandleBox,
@@ -225,7 +226,10 @@ def expected(
         "own_boxes": own_boxes,
     }
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
-    models |= materials | {"shell": calibrate(shell_model(), samples=12, threads=1)}
+    models |= materials | {
+        "shell": calibrate(shell_model(), samples=12, threads=1),
+        "surface-arap": shell_model(ARAP()),
+    }
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -248,6 +252,7 @@ def expected(
         "values": {kind: values_at(model) for kind, model in materials.items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},
         "shell": posing_frames(models["shell"]),
+        "surface-arap": posing_frames(models["surface-arap"]),
     }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))

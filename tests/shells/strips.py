@@ -32,7 +32,7 @@ def strip(nx: int = 16, ny: int = 4, *, thickness: float = 0.03) -> ShellMesh:
     return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
 
 
-def shell_model() -> PosingModel:
+def shell_model(material: Material | None = None) -> PosingModel:
     """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions."""
     mesh = strip(thickness=0.1)
     along = _along(mesh)
@@ -40,6 +40,7 @@ def shell_model() -> PosingModel:
         mesh,
         Handles([along < 0.1, along > 0.9, np.abs(along - 0.5) < 0.05]),
         domain=HandleBox(translation=0.1, angle=0.3),
+        material=material,
     )
     snapshots = solve_snapshots(problem, sample(problem.domain, 40, seed=1), threads=1)
     return reduce(problem, snapshot_pca(snapshots, dimension=12), snapshots=snapshots)

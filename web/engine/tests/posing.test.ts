@@ -41,7 +41,8 @@ function surface(session: PosingSession): Float32Array {
 // every material with other moduli in every tet
 const materials = expected<string[]>("materials.json");
 const models = ["posing", "own_surface", "cubature", ...materials];
-for (const file of [...models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]), "shell.packed"])
+const shells = ["shell.packed", "surface-arap.packed"];
+for (const file of [...models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]), ...shells])
   test(`a drag is that of Session: ${file}`, async () => {
     const [name, ending] = file.split(".");
     const { frames, leading } = expected<Drag>(`${name}.json`);
