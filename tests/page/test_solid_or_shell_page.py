@@ -29,6 +29,7 @@ from .choosing_page import (
     wait_for_text,
 )
 from .pages import OpenPage, Page
+from .test_posing_page import assert_shown
 
 
 @dataclass(frozen=True)
@@ -114,6 +115,14 @@ def test_an_open_surface_is_a_shell_that_is_posed_saved_and_reloaded(
     model = load(file.with_suffix(".snapspace"))
     assert isinstance(model, PosingModel) and isinstance(model.problem.mesh, ShellMesh)
     assert model.problem.mesh.thickness == 0.125
+
+    # the file of the shell, dropped on the page, gives the same shapes as Python
+    opener = page.page.locator("footer input[type=file]")
+    opener.set_input_files(file.with_suffix(".snapspace"))
+    page.wait("snapspace.kind === 'posing' && !document.querySelector('#panel .saved')")
+    page.drag(page.run("snapspace.handle(1)"), 40, -30)
+    assert np.linalg.norm(page.motions()[1][1]) > 0.02
+    assert_shown(model, page)
 
 
 def test_a_closed_surface_is_a_shell_at_once_and_a_solid_later(
