@@ -9,6 +9,28 @@ from numpy.typing import NDArray
 
 lane_count: int
 
+class VertexStars:
+    """The stars of a surface's vertices, elements of its ARAP energy."""
+
+    def corners(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        First corners (n + 1,), vertices (c,) and gradients (c, 3): the gradient of a star is the sum of u (x) gradient over its corners.
+        """
+
+    def numbers(self) -> NDArray[numpy.float64]:
+        """Rows of the density "shell-arap" (n, 12), of modulus one."""
+
+    def areas(self) -> NDArray[numpy.float64]:
+        """A third of the area around each vertex, (n,)."""
+
+    def weights(self) -> NDArray[numpy.float64]:
+        """The same of areas times moduli, (n,)."""
+
+    def remainder(self) -> tuple[NDArray[numpy.int32], NDArray[numpy.int32], NDArray[numpy.float64]]:
+        """
+        The quadratic part of the energy: a symmetric matrix (n, n), row by row.
+        """
+
 class Material:
     """A density, given by its name, with moduli (1, k) or one row per tet."""
 
@@ -53,8 +75,11 @@ class ElasticEnergy:
 
     def tet_stresses(self, u: NDArray[numpy.float64]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
         """
-        Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each tet.
+        Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each element: a tet, a triangle or a hinge, or the star of a vertex.
         """
+
+    def stars(self) -> VertexStars:
+        """The stars of the vertices of a surface that is as rigid as possible."""
 
     def hessian_product(self, u: NDArray[numpy.float64], v: NDArray[numpy.float64]) -> NDArray[numpy.float64]:
         """Hessian at u times v (3n,), without forming the Hessian."""

@@ -137,9 +137,9 @@ void bind_energy(nb::module_& m) {
       .def(
           "tet_stresses",
           [](const ElasticEnergy& self, VectorIn u) {
-            const std::size_t tets = self.rest.tets.size();
-            DoublesOut stresses = new_array<double>({tets, 9}),
-                       energies = new_array<double>({tets});
+            const auto elements = static_cast<std::size_t>(self.elements());
+            DoublesOut stresses = new_array<double>({elements, 9}),
+                       energies = new_array<double>({elements});
             const double* displacement = checked(self, u);
             {
               const nb::gil_scoped_release release;
@@ -148,7 +148,16 @@ void bind_energy(nb::module_& m) {
             return std::make_pair(stresses, energies);
           },
           nb::arg("u"),
-          "Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each tet.")
+          "Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each element: a "
+          "tet, "
+          "a triangle or a hinge, or the star of a vertex.")
+      .def(
+          "stars",
+          [](const ElasticEnergy& self) {
+            require(self.stars.has_value(), "the material has no stars");
+            return *self.stars;
+          },
+          "The stars of the vertices of a surface that is as rigid as possible.")
       .def(
           "hessian_product",
           [](const ElasticEnergy& self, VectorIn u, VectorIn v) {
@@ -160,7 +169,7 @@ void bind_energy(nb::module_& m) {
       .def(
           "hessian_blocks",
           [](const ElasticEnergy& self, VectorIn u, Projection projection, double threshold) {
-            BlockHessian hessian(self.rest);
+            BlockHessian hessian(self);
             hessian.add(self, checked(self, u), projection, threshold);
             return blocks_of(hessian);
           },

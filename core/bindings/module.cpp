@@ -3,6 +3,7 @@
 
 namespace snapspace {
 void bind_energy(nb::module_& m);
+void bind_stars(nb::module_& m);
 void bind_cholesky(nb::module_& m);
 void bind_multigrid(nb::module_& m);
 void bind_rows(nb::module_& m);
@@ -25,6 +26,7 @@ void bind_all(nb::module_& m) {
   nb::set_leak_warnings(false);
   m.doc() = "The compiled core: the computations of snapspace that must be fast.";
   m.attr("lane_count") = samples_together(Packing::lanes);
+  bind_stars(m);
   bind_energy(m);
   bind_cholesky(m);
   bind_multigrid(m);

@@ -52,11 +52,22 @@ void hat_gradients(const RestTet& tet, const double (&columns)[3][3], double (&b
 
 }  // namespace
 
-BlockHessian::BlockHessian(const RestShape& rest) : slots_(rest.tets.size()) {
+BlockHessian::BlockHessian(const RestShape& rest) : BlockHessian(rest, nullptr) {}
+
+BlockHessian::BlockHessian(const ElasticEnergy& energy)
+    : BlockHessian(energy.rest, energy.stars ? &*energy.stars : nullptr) {}
+
+BlockHessian::BlockHessian(const RestShape& rest, const VertexStars* stars)
+    : slots_(rest.tets.size()) {
   std::vector<std::vector<std::int32_t>> neighbours(rest.vertex_count);
   for (const RestTet& tet : rest.tets)
     for (const std::int32_t a : tet.vertices)
       neighbours[a].insert(neighbours[a].end(), tet.vertices, tet.vertices + 4);
+  for (int star = 0; stars && star < stars->count(); ++star) {
+    const auto begin = stars->corners.begin() + stars->first_corner[star];
+    const auto end = stars->corners.begin() + stars->first_corner[star + 1];
+    for (auto a = begin; a != end; ++a) neighbours[*a].insert(neighbours[*a].end(), begin, end);
+  }
   row_start_.reserve(rest.vertex_count + 1);
   row_start_.push_back(0);
   for (auto& row : neighbours) {
@@ -81,6 +92,7 @@ void BlockHessian::clear() { std::fill(blocks_.begin(), blocks_.end(), std::arra
 
 void BlockHessian::add(const ElasticEnergy& energy, const double* u, Projection projection,
                        double threshold, double weight) {
+  if (energy.stars) return add_stars(energy, u, projection, weight);
   for (int t = 0; t < energy.tets(); ++t) add_tet(energy, t, u, projection, threshold, weight);
 }
 
@@ -124,6 +136,46 @@ void BlockHessian::add_shell_element(const ElasticEnergy& energy, int t, const d
     }
 }
 
+/// The Laplacian of the triangles, and of each star what its density adds to the square of its
+/// gradient.
+void BlockHessian::add_stars(const ElasticEnergy& energy, const double* u, Projection projection,
+                             double weight) {
+  const VertexStars& stars = *energy.stars;
+  for (int t = 0; t < energy.tets(); ++t) {
+    const RestTet& triangle = energy.rest.tets[t];
+    const double stiffness =
+        weight * triangle.volume * energy.material.view().small_strains(t).stiffness();
+    const Eigen::Matrix4d local = stiffness * snapspace::hat_gradients(triangle) *
+                                  snapspace::hat_gradients(triangle).transpose();
+    for (int e = 0; e < 16; ++e)
+      for (int r = 0; r < 3; ++r) blocks_[slots_[t][e]][4 * r] += local(e / 4, e % 4);
+  }
+  for (int star = 0; star < stars.count(); ++star) {
+    double numbers[ShellArap::kModuli], G[3][3], H[9][9];
+    stars.write_numbers(star, numbers);
+    stars.gradient_of(star, u, G);
+    ShellArap::hessian(numbers, G, H);
+    project(H, projection);
+    for (int e = 0; e < 9; ++e) H[e][e] -= 2.0;
+    const double scale = weight * stars.weights[star];
+    for (int j = stars.first_corner[star]; j < stars.first_corner[star + 1]; ++j)
+      for (int k = stars.first_corner[star]; k < stars.first_corner[star + 1]; ++k) {
+        double* const to = block(stars.corners[j], stars.corners[k]);
+        const double *a = &stars.gradients[3 * std::size_t(j)],
+                     *b = &stars.gradients[3 * std::size_t(k)];
+        for (int e = 0; e < 9; ++e)
+          for (int f = 0; f < 9; ++f)
+            to[3 * (e / 3) + f / 3] += scale * a[e % 3] * H[e][f] * b[f % 3];
+      }
+  }
+}
+
+double* BlockHessian::block(std::int32_t row, std::int32_t column) {
+  const auto begin = columns_.begin() + row_start_[row];
+  const auto end = columns_.begin() + row_start_[row + 1];
+  return blocks_[std::lower_bound(begin, end, column) - columns_.begin()].data();
+}
+
 void BlockHessian::add_outer_product(int tet, const double (&forces)[4][3], double weight) {
   for (int j = 0; j < 4; ++j)
     for (int k = 0; k < 4; ++k) {
@@ -134,10 +186,8 @@ void BlockHessian::add_outer_product(int tet, const double (&forces)[4][3], doub
 }
 
 void BlockHessian::add_to_diagonal(int vertex, double value) {
-  const auto begin = columns_.begin() + row_start_[vertex];
-  const auto end = columns_.begin() + row_start_[vertex + 1];
-  auto& block = blocks_[std::lower_bound(begin, end, vertex) - columns_.begin()];
-  for (int r = 0; r < 3; ++r) block[4 * r] += value;
+  double* const diagonal = block(vertex, vertex);
+  for (int r = 0; r < 3; ++r) diagonal[4 * r] += value;
 }
 
 void BlockHessian::multiply(const double* v, double* product) const {

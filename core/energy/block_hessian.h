@@ -14,6 +14,8 @@ namespace snapspace {
 class BlockHessian {
  public:
   explicit BlockHessian(const RestShape& rest);
+  /// The same, with the pairs of vertices in a star if the energy has stars.
+  explicit BlockHessian(const ElasticEnergy& energy);
 
   void clear();
 
@@ -40,8 +42,14 @@ class BlockHessian {
   [[nodiscard]] const std::vector<std::array<double, 9>>& blocks() const { return blocks_; }
 
  private:
+  /// @param stars  null, or those whose vertices are pairs too
+  BlockHessian(const RestShape& rest, const VertexStars* stars);
+
+  void add_stars(const ElasticEnergy& energy, const double* u, Projection projection,
+                 double weight);
   void add_tet(const ElasticEnergy& energy, int tet, const double* u, Projection projection,
                double threshold, double weight);
+  [[nodiscard]] double* block(std::int32_t row, std::int32_t column);
   void add_shell_element(const ElasticEnergy& energy, int element, const double* u,
                          Projection projection, double weight);
 

@@ -10,6 +10,22 @@
 
 namespace snapspace {
 
+namespace {
+
+void star_stresses(const VertexStars& stars, const double* u, double* stresses, double* energies) {
+  for (int star = 0; star < stars.count(); ++star) {
+    double numbers[ShellArap::kModuli], H[3][3], P[3][3];
+    stars.write_numbers(star, numbers);
+    numbers[0] = stars.weights[star];
+    stars.gradient_of(star, u, H);
+    *energies++ = ShellArap::value_and_stress(numbers, H, P);
+    for (const auto& row : P)
+      for (const double entry : row) *stresses++ = entry;
+  }
+}
+
+}  // namespace
+
 ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
     : rest(std::move(shape)), material(std::move(field)), negligible_(0.0) {
   if (!material.fits(rest.tets.size()))
@@ -27,6 +43,7 @@ ElasticEnergy::ElasticEnergy(RestShape shape, MaterialField field)
     negligible_ += 1e-24 * volume * lame.mu;
   }
   single_moduli_.assign(moduli_.begin(), moduli_.end());
+  if (is_of_stars(view.kind)) stars.emplace(rest, view);
 }
 
 double ElasticEnergy::value_and_gradient(const double* u, double* gradient,
@@ -43,6 +60,7 @@ double ElasticEnergy::value_and_gradient(const double* u, double* gradient,
 
 void ElasticEnergy::hessian_product(const double* u, const double* v, double* product) const {
   std::fill_n(product, 3 * rest.vertex_count, 0.0);
+  if (stars) return stars->add_hessian_product(u, v, product);
   const TetMaterial view = material.view();
   for (int t = 0; t < tets(); ++t) {
     const RestTet& tet = rest.tets[t];
@@ -57,6 +75,7 @@ void ElasticEnergy::hessian_product(const double* u, const double* v, double* pr
 }
 
 void ElasticEnergy::tet_stresses(const double* u, double* stresses, double* energies) const {
+  if (stars) return star_stresses(*stars, u, stresses, energies);
   const TetMaterial view = material.view();
   const int count = material_moduli(view.kind);
   Densities::with(view.kind, [&]<class Density>() {

@@ -3,10 +3,12 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "element/tet.h"
 #include "energy/material_field.h"
+#include "energy/vertex_stars.h"
 #include "mesh/rest_shape.h"
 #include "mesh/sweep.h"
 #include "simd/lanes.h"
@@ -26,10 +28,14 @@ class ElasticEnergy {
 
   RestShape rest;
   MaterialField material;
+  /// For a surface that is as rigid as possible: its elements, in place of the triangles.
+  std::optional<VertexStars> stars;
 
+  [[nodiscard]] int elements() const { return stars ? stars->count() : tets(); }
   [[nodiscard]] int tets() const { return static_cast<int>(rest.tets.size()); }
 
-  /// Energy of the tets from `begin` to before `end` at u; adds its gradient to `gradient` (3n).
+  /// Energy of the elements from `begin` to before `end` at u; adds its gradient to `gradient`
+  /// (3n).
   template <class Real>
   [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
                                                  Real* gradient) const;
@@ -40,7 +46,7 @@ class ElasticEnergy {
   Sum<Real> value_and_gradient(const Real* u, Real* gradient, SweepVisitor& visitor) const {
     Sum<Real> energy(0.0);
     SweepStop last{0, 0, 0};
-    for (const SweepStop& stop : rest.stops) {
+    for (const SweepStop& stop : stars ? stars->stops : rest.stops) {
       visitor.before(last.reached, stop.reached);
       std::fill(gradient + 3 * last.reached, gradient + 3 * stop.reached, Real(0.0));
       energy += add_value_and_gradient(last.tets, stop.tets, u, gradient);
@@ -65,7 +71,8 @@ class ElasticEnergy {
   /// Hessian at u times v; `product` (3n) is overwritten.
   void hessian_product(const double* u, const double* v, double* product) const;
 
-  /// Volume times first Piola-Kirchhoff stress (tets x 9, row by row) and energies (tets) at u.
+  /// Volume times first Piola-Kirchhoff stress (elements x 9, row by row) and energies (elements)
+  /// at u. Of stars they are those of the density ShellArap.
   void tet_stresses(const double* u, double* stresses, double* energies) const;
 
   /// 2 mu + lam of each tet: the largest stiffness of its small strains.

@@ -15,6 +15,7 @@ const StreamedVector<float>& ElasticEnergy::weighted_moduli<float>() const {
 template <class Real>
 Sum<Real> ElasticEnergy::add_value_and_gradient(int begin, int end, const Real* u,
                                                 Real* gradient) const {
+  if (stars) return stars->add_value_and_gradient(begin, end, u, gradient);
   using T = typename ScalarOf<Real>::type;
   const RestTetOf<T>* const tets = rest.tets_in<T>().data();
   return Densities::with(material.view().kind, [&]<class Density>() {
@@ -36,6 +37,7 @@ template <class Real>
 void ElasticEnergy::rest_hessian_product(const Real* v, Real* product) const {
   using T = typename ScalarOf<Real>::type;
   std::fill_n(product, 3 * rest.vertex_count, Real(0.0));
+  if (stars) return stars->add_rest_product(v, product);
   if (rest.shell) return add_shell_rest_product(v, product);
   const double* lame = lame_.data();
   for (const RestTetOf<T>& tet : rest.tets_in<T>()) {
@@ -57,7 +59,7 @@ void ElasticEnergy::add_shell_rest_product(const Real* v, Real* product) const {
   using T = typename ScalarOf<Real>::type;
   const auto& tets = rest.tets_in<T>();
   Densities::with(material.view().kind, [&]<class Density>() {
-    if constexpr (kOfShells<Density>) {
+    if constexpr (kOfHinges<Density>) {
       const double* numbers = moduli_.data();
       for (const RestTetOf<T>& tet : tets) {
         Real G[3][3], P[3][3];

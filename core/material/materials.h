@@ -5,6 +5,7 @@
 #include "material/corotational.h"
 #include "material/mooney_rivlin.h"
 #include "material/shell.h"
+#include "material/shell_arap.h"
 #include "material/stable_neo_hookean.h"
 #include "material/stvk.h"
 #include "material/symmetric_dirichlet.h"
@@ -46,15 +47,21 @@ struct DensityList {
 #if !defined(__wasm__)
 using Densities =
     DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet, MooneyRivlin,
-                ShellNeoHookean, ShellStVK, ShellNeoHookeanTangent, ShellStVKTangent>;
+                ShellNeoHookean, ShellStVK, ShellNeoHookeanTangent, ShellStVKTangent, ShellArap>;
 #else  // no model has a shell whose bending is the tangent, and it would take 20 kB
 using Densities = DensityList<StableNeoHookean, Corotational, Arap, StVK, SymmetricDirichlet,
-                              MooneyRivlin, ShellNeoHookean, ShellStVK>;
+                              MooneyRivlin, ShellNeoHookean, ShellStVK, ShellArap>;
 #endif
 
 /// Whether a density is one of shells.
 template <class Density>
 inline constexpr bool kOfShells = requires { Density::kScaled; };
+/// Whether it is evaluated for the stars of vertices, which couple triangles.
+template <class Density>
+inline constexpr bool kOfStars = requires { Density::kOfStars; };
+/// Whether it is one of triangles and hinges.
+template <class Density>
+inline constexpr bool kOfHinges = kOfShells<Density> && !kOfStars<Density>;
 
 /// The largest number of moduli that a density may have, with the numbers of the rest shape.
 inline constexpr int kMaxModuli = 15;
@@ -76,10 +83,16 @@ inline bool is_of_shells(int index) {
   return Densities::with(index, []<class Density>() { return kOfShells<Density>; });
 }
 
-/// Sets what the numbers of a hinge have of its rest angle; for shells only.
+/// Whether the density at an index is evaluated for the stars of vertices.
+inline bool is_of_stars(int index) {
+  return Densities::with(index, []<class Density>() { return kOfStars<Density>; });
+}
+
+/// Sets what the numbers of a hinge have of its rest angle; for shells with hinges only.
 inline void set_rest_angle(int index, double half_tangent, double* numbers) {
   Densities::with(index, [&]<class Density>() {
-    if constexpr (kOfShells<Density>) Density::set_rest_angle(half_tangent, numbers);
+    if constexpr (kOfHinges<Density>)
+      Density::set_rest_angle(half_tangent, numbers);
   });
 }
 

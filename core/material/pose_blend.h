@@ -25,7 +25,7 @@ struct PoseBlend {
 
   /// The last numbers of a pose that are the same for all poses: they are not summed.
   static constexpr int constants() {
-    if constexpr (kOfShells<Density>)
+    if constexpr (kOfHinges<Density>)
       return Density::Blend::kConstants;
     else
       return 0;
@@ -35,7 +35,7 @@ struct PoseBlend {
   /// @param first   the moduli in pose 0, which shells need
   static void fill(const double* moduli, [[maybe_unused]] const double* first,
                    const double map[3][3], double* result) {
-    if constexpr (kOfShells<Density>) {
+    if constexpr (kOfHinges<Density>) {
       Density::Blend::fill(moduli, first, map, result);
     } else if constexpr (kCollapses) {
       Density::Blend::fill(moduli, map, result);

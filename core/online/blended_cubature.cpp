@@ -162,7 +162,7 @@ void BlendedCubature::add_curvature(int tet, int pose, const double G[3][3],
 void BlendedCubature::shell_curvature(int block, int lane, const double G[3][3],
                                       double hessian[9][9]) const {
   Densities::with(kind_, [&]<class Density>() {
-    if constexpr (kOfShells<Density>) {
+    if constexpr (kOfHinges<Density>) {
       double numbers[Density::Blend::kNumbers];
       for (int i = 0; i < numbers_count_; ++i)
         numbers[i] = blend_[static_cast<std::size_t>(block) * numbers_count_ + i][lane];

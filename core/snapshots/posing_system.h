@@ -36,7 +36,7 @@ class PosingSystem final : public SampleSystem {
 
   [[nodiscard]] LaneObjectives lanes() const override;
   [[nodiscard]] std::unique_ptr<LaneObjective<double>> objective() const override;
-  [[nodiscard]] BlockHessian hessian_pattern() const override { return BlockHessian(energy.rest); }
+  [[nodiscard]] BlockHessian hessian_pattern() const override { return BlockHessian(energy); }
   void assemble(const double* input, const double* u, const HessianOptions& options,
                 BlockHessian& hessian) const override;
 

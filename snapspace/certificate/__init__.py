@@ -10,6 +10,7 @@ from .residual_sample import (
     residual_sample,
     scalar_diagonal,
 )
+from .star_probe import StarProbe, posing_probe
 
 __all__ = [
     "BlendingProbe",
@@ -19,8 +20,10 @@ __all__ = [
     "PosingProbe",
     "ResidualProbe",
     "ResidualSample",
+    "StarProbe",
     "grown",
     "growth_exponent",
+    "posing_probe",
     "residual_sample",
     "rest_size",
     "scalar_diagonal",

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..material import ARAP
 from ..mesh import ShellMesh
 from ..model_file import load
 from ..reduction import (
@@ -63,8 +64,10 @@ def model_info(file: Path) -> Info:
 def energy_text(model: ReducedModel) -> str:
     """The kind of the reduced energy, as text."""
     if model.cubature is not None:
-        shell = isinstance(model.problem.mesh, ShellMesh)
-        what = "triangles and hinges" if shell else "tets"
+        what = "tets"
+        if isinstance(model.problem.mesh, ShellMesh):
+            stars = isinstance(model.problem.material, ARAP)
+            what = "vertices with their triangles" if stars else "triangles and hinges"
         return f"cubature of {len(model.cubature.tets)} {what}"
     if isinstance(model, InterpolationModel):
         return f"exact quartics of {len(model.problem.poses)} poses"

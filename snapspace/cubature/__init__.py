@@ -2,6 +2,7 @@
 
 from .blended_cubature import BlendedCubature, WeightedCubature
 from .cubature import Cubature
+from .elements import element_count, has_hinges
 from .fit_tets import FEWEST_SNAPSHOTS
 from .held_out_errors import CubatureErrors
 from .train import (
@@ -21,6 +22,8 @@ __all__ = [
     "WeightedCubature",
     "default_blended_tets",
     "default_tets",
+    "element_count",
+    "has_hinges",
     "train_blended_cubature",
     "train_cubature",
 ]

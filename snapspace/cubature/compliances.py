@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
 from .elastic_states import ElasticStates, PosingStates
+from .elements import elements_of
 from .sampled_tets import sampled_tets
 
 FloatArray = NDArray[np.float64]
@@ -43,7 +44,7 @@ def compliances(
         Default: all. The result is bitwise the same for any number.
     """
     sample = sampled_tets(ordered, SAMPLED, seed=0)
-    volumes = sample.factors * states.problem.mesh.measures[sample.tets]
+    volumes = sample.factors * elements_of(states.problem).measures[sample.tets]
     result = np.empty((len(states), states.subspace.dimension, states.subspace.dimension))
     workers = min(threads or os.cpu_count() or 1, max(len(states), 1))
 

@@ -13,7 +13,7 @@ from ..material import Material
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
-from .displacement_gradients import displacement_gradients
+from .elements import elements_of
 from .summed_curvatures import summed_curvatures
 
 FloatArray = NDArray[np.float64]
@@ -37,6 +37,8 @@ class Cubature:
         Displacement gradients of the modes in these tets, see `displacement_gradients`.
     material : Material or ShellMaterial
         The density of these tets, with constant moduli or r values of each.
+    remainder : (d, d), optional
+        What is left of the energy, q^T K q, see `Elements`. Default: nothing.
 
     Raises
     ------
@@ -51,12 +53,14 @@ class Cubature:
         weights: FloatArray,
         rows: NDArray[np.float32],
         material: Material | ShellMaterial,
+        remainder: FloatArray | None = None,
     ) -> None:
         check_chosen(tets, weights, rows, material, who="Cubature")
         self.tets = tets
         self.weights = weights
         self.rows = np.ascontiguousarray(rows, np.float32)
         self.material = material
+        self.remainder = remainder
         self._core = core.Cubature(self.rows, self.weights, material.core)
 
     @classmethod
@@ -76,13 +80,15 @@ class Cubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
-        check_in_mesh(tets, len(problem.mesh.elements), who="Cubature")
-        rows = displacement_gradients(problem.mesh, subspace.basis, tets)
-        return cls(tets, weights, rows, problem.element_material.of_tets(tets))
+        elements = elements_of(problem)
+        check_in_mesh(tets, len(elements.measures), who="Cubature")
+        rows = elements.gradients(subspace.basis, tets)
+        remainder = elements.remainder(subspace.basis)
+        return cls(tets, weights, rows, elements.material.of_tets(tets), remainder)
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:
         """Pickles the arguments; unpickling makes the compiled part again."""
-        return type(self), (self.tets, self.weights, self.rows, self.material)
+        return type(self), (self.tets, self.weights, self.rows, self.material, self.remainder)
 
     @property
     def dimension(self) -> int:
@@ -95,18 +101,33 @@ class Cubature:
 
     def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
         """Energy at q and its gradient (d,)."""
-        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
+        at = np.asarray(q, np.float64)
+        value, gradient = self._core.value_and_gradient(at)
+        if self.remainder is not None:
+            half = self.remainder @ at
+            value, gradient = value + float(at @ half), gradient + 2.0 * half
         return value, gradient
 
     def hessian(self, q: ArrayLike) -> FloatArray:
         """Hessian at q, (d, d)."""
-        hessian: FloatArray = self._core.derivatives(np.asarray(q, np.float64))[2]
-        return hessian
+        return self._with_remainder(self._core.derivatives(np.asarray(q, np.float64))[2])
 
     def rough_hessian(self, q: ArrayLike) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        return summed_curvatures(self.rows, self._core.curvatures(np.asarray(q, np.float64)))
+        curvatures = self._core.curvatures(np.asarray(q, np.float64))
+        return self._with_remainder(summed_curvatures(self.rows, curvatures))
 
     def leading(self, dimension: int) -> Cubature:
         """The cubature of the same tets for the first `dimension` coordinates."""
-        return Cubature(self.tets, self.weights, self.rows[:, :, :dimension], self.material)
+        remainder = self.remainder
+        if remainder is not None:
+            remainder = np.ascontiguousarray(remainder[:dimension, :dimension])
+        rows = self.rows[:, :, :dimension]
+        return Cubature(self.tets, self.weights, rows, self.material, remainder)
+
+    def without_remainder(self) -> Cubature:
+        """The sum over tets alone."""
+        return Cubature(self.tets, self.weights, self.rows, self.material)
+
+    def _with_remainder(self, hessian: FloatArray) -> FloatArray:
+        return hessian if self.remainder is None else hessian + 2.0 * self.remainder

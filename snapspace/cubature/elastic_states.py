@@ -126,6 +126,9 @@ class PosingStates:
         """See `ElasticStates`."""
         core = self.problem.energy.core
         energies, gradients = core.lane_values_and_gradients(displacements)
+        if self.problem.energy.stars is not None:
+            rest, slopes = self.problem.energy.stars.remainder_at(displacements)
+            energies, gradients = energies - rest, gradients - slopes
         single = [core.tet_stresses(u) for u in displacements] if len(tets) else []
         stresses = np.array([P[tets] for P, _ in single]).reshape(len(single), len(tets), 9)
         tet_energies = np.array([psi[tets] for _, psi in single]).reshape(len(single), len(tets))

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from .compliances import compliances, judging_compliances
 from .elastic_states import States
+from .elements import elements_of
 from .held_out_errors import CubatureErrors
 from .nonnegative_fit import nonnegative_fit
 from .sampled_tets import sampled_tets
@@ -90,8 +91,8 @@ def fit_tets(
     Raises ValueError for too few states, or for more tets than the mesh has.
     """
     begin = time.perf_counter()
-    mesh, dimension = states.problem.mesh, states.subspace.dimension
-    count = _checked_count(len(mesh.elements), budget.usual, budget.wanted)
+    measures, dimension = elements_of(states.problem).measures, states.subspace.dimension
+    count = _checked_count(len(measures), budget.usual, budget.wanted)
     if len(states) < budget.fewest_states:
         raise ValueError(
             f"reduce: {len(states)} snapshots that are not at rest are too few to train a "
@@ -123,7 +124,7 @@ def fit_tets(
     picked = candidates[picks]
     return Fit(
         tets=picked,
-        volumes=factors * mesh.measures[picked],
+        volumes=factors * measures[picked],
         unseen=judging,
         exact=state_forces(judging, np.zeros(0, np.int32), threads=threads),
         compliances=_repeated(judging_compliances(unseen, ordered, threads=threads), len(judging)),

@@ -27,8 +27,6 @@ def tets_by_force(states: ElasticStates, *, threads: int | None = None) -> NDArr
         return norms
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
-        total = sum(
-            pool.map(sizes, range(len(pilots))), np.zeros(len(states.problem.mesh.elements))
-        )
+        total: NDArray[np.float64] = np.sum([*pool.map(sizes, range(len(pilots)))], axis=0)
     order = np.argsort(-total, kind="stable").astype(np.int32)
     return order[total[order] > 0]

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..blas import single_threaded_blas
-from .displacement_gradients import displacement_gradients
 from .elastic_states import ElasticStates
+from .elements import elements_of
 from .state_forces import StateForces
 
 FloatArray = NDArray[np.float64]
@@ -76,9 +76,8 @@ def training_rows(
         would solve it exactly.
     """
     count, d = states.coordinates.shape
-    modes = displacement_gradients(
-        states.problem.mesh, states.subspace.basis, candidates, threads=threads
-    )
+    elements = elements_of(states.problem)
+    modes = elements.gradients(states.subspace.basis, candidates, threads=threads)
     rng = np.random.default_rng(seed)
     along = compliances @ rng.standard_normal((count, d, directions))
     forces = np.einsum("sd,sdk->sk", found.forces, along)

@@ -9,12 +9,14 @@ from .shell_material import (
     rigidities,
     shell_materials,
 )
+from .vertex_stars import VertexStars
 
 __all__ = [
     "MEMBRANES",
     "Bending",
     "ElasticEnergy",
     "ShellMaterial",
+    "VertexStars",
     "element_material",
     "rigidities",
     "shell_materials",

@@ -9,11 +9,13 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
-from ..material import Material, checked_material
-from ..mesh import Body
+from ..material import ARAP, Material, checked_material
+from ..mesh import Body, ShellMesh
 from .shell_material import Bending, element_material
+from .vertex_stars import VertexStars
 
 FloatArray = NDArray[np.float64]
+IndexArray = NDArray[np.int32]
 
 
 class ElasticEnergy:
@@ -28,7 +30,7 @@ class ElasticEnergy:
         The rest shape.
     material : Material
         Its moduli may be constant, or given per tet or triangle. A shell is `StableNeoHookean` or
-        `StVK`, in plane stress.
+        `StVK`, in plane stress, or `ARAP`.
     bending : "angle" or "tangent", default "angle"
         What measures how far a hinge of a shell is bent: its angle theta, with a hundredth of
         2 tan(theta / 2) - theta, or 2 tan(theta / 2). Both grow without bound where a hinge folds
@@ -38,12 +40,17 @@ class ElasticEnergy:
     ------
     ValueError
         If the material is not one of `MATERIALS`, has moduli for another number of tets or
-        triangles, or has no form for shells.
+        triangles, or has no form for shells; for a `bending` of `ARAP`.
 
     Notes
     -----
     A shell bends like a plate of stiffness D = (2 mu + lam') thickness^3 / 12, with lam' of plane
     stress: the energy of a hinge is D/2 strain^2 times its measure, see docs/shells.md.
+
+    A shell of `ARAP` has no hinges. Each vertex has a rotation R, the one nearest to the
+    deformation gradients F of its triangles together. The energy is the sum over vertices and their
+    triangles of mu * thickness * a third of the area * |F - R|^2: spokes and rims (Sorkine, Alexa
+    2007; Chao, Pinkall, Sanan, Schroeder 2010).
 
     Every method takes a shape vector x (3n,) of positions, or vertices (n, 3), and raises
     ValueError for another size. Energies are invariant under rigid motions of x and vanish at rest.
@@ -59,8 +66,23 @@ class ElasticEnergy:
     @cached_property
     def core(self) -> _core.ElasticEnergy:
         """The compiled energy, a function of displacements."""
-        mesh = self.mesh
-        return _core.ElasticEnergy(mesh.vertices, mesh.elements, self.element_material.core)
+        return _core.ElasticEnergy(self.mesh.vertices, self.corners, self.element_material.core)
+
+    @property
+    def corners(self) -> IndexArray:
+        """Corners of the elements that the core sums: all, or the triangles of stars, (m, 4)."""
+        if not self._has_stars:
+            return self.mesh.elements
+        return np.ascontiguousarray(self.mesh.elements[: len(self.mesh.cells)])
+
+    @cached_property
+    def stars(self) -> VertexStars | None:
+        """The elements of a surface that is as rigid as possible; None for other bodies."""
+        return VertexStars(self.core) if self._has_stars else None
+
+    @property
+    def _has_stars(self) -> bool:
+        return isinstance(self.mesh, ShellMesh) and isinstance(self.material, ARAP)
 
     def value(self, x: ArrayLike) -> float:
         """Energy at x."""

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..material import Material, StableNeoHookean, StVK
+from ..material import ARAP, Material, StableNeoHookean, StVK
 from ..mesh import Body, ShellMesh
+from .arap_triangles import KIND, arap_triangles
 
 FloatArray = NDArray[np.float64]
 Bending = Literal["angle", "tangent"]
@@ -68,12 +69,18 @@ def element_material(
     Raises
     ------
     ValueError
-        For a shell of a material without a membrane, or an unknown measure of bending.
+        For a shell of a material without a membrane, or a measure of bending that is unknown, or
+        not the default and for `ARAP`.
     """
     if bending not in BENDINGS:
         raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
     if not isinstance(mesh, ShellMesh):
         return material
+    if isinstance(material, ARAP):
+        if bending != "angle":
+            raise ValueError(f"{who}: ARAP has no hinges, so bending cannot be '{bending}'")
+        return ShellMaterial(KIND, arap_triangles(mesh, material))
+    _check_membrane(material, (*MEMBRANES, ARAP), "a shell", who)
     return shell_materials(mesh, mesh.vertices[None], material, bending=bending, who=who)[0]
 
 
@@ -95,12 +102,7 @@ def shell_materials(
     ValueError
         For a material without a membrane.
     """
-    if not isinstance(material, MEMBRANES):
-        known = " or ".join(one.__name__ for one in MEMBRANES)
-        raise ValueError(
-            f"{who}: a shell cannot be made of {material.title}, which has no form for membranes; "
-            f"take {known}"
-        )
+    _check_membrane(material, MEMBRANES, "a shell" if len(poses) == 1 else "a blended shell", who)
     count = len(mesh.triangles)
     moduli = np.zeros((len(mesh.elements), 3))
     moduli[:count, 0] = material.mu * mesh.thickness
@@ -113,8 +115,26 @@ def shell_materials(
     return [ShellMaterial(kind, row) for row in rows]
 
 
+def _check_membrane(
+    material: Material, known: tuple[type[Material], ...], what: str, who: str
+) -> None:
+    if isinstance(material, known):
+        return
+    *names, last = (one.__name__ for one in known)
+    raise ValueError(
+        f"{who}: {what} cannot be made of {material.title}, which has no such form; take "
+        f"{', '.join(names)} or {last}"
+    )
+
+
 def rigidities(mesh: ShellMesh, material: Material) -> FloatArray:
-    """Bending stiffness D = (2 mu + lam') thickness^3 / 12 of a plate, for each triangle, (f,)."""
+    """Bending stiffness D = (2 mu + lam') thickness^3 / 12 of a plate, for each triangle, (f,).
+
+    Of `ARAP` it is that of equilateral triangles, (3/4)^(1/2) mu * thickness * area: as rigid as
+    possible, a surface resists bending by the width of its triangles.
+    """
+    if isinstance(material, ARAP):
+        return np.asarray(np.sqrt(0.75) * material.mu * mesh.thickness * mesh.areas)
     one = (2.0 * material.mu + plane_lam(material)) * np.power(mesh.thickness, 3) / 12.0
     return np.broadcast_to(one, len(mesh.triangles))
 

@@ -12,7 +12,8 @@ from ..reduction import InterpolationModel, PosingModel
 def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     """The tets around the sampled vertices with their modes, and the calibration.
 
-    Empty if the model is not calibrated. Modes are in single precision: the rounding of 16-bit
+    Empty if the model is not calibrated, or a surface that is as rigid as possible, whose probe the
+    page does not have. Modes are in single precision: the rounding of 16-bit
     integers would hide small residuals.
     """
     estimator = model.error_estimator
@@ -22,6 +23,8 @@ def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     arrays: Arrays = {}
     probe: ResidualProbe
     if isinstance(model, PosingModel):
+        if model.problem.energy.stars is not None:
+            return {}
         probe = PosingProbe(model.problem, subspace, sample)
         arrays = {
             "estimator_pin_corners": probe.pinned,

@@ -158,11 +158,18 @@ def _posing_arrays(model: PosingModel) -> Arrays:
         "handle_of_vertex": handle_of_vertex(model),
         **_modes("space", _on_surface(surface, model.subspace.basis.T)),
         **_elastic_arrays(model.elastic),
-        "handle_K": model.handles.K,
+        "handle_K": _quadratic_part(model),
         "handle_L": model.handles.L,
         "handle_S": model.handles.S,
         **_frame_arrays(model),
     }
+
+
+def _quadratic_part(model: PosingModel) -> FloatArray:
+    """K of the handles, with what a cubature's elements leave of the elastic energy."""
+    elastic, K = model.elastic, model.handles.K
+    left = elastic.remainder if isinstance(elastic, Cubature) else None
+    return K if left is None else K + left
 
 
 def _frame_arrays(model: PosingModel) -> Arrays:

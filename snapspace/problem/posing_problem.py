@@ -43,7 +43,7 @@ class PosingProblem:
         The first one stays at rest while sampling, as do those whose bounds are zero.
     material : Material, default StableNeoHookean(lam=1, mu=1)
         Moduli are numbers, or arrays with one number per tet or triangle. Of a shell it is
-        `StableNeoHookean` or `StVK`, see `ElasticEnergy`.
+        `StableNeoHookean`, `StVK` or `ARAP`, see `ElasticEnergy`.
     stiffness : float, optional
         Weight of the handles, > 0, in energy per volume and squared length (paper, mu of eq. 2).
         Default: `usual_stiffness`, which follows the size and the moduli of the body.
@@ -196,7 +196,7 @@ class PosingProblem:
     @cached_property
     def system(self) -> core.PosingSystem:
         """The compiled problem with its scalar factor, shared by all samples."""
-        elastic = self.mesh.vertices, self.mesh.elements, self.element_material.core
+        elastic = self.mesh.vertices, self.energy.corners, self.element_material.core
         pins = self.pinned, self.pin_weights
         return run_abandonable(lambda: core.PosingSystem(*elastic, *pins))
 

@@ -6,6 +6,8 @@ from ..cubature import (
     CubatureErrors,
     default_blended_tets,
     default_tets,
+    element_count,
+    has_hinges,
 )
 from .energy_choice import (
     ENERGIES,
@@ -51,9 +53,11 @@ __all__ = [
     "coefficient_count",
     "default_blended_tets",
     "default_tets",
+    "element_count",
     "exact_seconds",
     "fewest_snapshots",
     "handle_quadric",
+    "has_hinges",
     "not_stored",
     "pose_quartics",
     "reduce",

@@ -24,4 +24,5 @@ def posing_loop(model: PosingModel, *, single: bool) -> Any:
     if single:
         raise ValueError(SINGLE_CUBATURE)
     energy = elastic.rows, elastic.weights, elastic.material.core
-    return core.CubatureLoop(*energy, handles.K, handles.L, handles.S)
+    quadratic = handles.K if elastic.remainder is None else handles.K + elastic.remainder
+    return core.CubatureLoop(*energy, quadratic, handles.L, handles.S)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import ceil
 
-from ..mesh import ShellMesh
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..reduction import (
     Energy,
     ReducedModel,
     default_blended_tets,
     default_tets,
+    element_count,
+    has_hinges,
     training_tolerance,
 )
 from ..sampling import Method
@@ -89,13 +90,14 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     tets = None if cubature is None else len(cubature.tets)
     part, solved = split.largest, max(_solved_samples(model), model.dimension)
     method: Method = "sobol"
-    usual = default_tets(model.dimension, shell=isinstance(problem.mesh, ShellMesh))
+    usual = default_tets(model.dimension, shell=has_hinges(problem))
     if isinstance(problem, InterpolationProblem):
         # for two poses `blends` would only add the middle
         method = "blends" if problem.parameter_count > 2 else "sobol"
         usual = default_blended_tets(model.dimension)
-    if part == "cubature" and tets is not None and tets < len(problem.mesh.elements):
-        wanted = min(max(ceil(MORE * tets), usual), len(problem.mesh.elements))
+    available = element_count(problem)
+    if part == "cubature" and tets is not None and tets < available:
+        wanted = min(max(ceil(MORE * tets), usual), available)
         tolerance = _training_tolerance(model, model.dimension, "cubature")
         return NextOption(part, solved, model.dimension, wanted, "cubature", tolerance, method)
     dimension = ceil(LARGER * model.dimension)

@@ -31,7 +31,7 @@ ALLOWED: dict[str, set[str]] = {
     "fitting": {"_core", "blas", "interruptible", "material", "mesh", "registration"},
     "generators": {"mesh", "stuffing"},
     "material": {"_core"},
-    "energy": {"_core", "material", "mesh"},
+    "energy": {"_core", "blas", "material", "mesh"},
     "problem": {
         "_core",
         "energy",

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    ARAP,
     PosingModel,
     ShellMesh,
     load,
@@ -121,7 +122,7 @@ def test_thickness_may_be_given_triangle_by_triangle(surface: Path, tmp_path: Pa
         ({"body": {"shell": {"thickness": -1}}}, "thickness is -1.0, but it must be positive"),
         ({"body": {"plate": {}}}, "body: unknown entry 'plate'; known are shell"),
         ({"mesh": "bar.msh"}, "a shell is made of the entry 'surface', not of 'mesh'"),
-        ({"material": {"model": "arap"}}, "a shell cannot be made of as rigid as possible"),
+        ({"material": {"model": "corotational"}}, "a shell cannot be made of fixed corotational"),
     ],
 )
 def test_what_is_no_shell_is_refused(
@@ -136,3 +137,14 @@ def test_tets_are_no_shell(run: Run, tmp_path: Path) -> None:
         "build", "--problem", problem(tmp_path), "x.msh", "--shell", 0.1, "-o", "m.snapspace"
     )
     assert "a shell is made of a surface" in result.error
+
+
+def test_a_surface_as_rigid_as_possible_is_built_and_described(
+    run: Run, surface: Path, tmp_path: Path
+) -> None:
+    model = tmp_path / "arap.snapspace"
+    given = problem(tmp_path, **SHELL, material={"model": "arap", "mu": 2.0})
+    run("build", "--problem", given, *SMALL, "-o", model)
+    loaded = load(model)
+    assert loaded.problem.material == ARAP(mu=2.0)
+    assert "vertices with their triangles" in " ".join(run("info", model).err.split())

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from snapspace import (
+    ARAP,
     BlendingSession,
     Dynamics,
     HandleBox,
@@ -229,7 +230,7 @@ def expected(
         name: calibrate(shell_model(varied=varied), samples=12, threads=1)
         for name, varied in (("shell", False), ("varied_shell", True))
     }
-    models |= materials | shells
+    models |= materials | shells | {"surface-arap": shell_model(ARAP())}
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -252,6 +253,7 @@ def expected(
         "values": {kind: values_at(model) for kind, model in (materials | shells).items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},
         **{name: posing_frames(model) for name, model in shells.items()},
+        "surface-arap": posing_frames(models["surface-arap"]),
     }
     for name, content in frames.items():
         (folder / f"{name}.json").write_text(json.dumps(content))

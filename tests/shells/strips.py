@@ -33,12 +33,13 @@ def strip(nx: int = 16, ny: int = 4, *, thickness: ArrayLike = 0.03) -> ShellMes
     return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
 
 
-def shell_model(*, varied: bool = False) -> PosingModel:
+def shell_model(material: Material | None = None, *, varied: bool = False) -> PosingModel:
     """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions.
 
+    material : default StableNeoHookean()
     varied : whether thickness and moduli differ from triangle to triangle
     """
-    mesh, material = strip(thickness=0.1), StableNeoHookean()
+    mesh = strip(thickness=0.1)
     if varied:
         count = len(mesh.triangles)
         mesh = strip(thickness=np.linspace(0.08, 0.12, count))

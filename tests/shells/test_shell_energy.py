@@ -8,7 +8,16 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 from scipy.spatial.transform import Rotation
 
-from snapspace import ARAP, ElasticEnergy, Material, ShellMesh, StableNeoHookean, StVK, TetMesh
+from snapspace import (
+    ARAP,
+    Corotational,
+    ElasticEnergy,
+    Material,
+    ShellMesh,
+    StableNeoHookean,
+    StVK,
+    TetMesh,
+)
 
 from ..shapes import irregular_bar
 from .sheets import bumpy, equilateral, hinge, hinge_vertices, irregular, rolled, sheet, sphere
@@ -260,8 +269,10 @@ def test_per_triangle_moduli_are_those_of_their_triangles() -> None:
 
 
 def test_what_a_shell_cannot_be_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"cannot be made of as rigid as possible, .*take Stable"):
-        ElasticEnergy(sheet(), ARAP())
+    with pytest.raises(ValueError, match=r"cannot be made of fixed corotational, .*StVK or ARAP"):
+        ElasticEnergy(sheet(), Corotational())
+    with pytest.raises(ValueError, match="ARAP has no hinges, so bending cannot be 'tangent'"):
+        ElasticEnergy(sheet(), ARAP(), bending="tangent")
     with pytest.raises(ValueError, match="unknown bending 'cosine'; known are angle, tangent"):
         ElasticEnergy(sheet(), StVK(), bending="cosine")  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="moduli for 3 tets, but the mesh has 48"):

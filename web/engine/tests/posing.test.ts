@@ -41,7 +41,8 @@ function surface(session: PosingSession): Float32Array {
 // every material with other moduli in every tet, and shells
 const materials = expected<string[]>("materials.json");
 const models = ["posing", "own_surface", "cubature", ...materials];
-for (const file of models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]))
+const files = models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]);
+for (const file of [...files, "surface-arap.packed"])
   test(`a drag is that of Session: ${file}`, async () => {
     const [name, ending] = file.split(".");
     const { frames, leading } = expected<Drag>(`${name}.json`);

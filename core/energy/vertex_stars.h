@@ -1,0 +1,101 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "material/tet_material.h"
+#include "memory/streamed_vector.h"
+#include "mesh/rest_shape.h"
+#include "simd/lanes.h"
+
+namespace snapspace {
+
+/// The energy of a surface that is as rigid as possible, spokes and rims [Sorkine, Alexa 2007;
+/// Chao, Pinkall, Sanan, Schroeder 2010]:
+///   E = sum over vertices i, sum over triangles t at i, of weight_t |F_t - R_i T_t|^2,
+/// with the deformation gradient F_t (3 x 2) in the tangent frame T_t, a third of the triangle's
+/// area times its modulus as the weight, and the rotation R_i nearest to the sum of weight_t F_t
+/// T_t^T. Written with edges it has cotangent weights.
+///
+/// With M_i = L_i L_i^T the mean of T_t T_t^T, the rotation depends only on the nine numbers H_i =
+/// mean of (F_t - T_t) T_t^T, times L_i^-T. E is a quadratic form of the displacements, how much
+/// the triangles of a star differ from its best affine map, plus the sum of all stars of their
+/// weight times the density ShellArap at H_i. Neither part is negative.
+class VertexStars {
+ public:
+  /// @param material  of the triangles: rows of ShellArap
+  VertexStars(const RestShape& rest, const TetMaterial& material);
+
+  [[nodiscard]] int count() const { return static_cast<int>(weights.size()); }
+
+  std::vector<SweepStop> stops;  ///< of a pass over the stars; `tets` are stars
+
+  /// Corners of star i, first its vertex: first_corner[i] to before first_corner[i + 1]. H_i is
+  /// the sum of u_j (x) gradient_j.
+  std::vector<std::int32_t> first_corner, corners;
+  std::vector<double> gradients;  ///< three per corner
+  std::vector<double> frames;     ///< L, row by row, nine per star
+  std::vector<double> weights;    ///< sums of the triangles' weights
+  std::vector<double> areas;      ///< a third of the area around each vertex
+
+  /// Row of ShellArap of a star of modulus one.
+  void write_numbers(int star, double* numbers) const;
+
+  /// The quadratic part as a matrix (n x n), for x, y and z: u^T Q u.
+  [[nodiscard]] Eigen::SparseMatrix<double> remainder() const;
+
+  /// Energy of the stars from `begin` to before `end` at u; adds its gradient to `gradient` (3n).
+  template <class Real>
+  [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
+                                                 Real* gradient) const;
+
+  /// Adds the Hessian at rest times v to `product` (3n).
+  template <class Real>
+  void add_rest_product(const Real* v, Real* product) const;
+
+  /// Adds the Hessian at u times v to `product` (3n).
+  void add_hessian_product(const double* u, const double* v, double* product) const;
+
+  /// H of a star (3 x 3).
+  template <class Real>
+  void gradient_of(int star, const Real* u, Real H[3][3]) const;
+
+ private:
+  /// A triangle at rest: its hat functions' gradients in the tangent frame, whose first vector is
+  /// along the first edge, and that frame.
+  template <class T>
+  struct Triangle {
+    T first[2], second;  ///< of the second corner, and of the third, along the second vector
+    T frame[3][2];
+    T weight;
+    std::int32_t vertices[3];
+  };
+  /// What hot loops read, in the precision of T.
+  template <class T>
+  struct Numbers {
+    StreamedVector<Triangle<T>> triangles;
+    StreamedVector<T> gradients, frames;
+  };
+
+  void find_corners(int vertex_count);
+  void make_star(int star);
+  template <class T>
+  [[nodiscard]] const Numbers<T>& numbers() const {
+    if constexpr (std::is_same_v<T, float>)
+      return single_;
+    else
+      return double_;
+  }
+  template <class Real, class Turn>
+  Sum<Real> add_stars(int begin, int end, const Real* u, Real* gradient, const Turn& turn) const;
+
+  std::vector<std::int32_t> first_triangle_, triangles_;  // around each vertex
+  Numbers<double> double_;
+  Numbers<float> single_;
+  // inverse of tr(M) I - M, nine per star: turns the torque of a small displacement into a rotation
+  std::vector<double> inverse_inertias_;
+};
+
+}  // namespace snapspace

@@ -1,0 +1,23 @@
+"""The triangles of a surface that is as rigid as possible."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..material import Material
+from ..mesh import ShellMesh
+
+#: The density in the core, and how many numbers its rows have; see core/material/shell_arap.h.
+KIND, NUMBERS = "shell-arap", 12
+
+
+def arap_triangles(mesh: ShellMesh, material: Material) -> NDArray[np.float64]:
+    """Rows (f, 12) of the density: moduli times the thickness, and tangent frames."""
+    moduli = np.zeros((len(mesh.triangles), 3))
+    moduli[:, 0] = material.mu * mesh.thickness
+    # the frames are those of all shells, and the rows of others are longer
+    triangles = np.ascontiguousarray(mesh.elements[: len(mesh.triangles)])
+    rows = _core.shell_moduli(mesh.vertices[None], triangles, "shell-stvk", moduli)[0]
+    return np.ascontiguousarray(rows[:, :NUMBERS])
