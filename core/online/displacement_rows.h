@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "element/make_rest_tet.h"
+#include "online/shell_elements.h"
 
 namespace snapspace::online {
 
@@ -11,13 +11,14 @@ namespace snapspace::online {
 /// digits on slivers.
 /// @param points  tets x 4 x 3, the corners at rest; no tet without volume
 /// @param modes  tets x 4 x 3 x dimension, displacements of the corners
+/// @param shell  elements x 3, if they are those of a shell, see shell_elements.h; else null
 /// @param rows  tets x 9 x dimension, overwritten
 inline void displacement_rows(int tets, int dimension, const double* points, const double* modes,
-                              float* rows) {
-  constexpr std::int32_t kCorners[4] = {0, 1, 2, 3};
+                              const double* shell, float* rows) {
   const auto d = static_cast<std::size_t>(dimension);
   for (int t = 0; t < tets; ++t, points += 12, modes += 12 * d) {
-    const RestTet tet = make_rest_tet(points, kCorners);
+    const RestTet tet = shell ? shell_element(shell + 3 * t, points).element()
+                              : make_rest_tet(points, kHingeCorners);
     for (int entry = 0; entry < 9; ++entry, rows += d) {
       const int a = entry / 3, b = entry % 3;
       const double* origin = modes + a * d;

@@ -114,9 +114,19 @@ int snapspace_value_scale(const snapspace_material* material, int tets, const do
 }
 
 int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
-                                float* rows) {
+                                const double* shell_moduli, float* rows) {
   if (tets < 1 || dimension < 1 || !points || !modes || !rows) return SNAPSPACE_BAD_ARGUMENT;
-  snapspace::online::displacement_rows(tets, dimension, points, modes, rows);
+  snapspace::online::displacement_rows(tets, dimension, points, modes, shell_moduli, rows);
+  return SNAPSPACE_OK;
+}
+
+int snapspace_shell_moduli(const char* kind, int elements, const double* points,
+                           const double* shell_moduli, double* moduli) {
+  if (!kind || elements < 1 || !points || !shell_moduli || !moduli) return SNAPSPACE_BAD_ARGUMENT;
+  const int index = snapspace::material_index(kind);
+  if (index < 0) return SNAPSPACE_UNKNOWN_MATERIAL;
+  if (!snapspace::is_of_shells(index)) return SNAPSPACE_BAD_ARGUMENT;
+  snapspace::online::shell_moduli(index, elements, points, shell_moduli, moduli);
   return SNAPSPACE_OK;
 }
 

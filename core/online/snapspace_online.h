@@ -99,9 +99,17 @@ typedef struct snapspace_cubature {
 
 /* Computes the rows of a cubature of tets. points (tets x 4 x 3) are the corners of its tets at
  * rest, no tet without volume, and modes (tets x 4 x 3 x dimension) the displacements of the
- * corners. */
+ * corners. shell_moduli is null; or, for the elements of a shell, as below. */
 int snapspace_displacement_rows(int tets, int dimension, const double* points, const double* modes,
-                                float* rows);
+                                const double* shell_moduli, float* rows);
+
+/* Computes the rows of moduli of a shell's elements, with the numbers of their rest shapes:
+ * elements x number of the density's moduli. points (elements x 4 x 3) are the corners at rest,
+ * those of a triangle with the last one twice, and of a hinge the ends of its edge and the other
+ * corners of the triangles to its left and right. shell_moduli (elements x 3): of a triangle mu > 0
+ * and lam of the plane, times thickness, and 0; of a hinge 0, 0, and its bending stiffness. */
+int snapspace_shell_moduli(const char* kind, int elements, const double* points,
+                           const double* shell_moduli, double* moduli);
 
 /* A posing session with a cubature instead of a quartic; copies its arrays too. Its solves are
  * fastest with SNAPSPACE_BFGS, which continues with the inverse Hessian of the last frame. */

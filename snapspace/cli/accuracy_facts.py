@@ -10,15 +10,16 @@ Facts = list[tuple[str, str]]
 
 
 def accuracy_facts(record: dict[str, Any]) -> Facts:
-    """Errors of unseen motions or blends, and inverted tets, as far as they are recorded."""
+    """Errors of unseen motions or blends, and inverted tets of solids, as far as recorded."""
     unseen = record.get("unseen")
-    known = isinstance(unseen, dict) and isinstance(unseen.get("inverted_tets"), dict)
     facts = _target_facts(record)
-    if not isinstance(unseen, dict) or not known:
+    if not isinstance(unseen, dict) or not {"name", "samples", "ninth"} <= unseen.keys():
         return facts
     if not facts:
         facts = [("accuracy", f"{_errors(unseen)}; {unseen['samples']} unseen samples")]
-    return [*facts, ("inverted tets", _inverted(unseen))]
+    if isinstance(unseen.get("inverted_tets"), dict):  # a shell has no tets
+        facts.append(("inverted tets", _inverted(unseen)))
+    return facts
 
 
 def _target_facts(record: dict[str, Any]) -> Facts:

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..mesh import EmbeddedSurface
+from ..mesh import EmbeddedSurface, TetMesh
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, reduce
 from ..snapshots import Checkpoint, Snapshots
@@ -56,7 +56,9 @@ class Built:
             "snapshots": {
                 "converged": int(self.snapshots.converged.sum()),
                 "iterations_mean": float(np.mean([report.iterations for report in reports])),
-                "inverted_tets_max": max(report.inverted_tets for report in reports),
+                "inverted_tets_max": max(report.inverted_tets for report in reports)
+                if isinstance(problem.mesh, TetMesh)
+                else None,
             },
             "unseen": self.model.provenance.get("unseen"),
             "model_bytes": self.path.stat().st_size,

@@ -21,7 +21,7 @@ from .loading import load_posing
 from .motions import MotionCommand, as_parameters, beyond_domain, motions_in_order
 from .options import FILE, json_option, leading_option, up_option, vector_option
 from .own_surface import SHAPE_OUTPUTS, check_own_output, surface_option, with_surface
-from .pose_path import handle_colors, posed_path
+from .pose_path import handle_colors, inverted_tets, posed_path
 from .progress import spinner
 
 
@@ -128,7 +128,7 @@ def pose(
         "gradient_norm": report.gradient_norm,
         "solve_ms": 1e3 * report.seconds,
         "frame_ms": frame_ms,
-        "inverted_tets": problem.energy.inverted_tets(vertices),
+        "inverted_tets": inverted_tets(problem, vertices),
         "dimension": model.dimension,
         "output": None if output is None else str(output),
         "png": None if png is None else str(png),
@@ -156,11 +156,15 @@ def _picture(model: PosingModel, vertices: NDArray[np.float64], up: str) -> NDAr
     return render(surface.vertices(vertices), surface.faces, colors=handle_colors(model), up=up)
 
 
+def _inverted_fact(count: int | None) -> list[tuple[str, str]]:
+    return [] if count is None else [("inverted tets", str(count))]
+
+
 def _print_report(figures: dict[str, Any]) -> None:
     facts = [
         ("status", f"{figures['status']} after {figures['iterations']} iterations"),
         ("energy", f"{figures['value']:.6g}"),
-        ("inverted tets", str(figures["inverted_tets"])),
+        *_inverted_fact(figures["inverted_tets"]),
         ("solve", f"{figures['solve_ms']:.2f} ms, with all vertices {figures['frame_ms']:.2f} ms"),
     ]
     written = [name for name in (figures["output"], figures["png"]) if name]

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..animation import write_animation
+from ..mesh import TetMesh
 from ..pictures import tint
+from ..problem import PosingProblem
 from ..reduction import PosingModel
 from ..session import FrameReport
 from .console import notice, print_facts
@@ -56,14 +58,14 @@ class PosedPath:
 
     def as_json(self, files: list[Path]) -> dict[str, Any]:
         """The numbers with the keys of `snapspace pose --path --json`."""
-        inverted = self.model.problem.energy.inverted_tets
+        problem = self.model.problem
         frames = [
             {
                 "status": report.status,
                 "iterations": report.iterations,
                 "value": report.value,
                 "solve_ms": 1e3 * report.seconds,
-                "inverted_tets": inverted(shape),
+                "inverted_tets": inverted_tets(problem, shape),
             }
             for shape, report in zip(self.shapes, self.reports, strict=True)
         ]
@@ -102,6 +104,11 @@ def posed_path(model: PosingModel, motions: Mapping[str, Motion], frames: int) -
         reports.append(report)
         shapes.append(session.vertices)
     return PosedPath(model, shapes, reports)
+
+
+def inverted_tets(problem: PosingProblem, shape: FloatArray) -> int | None:
+    """How many tets of a solid a shape inverts; None for a shell."""
+    return problem.energy.inverted_tets(shape) if isinstance(problem.mesh, TetMesh) else None
 
 
 def handle_colors(model: PosingModel) -> FloatArray:

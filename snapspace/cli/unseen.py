@@ -9,6 +9,7 @@ import numpy as np
 
 from ..accurate import plan_of
 from ..calibration import calibrate
+from ..mesh import TetMesh
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
 from ..validation import Validation, solved_reference, validate, with_lower_minima
@@ -64,8 +65,7 @@ def unseen_record(
         All samples that were solved for it.
     """
     plan = plan_of(model.problem)
-    full = [report.inverted_tets for report in validation.reference.reports]
-    return {
+    record = {
         "name": plan.unseen_name,
         "typical": plan.typical_name,
         "samples": len(validation.error),
@@ -73,6 +73,11 @@ def unseen_record(
         "mean": float(validation.error.mean()),
         "ninth": float(np.quantile(validation.error, 0.9)),
         "projection_median": float(np.median(validation.projection_error)),
+    }
+    if not isinstance(model.problem.mesh, TetMesh):
+        return record
+    full = [report.inverted_tets for report in validation.reference.reports]
+    return record | {
         "inverted_tets": {
             "samples": _counts([report.inverted_tets for report in snapshots.reports]),
             "unseen": _counts(full),

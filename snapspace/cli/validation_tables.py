@@ -35,9 +35,10 @@ def print_validation(validation: Validation, dimension: int, *, asked: int) -> N
     for key, label in _ROWS.items():
         cells = (figures[key].get(name) for name in _STATISTICS)
         table.add_row(label, *("" if value is None else f"{value:.3g}" for value in cells))
-    frames, full = (figures["inverted_tets"][name] for name in ("frames_max", "samples_max"))
-    table.add_row("inverted tets", "", "", "", "", str(frames))
-    table.add_row("inverted tets, full", "", "", "", "", str(full))
+    inverted = figures["inverted_tets"]
+    if inverted is not None:  # a shell has no tets
+        table.add_row("inverted tets", "", "", "", "", str(inverted["frames_max"]))
+        table.add_row("inverted tets, full", "", "", "", "", str(inverted["samples_max"]))
     console().print(table)
     if used < asked:
         notice(

@@ -66,10 +66,11 @@ def view(
 ) -> None:
     """Pose or blend a model in the browser, or make one there.
 
-    FILE is a model; or a problem, tets or a closed surface, to choose handles on and to compute
-    models. Without FILE, drop a mesh on the page. A surface is first filled with tets, in seconds;
-    if it is too thin for quick tets, fTetWild fills it, which takes minutes. With --shell it stays
-    as it is.
+    FILE is a model; or a problem, tets or a surface, to choose handles on and to compute models.
+    Without FILE, drop a mesh on the page. A closed surface is first filled with tets, in seconds;
+    if it is too thin for quick tets, fTetWild fills it, which takes minutes. An open one is a
+    shell: it stays as it is. The page offers the other of both; --shell makes any surface a shell,
+    --edge-length and --exact fill any.
 
     Opens the page, or prints its address if there is no browser; Ctrl-C ends it. Shapes are solved
     in the page, so it is as fast through a tunnel: `ssh -L 8000:localhost:8000 ...` here and
@@ -85,7 +86,9 @@ def view(
     """
     need_extra("view", who="snapspace view")
     model = body = None
-    filling = filling_of(edge_length, exact=exact)
+    filling = None
+    if edge_length is not None or exact:
+        filling = filling_of(edge_length, exact=exact)
     if file is not None:
         existing_file(file, known=(SUFFIX, PROBLEM_SUFFIX, *MESH_SUFFIXES))
         if file.suffix.lower() == SUFFIX:
@@ -115,7 +118,7 @@ def view(
     notice("stopped")
 
 
-def _body(file: Path, filling: SurfaceFilling, thickness: float | None) -> SharedBody:
+def _body(file: Path, filling: SurfaceFilling | None, thickness: float | None) -> SharedBody:
     """The body that the page starts with; a problem or tets are read now, to show errors here."""
     suffix = file.suffix.lower()
     if suffix in (PROBLEM_SUFFIX, *TET_SUFFIXES) and thickness is not None:

@@ -10,30 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..accurate import MOTIONS
-from ..material import DEFAULT_MATERIAL, Material
+from ..material import Material
+from ..mesh import Body as Mesh
 from ..page.painted import KEY
 from ..problem import PosingProblem, usual_stiffness
 from ..reduction import PosingModel, ReducedModel
 from . import messages
 from .body import Body
+from .body_choice import BodyChoice, shown_thickness
 from .computation import Computation, Publish
 from .computation_queue import ComputationQueue
 from .extension import Extension, extension_of
-from .materials import chosen_material, shown_poisson
+from .first_workspaces import mesh_workspace
+from .materials import chosen_material, fitted_material
 from .mirroring import Mirroring
 from .models import Models, usable_start
 from .parts import FloatArray, part_factors, with_factors
 from .recorded import recorded
 from .reporter import Reporter
 from .saving import SavedFiles
-from .selection import (
-    ANGLE,
-    TRANSLATION_SHARE,
-    Selection,
-    as_vector,
-    choices_of,
-    selection_of,
-)
+from .selection import Selection, selection_of
 from .solved_samples import SolvedSamples
 from .surface_regions import SurfaceRegions
 
@@ -49,12 +45,14 @@ class BodySession:
     """
 
     def __init__(self, body: Body, models: Models) -> None:
-        self.body = body
+        self.body = body  # as it was opened, or the shell that was chosen last
+        self._bodies = BodyChoice(body)
         self._models = models
         self._solved = SolvedSamples()
         self._saved = SavedFiles()
         self._problem = body.problem
-        self._given = DEFAULT_MATERIAL() if body.problem is None else body.problem.material
+        given = body.material if body.problem is None else body.problem.material
+        self._given = fitted_material(given, body.mesh)
         self._material = self._given  # that of the last computation, without parts
         self._factors: FloatArray | None = None  # by tet, from the parts
         self._selection: Selection | None = None
@@ -62,53 +60,30 @@ class BodySession:
         self.mirroring = Mirroring(body)
         self._order: messages.Compute | None = None  # the last one
         self._extension: Extension | None = None  # until there is a model of it
-        surface = body.surface
-        self._regions = None if surface is None else SurfaceRegions(body.mesh, surface)
+        self._regions = _regions_of(body)
         if body.problem is not None:
             self._selection = Selection(body.problem.handles, body.problem.domain)
 
     def begin(self, empty: messages.Workspace, *, mesh: str) -> messages.Workspace:
         """The workspace at first, from that of an empty one and the address `mesh`."""
-        shape, problem = self.body.mesh, self.body.problem
-        length = TRANSLATION_SHARE * shape.diagonal
-        known = replace(
-            empty,
-            kind="mesh",
-            name=self.body.name,
-            mesh=mesh,
-            diagonal=shape.diagonal,
-            translation=(length, length, length),
-            angle=(ANGLE, ANGLE, ANGLE),
-            stiffness=self._stiffness,
-            material=self._given.kind,
-            poisson=shown_poisson(self._given),
-            folder=str(self.body.folder),
-            up=self.body.up or empty.up,
-            has_surface=self.body.surface is not None,
-        )
-        if problem is None:
-            return known
-        bounds = problem.domain.common.bounds[0]
-        choices = choices_of(problem)
-        return replace(
-            known,
-            handles=choices
-            if self._regions is None
-            else self._regions.shown(choices, self.body.painted),
-            translation=as_vector(bounds[:3]),
-            angle=as_vector(bounds[3:]),
-        )
+        known = mesh_workspace(empty, self.body, self._given, self._regions, mesh=mesh)
+        return replace(known, stiffness=self._stiffness)
 
     def choose(self, choice: messages.Choose) -> messages.Chosen:
         """Takes the handles and parts of a message; ValueError if they make no valid problem."""
+        body = self._bodies.of(choice.thickness)
+        regions = self._regions if body is self.body else _regions_of(body)
         selection = selection_of(choice)
         painted: tuple[messages.HandleChoice, ...] = ()
-        if self._regions is not None:
+        if regions is not None:
             painted = choice.handles
-            selection = replace(selection, handles=self._regions.in_tets(selection.handles))
-        factors = part_factors(choice.parts, self.body.mesh, self._regions)
-        material = with_factors(self._material, factors)
-        problem = self._make_problem(selection, self._stiffness, material)
+            selection = replace(selection, handles=regions.in_tets(selection.handles))
+        factors = part_factors(choice.parts, body.mesh, regions)
+        material = fitted_material(self._material, body.mesh)
+        problem = self._make_problem(
+            selection, self._stiffness, with_factors(material, factors), mesh=body.mesh
+        )
+        self.body, self._regions, self._material = body, regions, material
         self._selection, self._factors, self._painted = selection, factors, painted
         self._extension = None
         return messages.Chosen(request=choice.request, handles=problem.handles.names)
@@ -127,7 +102,8 @@ class BodySession:
         """
         if self._selection is None:
             raise ValueError("no handles are chosen; choose at least two, one of them fixed")
-        material = chosen_material(self._given, kind=order.material, poisson=order.poisson)
+        given = fitted_material(self._given, self.body.mesh)
+        material = chosen_material(given, kind=order.material, poisson=order.poisson)
         problem = self._make_problem(
             self._selection, order.stiffness, with_factors(material, self._factors)
         )
@@ -150,6 +126,9 @@ class BodySession:
         They count as chosen once there is a model of it.
         """
         self._settle()
+        if model.problem.mesh is not self.body.mesh:  # another one was chosen since
+            self.body = self._bodies.of(shown_thickness(model.problem.mesh))
+            self._regions = _regions_of(self.body)
         painted = {handle.name: handle.vertices for handle in self._painted}
         self._extension = extension_of(
             model.problem,
@@ -264,11 +243,22 @@ class BodySession:
         )
 
     def _make_problem(
-        self, selection: Selection, stiffness: float, material: Material
+        self,
+        selection: Selection,
+        stiffness: float,
+        material: Material,
+        *,
+        mesh: Mesh | None = None,
     ) -> PosingProblem:
-        return selection.problem(
-            self.body.mesh, material=material, stiffness=stiffness, known=self._problem
-        )
+        mesh = mesh or self.body.mesh
+        known = self._problem
+        if known is not None and known.mesh is not mesh:
+            known = None
+        return selection.problem(mesh, material=material, stiffness=stiffness, known=known)
+
+
+def _regions_of(body: Body) -> SurfaceRegions | None:
+    return None if body.surface is None else SurfaceRegions(body.mesh, body.surface)
 
 
 def _target_of(model: PosingModel) -> float:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..material import MATERIALS, Material, material_class
+from ..energy.shell_material import MEMBRANES
+from ..material import DEFAULT_MATERIAL, MATERIALS, Material, material_class
+from ..mesh import Body, ShellMesh
 from .messages import MaterialChoice
 
 #: Beyond this ratio linear tets lock.
@@ -18,6 +20,7 @@ def material_choices() -> tuple[MaterialChoice, ...]:
             kind=kind,
             title=material.title,
             has_poisson=bool(material.from_lame(lam=1.0, mu=1.0).lam > 0),
+            has_membrane=issubclass(material, MEMBRANES),
         )
         for kind, material in MATERIALS.items()
     )
@@ -50,6 +53,16 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
         lam = 2.0 * np.asarray(given.mu) * poisson / (1.0 - 2.0 * poisson)
         return made.from_lame(lam=lam, mu=given.mu)
     return given if made is type(given) else made.from_lame(lam=given.lam, mu=given.mu)
+
+
+def fitted_material(material: Material, mesh: Body) -> Material:
+    """The material for a body: of moduli for other cells their means, and for shells a membrane."""
+    if isinstance(mesh, ShellMesh) and not isinstance(material, MEMBRANES):
+        material = DEFAULT_MATERIAL.from_lame(lam=material.lam, mu=material.mu)
+    moduli = {name: getattr(material, name) for name in material.names()}
+    if all(np.size(value) in (1, len(mesh.cells)) for value in moduli.values()):
+        return material
+    return type(material)(**{name: float(np.mean(value)) for name, value in moduli.items()})
 
 
 def shown_poisson(material: Material) -> float | None:

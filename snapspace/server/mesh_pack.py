@@ -1,4 +1,4 @@
-"""packed_mesh, packed_surface: a mesh in the format of the page, to choose handles on."""
+"""packed_mesh: a mesh or a surface in the format of the page, to choose handles on."""
 
 from __future__ import annotations
 
@@ -13,16 +13,18 @@ from ..mesh.arrays import FloatArray, IndexArray
 from ..model_file.appearance import file_arrays
 from ..page.pack import FORMAT, VERSION
 from .body import Body
+from .user_surface import UserSurface
 
 
-def packed_mesh(body: Body, *, up: str) -> bytes:
+def packed_mesh(shown: Body | UserSurface, *, up: str) -> bytes:
     """The vertices that a page can choose, and the faces of the surface.
 
     Parameters
     ----------
-    body : Body
-        If it has its own surface, all vertices and faces of that are packed. Otherwise all
-        vertices of the tets, also those inside, and the faces of their surface.
+    shown : Body or UserSurface
+        Of a surface that is not filled yet, or a body with its own surface, all vertices and faces
+        of that are packed: they are the same. Otherwise all vertices of the tets, also those
+        inside, and the faces of their surface.
     up : "x", "y" or "z"
         Axis that points up at first.
 
@@ -32,25 +34,17 @@ def packed_mesh(body: Body, *, up: str) -> bytes:
         safetensors layout: vertices (n, 3) float32, faces (f, 3) int32 with indices among all
         vertices. A surface has the arrays of its own materials, see `file_arrays`.
     """
-    mesh, surface = body.mesh, body.surface
+    if isinstance(shown, UserSurface):
+        about = {"name": shown.name, "up": up, "diagonal": shown.diagonal}
+        return _packed(shown.source.vertices, shown.source.faces, shown.source, about)
+    mesh, surface = shown.mesh, shown.surface
     vertices, faces, source = mesh.vertices, mesh.surface, None
     if surface is not None:
         vertices, faces = surface.vertices(mesh.vertices), surface.faces
         source = surface.source
     return _packed(
-        vertices, faces, source, {"name": body.name, "up": up, "diagonal": mesh.diagonal}
+        vertices, faces, source, {"name": shown.name, "up": up, "diagonal": mesh.diagonal}
     )
-
-
-def packed_surface(source: SurfaceFile, *, name: str, up: str) -> bytes:
-    """The same for a surface that is not filled yet: its vertices and faces stay what they are."""
-    about = {"name": name, "up": up, "diagonal": diagonal_of(source)}
-    return _packed(source.vertices, source.faces, source, about)
-
-
-def diagonal_of(surface: SurfaceFile) -> float:
-    """Diagonal of the bounding box of a surface."""
-    return float(np.linalg.norm(np.ptp(surface.vertices, axis=0)))
 
 
 def _packed(

@@ -30,8 +30,10 @@ from .page_messages import (
     Keep,
     Mirror,
     Polish,
+    Reopen,
     Save,
 )
+from .workspace_message import Workspace
 
 __all__ = [
     "Cancel",
@@ -50,65 +52,12 @@ __all__ = [
     "Mirror",
     "PartChoice",
     "Polish",
+    "Reopen",
     "Save",
     "SurfaceFinding",
     "Vector",
+    "Workspace",
 ]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Workspace:
-    """Server: the workspace of the page. The first message, sent again after an upload.
-
-    A page that reconnects gets its choices back; the newest `Model` and last `Progress` follow.
-
-    id : part of the address of uploads, POST mesh?workspace=ID&name=FILE&token=..., and of the
-        websocket of a page that reconnects, live?workspace=ID&token=...
-    kind : "empty": the page asks for a mesh; "reading": progress and another workspace follow;
-        "surface": so far the mesh can only be looked at, progress of filling it and a workspace of
-        its tets, or `Failed`, follow; "mesh": handles can be chosen; "model": the page's own model,
-        number 0, can be polished
-    name : name of the mesh or model
-    mesh : address of the packed mesh, the same while it is filled and after; null unless the kind
-        is surface or mesh
-    up : axis that points up at first, x, y or z
-    handles, parts, translation, angle : initial choices
-    diagonal : diagonal of the mesh; 0 if there is none
-    target_error, most_samples, seed, stiffness, material, poisson : initial values for `Compute`
-    materials : materials that can be chosen
-    folder : folder where `Save` writes, to show to the reader
-    upload_limit : largest upload, in bytes
-    own_poisson : Poisson's ratio that the page chose in place of `poisson`; null: none
-    job : request of the last `Compute` or `Extend` for this mesh; 0 if there was none
-    is_running : whether that is still running
-    has_model : whether a model of that follows
-    has_surface : whether the mesh came as a surface, so that `Check` examines it
-    """
-
-    id: str
-    kind: str
-    name: str
-    mesh: str | None
-    up: str
-    handles: tuple[HandleChoice, ...]
-    translation: Vector
-    angle: Vector
-    diagonal: float
-    target_error: float
-    seed: int
-    stiffness: float
-    materials: tuple[MaterialChoice, ...]
-    material: str
-    poisson: float | None
-    folder: str
-    upload_limit: int
-    parts: tuple[PartChoice, ...] = ()
-    most_samples: int | None = None
-    own_poisson: float | None = None
-    job: int = 0
-    is_running: bool = False
-    has_model: bool = False
-    has_surface: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -191,6 +140,16 @@ class Cancelled:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Reopened:
+    """Server: the surface is opened again; a `Workspace` follows.
+
+    request : that of the `Reopen`
+    """
+
+    request: int
+
+
+@dataclass(frozen=True, kw_only=True)
 class Failed:
     """Server: a request was refused, or its work failed.
 
@@ -259,7 +218,20 @@ class Polished:
     seconds: float
 
 
-FROM_PAGE = (Choose, Compute, Cancel, Save, Polish, Keep, Edit, Check, Mirror, Extend, Export)
+FROM_PAGE = (
+    Choose,
+    Compute,
+    Cancel,
+    Save,
+    Polish,
+    Keep,
+    Edit,
+    Check,
+    Mirror,
+    Extend,
+    Export,
+    Reopen,
+)
 FROM_SERVER = (
     Workspace,
     Chosen,
@@ -267,6 +239,7 @@ FROM_SERVER = (
     Progress,
     Model,
     Cancelled,
+    Reopened,
     Failed,
     Saved,
     Exported,
@@ -276,7 +249,18 @@ FROM_SERVER = (
 PARTS = (HandleChoice, PartChoice, MaterialChoice, HandleMotion, KeptPoint, SurfaceFinding)
 
 PageMessage = (
-    Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror | Extend | Export
+    Choose
+    | Compute
+    | Cancel
+    | Save
+    | Polish
+    | Keep
+    | Edit
+    | Check
+    | Mirror
+    | Extend
+    | Export
+    | Reopen
 )
 ServerMessage = (
     Workspace
@@ -285,6 +269,7 @@ ServerMessage = (
     | Progress
     | Model
     | Cancelled
+    | Reopened
     | Failed
     | Saved
     | Exported

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..mesh import SurfaceFile
+from .user_surface import UserSurface
 
 
 @dataclass(frozen=True)
@@ -17,4 +17,4 @@ class Opening:
     """
 
     stage: Callable[..., None]
-    read: Callable[[SurfaceFile], None] = lambda _: None
+    read: Callable[[UserSurface], None] = lambda _: None

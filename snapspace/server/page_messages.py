@@ -14,6 +14,7 @@ class Choose:
     request : any 32-bit integer, repeated in the answers
     translation, angle : common bounds of the sampled motions, half widths per axis
     parts : stiffer and softer parts; the rest has the material's moduli
+    thickness : of the shell that the surface becomes; null: the body as it was opened
     """
 
     request: int
@@ -21,6 +22,7 @@ class Choose:
     translation: Vector
     angle: Vector
     parts: tuple[PartChoice, ...] = ()
+    thickness: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -125,6 +127,21 @@ class Keep:
     material: str
     poisson: float | None
     up: str
+    thickness: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Reopen:
+    """Page: fill the surface with tets, or take it as a shell at once, also while it is filled.
+
+    Answered by `Reopened` and a `Workspace` with the choices of the last `Keep`, or by `Failed`. If
+    filling fails or is cancelled, the body is as before, which another `Workspace` says.
+
+    thickness : of the shell; null: fill it
+    """
+
+    request: int
+    thickness: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,7 +153,7 @@ class Edit:
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """Page: examine the surface that was filled. Answered by `Checked`, or `Failed`."""
+    """Page: examine the surface. Answered by `Checked`, or `Failed`."""
 
     request: int
 

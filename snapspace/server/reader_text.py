@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import re
+
+from .messages import Failed
 
 #: A function or class of the library, at the beginning or after a file name.
 _WHO = re.compile(r"(^|: )(?:[a-z]+(?:_[a-z]+)+|(?:[A-Z][a-z]+){2,}): ")
@@ -17,8 +20,14 @@ def for_reader(message: str) -> str:
     return _WHO.sub(r"\1", message)
 
 
-def text_of(error: Exception) -> str:
-    """The text of an error for the page."""
+def failure(request: int, error: Exception) -> Failed:
+    """The message that a request failed, in one line; a fault of the program is logged."""
+    if not isinstance(error, MemoryError | ValueError):
+        logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
+    return Failed(request=request, message=_text_of(error).replace("\n", " "))
+
+
+def _text_of(error: Exception) -> str:
     if isinstance(error, MemoryError):
         return "the memory of this machine is used up; use fewer samples or a coarser mesh"
     if isinstance(error, ValueError):

@@ -25,7 +25,8 @@ from ..mesh import (
 from ..model_file import SUFFIX
 from ..problem import PosingProblem, problem_content
 from ..reduction import ReducedModel
-from .body import PROBLEM_SUFFIX, Body
+from .bodies import PROBLEM_SUFFIX
+from .body import Body
 from .messages import HandleChoice, Saved
 
 MESH_SUFFIX, SURFACE_SUFFIX = ".msh", ".obj"

@@ -52,8 +52,9 @@ def serve(
         Where files made from uploaded meshes, or from the model, are saved.
     upload_limit : int, default 256 MB
         Largest size in bytes of a mesh that is dropped on the page.
-    filling : SurfaceFilling, default quick tets
-        How to fill surfaces that are dropped on the page.
+    filling : SurfaceFilling, optional
+        How to fill surfaces that are dropped on the page. Default: with quick tets, unless they
+        are open: those stay as they are, as shells.
     host : str, default "127.0.0.1"
         Address to listen on. Any other address than 127.0.0.1 lets other machines connect, with
         the token. "0.0.0.0" and "::" are all addresses of this machine; requests may then use any
@@ -87,7 +88,7 @@ def serve(
                 body=body,
                 model=model,
                 upload_limit=upload_limit,
-                filling=filling or SurfaceFilling(),
+                filling=filling,
             )
             address = f"http://{shown_host(host)}:{listener.getsockname()[1]}/?token={token}"
             run(page_app(settings, hosts=hosts_for(host)), listener, started=lambda: ready(address))

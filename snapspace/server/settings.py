@@ -39,7 +39,8 @@ class ServerSettings:
     model : model to pose or blend, instead of a body; or None
     upload_limit : largest upload, in bytes
     timeouts : how long workspaces outlive their pages
-    filling : how to fill surfaces that are dropped on a page
+    filling : how to fill surfaces that are dropped on a page; None: with quick tets, and those
+        that are open stay as they are, as shells
     queue : the queue of all computations
     """
 
@@ -52,5 +53,5 @@ class ServerSettings:
     model: ReducedModel | None = None
     upload_limit: int = UPLOAD_LIMIT
     timeouts: PageTimeouts = field(default_factory=PageTimeouts)
-    filling: SurfaceFilling = field(default_factory=SurfaceFilling)
+    filling: SurfaceFilling | None = None
     queue: ComputationQueue = field(default_factory=ComputationQueue)

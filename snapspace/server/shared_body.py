@@ -6,10 +6,10 @@ import threading
 from collections.abc import Callable
 
 from ..interruptible import POLL_SECONDS
-from ..mesh import SurfaceFile
 from ..stopping import check_stop
 from .body import Body
 from .opening import Opening
+from .user_surface import UserSurface
 
 
 class SharedBody:
@@ -26,7 +26,7 @@ class SharedBody:
     def __init__(self, make: Callable[[Opening], Body]) -> None:
         self._make = make
         self._lock = threading.Lock()
-        self._surface: SurfaceFile | None = None  # while it is filled
+        self._surface: UserSurface | None = None  # while it is filled
         self._body: Body | None = None
 
     def get(self, opening: Opening) -> Body:
@@ -58,6 +58,6 @@ class SharedBody:
             self._surface = None
             self._lock.release()
 
-    def _read(self, surface: SurfaceFile, opening: Opening) -> None:
+    def _read(self, surface: UserSurface, opening: Opening) -> None:
         self._surface = surface
         opening.read(surface)

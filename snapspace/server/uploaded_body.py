@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..model_file import SUFFIX, load
-from .body import Body, mesh_body, model_body
+from .bodies import mesh_body, model_body
+from .body import Body
 from .opening import Opening
 from .settings import ServerSettings
 
@@ -21,7 +22,12 @@ def uploaded_body(path: Path, opening: Opening, settings: ServerSettings) -> Bod
         if path.suffix.lower() == SUFFIX:
             opening.stage("reading")
             return model_body(load(path), name=path.stem, folder=settings.folder)
-        body = mesh_body(path, stage=opening.stage, filling=settings.filling, read=opening.read)
+        body = mesh_body(
+            path,
+            stage=opening.stage,
+            filling=settings.filling,
+            read=lambda it: opening.read(replace(it, path=None, folder=settings.folder)),
+        )
     except ValueError as error:
         raise ValueError(str(error).replace(str(path), path.name)) from None
     finally:

@@ -13,7 +13,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import PlainTextResponse, Response
 
 from ..model_file import SUFFIX
-from .body import MESH_SUFFIXES
+from .bodies import MESH_SUFFIXES
 from .saving import plain_name
 from .settings import ServerSettings
 from .workspaces import Workspaces

@@ -2,37 +2,35 @@
 
 from __future__ import annotations
 
-import logging
 import secrets
 import shutil
 import threading
 from collections.abc import Callable
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 
-from ..mesh import SurfaceFile
+from ..reduction import ReducedModel
 from ..stopping import check_stop
 from . import messages
-from .body import Body, model_body
+from .bodies import model_body
+from .body import Body
 from .body_session import BodySession
-from .empty_workspace import empty_workspace, surface_workspace
 from .exports import Exports
-from .job import Job
-from .mesh_pack import packed_mesh, packed_surface
+from .first_workspaces import empty_workspace, surface_workspace, with_choices
+from .mesh_pack import packed_mesh
 from .models import Models
 from .opening import Opening
 from .page_channel import PageChannel
 from .page_computation import page_computation
-from .polish_jobs import PolishJobs
-from .reader_text import text_of
+from .reader_text import failure
 from .recorded import recorded
+from .reopening import reopening, surface_of
 from .reporter import Reporter
 from .settings import ServerSettings
 from .surface_check import surface_check
 from .uploaded_body import uploaded_body
-
-#: How long to wait for stopped work to end: solvers check between the parts of an iteration.
-STOP_SECONDS = 0.4
+from .user_surface import UserSurface
+from .workspace_jobs import WorkspaceJobs
 
 
 class Workspace:
@@ -50,10 +48,8 @@ class Workspace:
         self.id = secrets.token_urlsafe(9)
         self._settings, self._emit = settings, PageChannel(emit)
         self._lock = threading.Lock()  # for the calls; jobs do not take it
-        self._work: Job | None = None
-        self._check: Job | None = None
-        self._polishes = PolishJobs(self._emit, self._fail)
-        self._surface: SurfaceFile | None = None  # while it is filled, and after that failed
+        self._jobs = WorkspaceJobs(self._emit, self._fail)
+        self._surface: UserSurface | None = None  # while it is filled, and after that failed
         self._session: BodySession | None = None
         self._meshes = 0  # number of meshes opened so far; the last one is current
         self._models = Models(settings.model)
@@ -84,20 +80,13 @@ class Workspace:
 
     def _present(self, begun: messages.Workspace) -> messages.Workspace:
         """The workspace with the page's choices since."""
-        running = self._work is not None and self._work.running
         now = replace(
             begun,
             job=self._job,
-            is_running=running and self._job > 0,
+            is_running=self._jobs.working and self._job > 0,
             has_model=self._models.newest is not None,
         )
-        kept = self._draft
-        if kept is None or begun.kind != "mesh":
-            return now
-        chosen = {field.name: getattr(kept, field.name) for field in fields(kept)}
-        del chosen["request"]
-        chosen |= {"poisson": begun.poisson, "own_poisson": kept.poisson}
-        return replace(now, **chosen)
+        return with_choices(now, self._draft)
 
     def upload(self, path: Path) -> None:
         """Opens a mesh or model file in place of the current one, see `uploaded_body`."""
@@ -117,12 +106,9 @@ class Workspace:
 
     def mesh_content(self, number: int) -> bytes | None:
         """The packed mesh of an address; None if it has been replaced."""
-        surface, session = self._surface, self._session
-        if number == self._meshes and session is not None:
-            return packed_mesh(session.body, up=self._up)
-        if number == self._meshes and surface is not None:
-            return packed_surface(surface, name=Path(surface.name).stem, up=self._up)
-        return None
+        session = self._session
+        shown = self._surface if session is None else session.body
+        return None if number != self._meshes or shown is None else packed_mesh(shown, up=self._up)
 
     def model_content(self, number: int) -> bytes | None:
         """The packed model of an address; None if it is no longer kept."""
@@ -137,15 +123,10 @@ class Workspace:
         """Stops all work, and drops its results."""
         with self._lock:
             self._closed = True
-            all_jobs = (self._work, self._check, self._polishes.stop())
-            jobs = [job for job in all_jobs if job is not None]
-            for job in jobs:
-                job.stop()
-            for job in jobs:
-                job.wait(STOP_SECONDS)
-            # explicitly: jobs refer to this, and the garbage collector does not see their size
-            self._work = self._check = self._session = self._surface = None
-            self._polishes = PolishJobs(self._emit, self._fail)
+            self._jobs.stop()
+            # explicitly: jobs refer to this
+            self._session = self._surface = None
+            self._jobs = WorkspaceJobs(self._emit, self._fail)
             self._models.clear()
             self._exports.clear()
 
@@ -158,7 +139,7 @@ class Workspace:
             self._compute(message)
         elif isinstance(message, messages.Cancel):
             self._surface = None
-            self._end_work()
+            self._jobs.end_work()
             self._emit(messages.Cancelled(request=message.request))
         elif isinstance(message, messages.Save):
             self._emit(self._current_session().save(message))
@@ -168,11 +149,12 @@ class Workspace:
             self._draft = message
         elif isinstance(message, messages.Edit):
             self._edit()
+        elif isinstance(message, messages.Reopen):
+            self._reopen(message)
         elif isinstance(message, messages.Check):
-            shown = self._surface or self._current_session().body
-            self._check_surface(shown, message.request)
+            self._check_surface(message.request)
         else:
-            self._polishes.begin(message, self._models.get(message.model))
+            self._jobs.polishes.begin(message, self._models.get(message.model))
 
     def _current_session(self) -> BodySession:
         if self._session is None:
@@ -181,10 +163,12 @@ class Workspace:
 
     def _own_session(self) -> BodySession:
         """The session of the model that the page began with, to improve it."""
-        model, title, folder = self._models.current, self._settings.title, self._settings.folder
-        if model is not None:
-            self._session = BodySession(model_body(model, name=title, folder=folder), self._models)
+        if self._models.current is not None:
+            self._session = BodySession(self._model_body(self._models.current), self._models)
         return self._current_session()
+
+    def _model_body(self, model: ReducedModel) -> Body:
+        return model_body(model, name=self._settings.title, folder=self._settings.folder)
 
     def _export(self, order: messages.Export) -> None:
         """Keeps a model with what was made on its page, until that page fetches it."""
@@ -199,20 +183,27 @@ class Workspace:
         self._emit(messages.Exported(request=order.request, address=address))
 
     def _edit(self) -> None:
-        own, title, folder = self._settings.model, self._settings.title, self._settings.folder
+        own = self._settings.model
         if own is None:
             raise ValueError("this server has no model of its own; choose handles on its mesh")
         model = self._models.current or own
-        self._open(lambda _: model_body(model, name=title, folder=folder), title)
+        self._open(lambda _: self._model_body(model), self._settings.title)
 
-    def _check_surface(self, shown: Body | SurfaceFile, request: int) -> None:
+    def _reopen(self, order: messages.Reopen) -> None:
+        """Fills the surface, or takes it as a shell; what the page has kept stays."""
+        kept = self._draft
+        surface = self._surface or surface_of(self._current_session().body)
+        make = reopening(surface, order.thickness, self._settings.filling)
+        draft = None if kept is None else replace(kept, thickness=order.thickness)
+        self._emit(messages.Reopened(request=order.request))
+
+        self._open(make, surface.name, draft=draft, before=self._session)
+
+    def _check_surface(self, request: int) -> None:
         """Examines a surface in the background, beside other work."""
-        if self._check is not None:
-            self._check.stop()
-        self._check = Job(
-            lambda: self._send(surface_check(shown, request)),
-            failed=lambda error: self._fail(request, error),
-        )
+        surface = self._surface
+        shown = self._current_session().body if surface is None else surface.source
+        self._jobs.check(lambda: self._send(surface_check(shown, request)), request=request)
 
     def _compute(self, order: messages.Compute | messages.Extend) -> None:
         begins = isinstance(order, messages.Extend) and self._session is None
@@ -225,47 +216,58 @@ class Workspace:
             address=lambda number: self._address("model", number),
             send=self._send,
         )
-        self._end_work()
+        self._jobs.end_work()
         self._job = order.request
-        self._work = Job(computation.run, failed=lambda error: self._fail(order.request, error))
+        self._jobs.begin(computation.run, request=order.request)
 
-    def _open(self, make: Callable[[Opening], Body], name: str) -> None:
-        """Begins to make a body; the page is sent a workspace once its surface or it is ready."""
-        self._end_work()
+    def _open(
+        self,
+        make: Callable[[Opening], Body],
+        name: str,
+        *,
+        draft: messages.Keep | None = None,
+        before: BodySession | None = None,
+    ) -> None:
+        """Begins to make a body; the page is sent a workspace once its surface or it is ready.
+
+        With `draft` it begins with those choices; `before` is the session to return to.
+        """
+        self._jobs.end_work()
+        kept = self._draft
         self._session = self._surface = None
         self._models.clear()
         self._exports.clear()
-        self._draft, self._job = None, 0
+        self._draft, self._job = draft, 0
         self._meshes += 1
         number, empty = self._meshes, self._empty()
         address = self._address("mesh", number)
-        self._emit(replace(empty, kind="reading", name=name))
+        if before is None:
+            self._emit(replace(empty, kind="reading", name=name))
         report = Reporter(self._send, 0)
 
-        def show(surface: SurfaceFile) -> None:
+        def show(surface: UserSurface) -> None:
             check_stop()
             self._surface = surface
-            self._emit(surface_workspace(empty, surface, name=name, mesh=address))
+            self._emit(surface_workspace(empty, surface, mesh=address))
+
+        def begin(session: BodySession, choices: messages.Keep | None) -> None:
+            self._session, self._surface, self._draft = session, None, choices
+            self._emit(with_choices(session.begin(empty, mesh=address), choices))
 
         def work() -> None:
             try:
                 body = make(Opening(report.send, show))
                 check_stop()
-                session = BodySession(body, self._models)
-                self._session, self._surface = session, None
-                self._emit(session.begin(empty, mesh=address))
+                begin(BodySession(body, self._models), self._draft)
             except BaseException:
                 # otherwise another mesh has replaced this one, or its surface stays
-                if number == self._meshes and self._surface is None:
+                if number == self._meshes and before is not None:
+                    begin(before, kept)
+                elif number == self._meshes and self._surface is None:
                     self._emit(empty)
                 raise
 
-        self._work = Job(work, failed=lambda error: self._fail(0, error))
-
-    def _end_work(self) -> None:
-        if self._work is not None:
-            self._work.stop()
-            self._work.wait(STOP_SECONDS)
+        self._jobs.begin(work, request=0)
 
     def _send(self, message: messages.ServerMessage) -> None:
         """Sends a message of a job, unless the job was stopped."""
@@ -273,10 +275,7 @@ class Workspace:
         self._emit(message)
 
     def _fail(self, request: int, error: Exception) -> None:
-        if not isinstance(error, MemoryError | ValueError):
-            logging.getLogger(__name__).error("request %d failed", request, exc_info=error)
-        text = text_of(error)
-        self._emit(messages.Failed(request=request, message=text.replace("\n", " ")))
+        self._emit(failure(request, error))
 
     @property
     def _up(self) -> str:
@@ -289,7 +288,7 @@ class Workspace:
         if session is not None:
             return session.body.up or "z"
         if self._surface is not None:
-            return self._surface.up
+            return self._surface.up or self._surface.source.up
         return "z" if model is None else model.up
 
     def _address(self, what: str, number: int) -> str:

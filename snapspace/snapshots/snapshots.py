@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..displacements import DisplacementRows, SnapshotGram
-from ..mesh import shape_rows
+from ..mesh import TetMesh, shape_rows
 from ..problem import Problem
 
 FloatArray = NDArray[np.float64]
@@ -162,7 +162,7 @@ class Snapshots:
             )
 
     def summary(self) -> str:
-        """One line: how many converged, the status of others, iterations, inverted tets.
+        """One line: how many converged, the status of others, iterations, inverted tets of solids.
 
         Carried samples are listed separately: they do not count for convergence and iterations.
         """
@@ -173,5 +173,6 @@ class Snapshots:
             parts.append(f"{sum(r.status == status for r in self.reports)} {status}")
         if solved:
             parts.append(f"{np.mean([r.iterations for r in solved]):.0f} iterations on average")
-        parts.append(f"at most {max(r.inverted_tets for r in self.reports)} inverted tets")
+        if isinstance(self.problem.mesh, TetMesh):
+            parts.append(f"at most {max(r.inverted_tets for r in self.reports)} inverted tets")
         return ", ".join(parts)

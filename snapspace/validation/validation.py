@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..mesh import TetMesh
 from ..snapshots import Snapshots
 
 FloatArray = NDArray[np.float64]
@@ -60,7 +61,9 @@ class Validation:
             "inverted_tets": {
                 "frames_max": int(self.inverted_tets.max()),
                 "samples_max": max(report.inverted_tets for report in self.reference.reports),
-            },
+            }
+            if isinstance(self.reference.problem.mesh, TetMesh)
+            else None,
             "lower_minima": self.lower_minima,
         }
 

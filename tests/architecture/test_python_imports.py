@@ -126,6 +126,7 @@ ALLOWED: dict[str, set[str]] = {
         "accurate",
         "disk",
         "doctor",
+        "energy",
         "extras",
         "filling",
         "input_error",

@@ -63,9 +63,11 @@ def test_a_surface_becomes_a_shell_and_comes_back_posed(
 ) -> None:
     model = tmp_path / "sheet.snapspace"
     given = problem(tmp_path)
-    figures = run(
+    built = run(
         "build", "--problem", given, surface, "--shell", 0.05, *SMALL, "-o", model, "--json"
-    ).json
+    )
+    figures = built.json
+    assert figures["snapshots"]["inverted_tets_max"] is None
     assert (figures["vertices"], figures["triangles"]) == (35, 48)
     loaded = load(model)
     assert isinstance(loaded, PosingModel) and isinstance(loaded.problem.mesh, ShellMesh)
@@ -73,7 +75,13 @@ def test_a_surface_becomes_a_shell_and_comes_back_posed(
 
     posed = tmp_path / "posed.obj"
     turn = ["--handle", "right", "--translate", "0,0,0.1"]
-    assert run("pose", model, *turn, "-o", posed).code == 0
+    result = run("pose", model, *turn, "-o", posed, "--json")
+    assert result.code == 0 and result.json["inverted_tets"] is None
+    judged = run("validate", model, "--samples", 2)
+    info = run("info", model)
+    said = built.err + result.err + judged.err + info.err
+    assert "unseen motions are off by" in info.err
+    assert "inverted tets" not in said, "a shell has no tets"
     vertices, faces = read_surface(posed)
     at_rest, same = read_surface(surface)
     np.testing.assert_array_equal(faces, same)

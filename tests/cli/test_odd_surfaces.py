@@ -41,11 +41,12 @@ def commands(file: Path) -> list[tuple[Any, ...]]:
 
 
 def dropped_on_a_page(file: Path) -> str:
-    """What the page says."""
+    """What the page says if it fills what is dropped on it, and does not take it as a shell."""
     mailbox, folder = Mailbox(), file.parent
-    workspace = Workspace(
-        ServerSettings(title="", up="z", token="t", folder=folder, scratch=folder), mailbox.put
+    settings = ServerSettings(
+        title="", up="z", token="t", folder=folder, scratch=folder, filling=COARSE
     )
+    workspace = Workspace(settings, mailbox.put)
     workspace.open()
     upload = folder / "upload" / file.name
     upload.parent.mkdir()

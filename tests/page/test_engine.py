@@ -226,10 +226,11 @@ def expected(
         "own_boxes": own_boxes,
     }
     materials = {kind: material_model(cubature_model, kind) for kind in MATERIALS}
-    models |= materials | {
-        "shell": calibrate(shell_model(), samples=12, threads=1),
-        "surface-arap": shell_model(ARAP()),
+    shells = {
+        name: calibrate(shell_model(varied=varied), samples=12, threads=1)
+        for name, varied in (("shell", False), ("varied_shell", True))
     }
+    models |= materials | shells | {"surface-arap": shell_model(ARAP())}
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -241,7 +242,7 @@ def expected(
         "blending-cubature": blending_frames(models["blending-cubature"]),
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
-        "materials": list(materials),
+        "materials": [*materials, *shells],
         "steps": {
             f"{name}.{ending}": steps(models[name], first=ending == "packed")
             for name in ("posing", "cubature")
@@ -249,9 +250,9 @@ def expected(
         },
         "blending_steps": blending_steps(models["blending-cubature"]),
         "painted": list(regions.values()),
-        "values": {kind: values_at(model) for kind, model in materials.items()},
+        "values": {kind: values_at(model) for kind, model in (materials | shells).items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},
-        "shell": posing_frames(models["shell"]),
+        **{name: posing_frames(model) for name, model in shells.items()},
         "surface-arap": posing_frames(models["surface-arap"]),
     }
     for name, content in frames.items():

@@ -170,7 +170,7 @@ def test_points_that_cannot_be_handles_are_refused_and_work_goes_on(
         opened.mailbox.messages.clear()
     opened.do(m.Extend(request=8, points=(point,)), m.Progress)
     opened.do(m.Extend(request=9, points=()), m.Failed)
-    assert opened.workspace._work is not None and opened.workspace._work.running
+    assert opened.workspace._jobs.working
 
 
 def test_a_cancelled_point_leaves_the_handles_as_they_were(

@@ -12,7 +12,8 @@ import pytest
 from snapspace import TetMesh, write_surface
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import SurfaceFile
-from snapspace.server.body import Body, mesh_body
+from snapspace.server.bodies import mesh_body
+from snapspace.server.body import Body
 from snapspace.server.messages import Cancel, Cancelled, Check, Checked, Failed, Progress
 from snapspace.server.messages import Workspace as Opened
 from snapspace.server.opening import Opening

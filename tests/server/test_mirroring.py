@@ -16,7 +16,8 @@ from snapspace.mesh import boundary_surface, write_tets
 from snapspace.page import packed
 from snapspace.page.mirror import mirror_about
 from snapspace.problem import problem_content
-from snapspace.server.body import Body, problem_body
+from snapspace.server.bodies import problem_body
+from snapspace.server.body import Body
 from snapspace.server.messages import HandleChoice, Mirror
 from snapspace.server.mirroring import Mirroring
 

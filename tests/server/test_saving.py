@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from snapspace import PosingModel, PosingProblem, load, read_problem, write_tets
-from snapspace.server.body import Body, mesh_body, problem_body
+from snapspace.server.bodies import mesh_body, problem_body
+from snapspace.server.body import Body
 from snapspace.server.messages import Saved
 from snapspace.server.saving import SavedFiles, checked_name, plain_name
 

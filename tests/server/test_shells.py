@@ -10,7 +10,7 @@ import pytest
 
 from snapspace import PosingModel, ShellMesh, read_problem, write_surface
 from snapspace.problem import problem_content
-from snapspace.server.body import mesh_body, model_body, problem_body
+from snapspace.server.bodies import mesh_body, model_body, problem_body
 from snapspace.server.messages import PartChoice
 from snapspace.server.parts import part_factors
 from snapspace.server.saving import SavedFiles

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from snapspace.mesh import MeshNotice, write_surface
-from snapspace.server.body import Body, mesh_body
+from snapspace.server.bodies import mesh_body
+from snapspace.server.body import Body
 from snapspace.server.messages import Check, Checked, Failed
 from snapspace.server.messages import Workspace as Opened
 from snapspace.server.settings import ServerSettings

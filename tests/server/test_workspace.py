@@ -174,11 +174,11 @@ def test_a_late_end_of_an_old_mesh_does_not_hide_the_new_one(
         return body
 
     monkeypatch.setattr("snapspace.server.uploaded_body.mesh_body", read)
-    monkeypatch.setattr("snapspace.server.workspace.STOP_SECONDS", 0.01)
+    monkeypatch.setattr("snapspace.server.workspace_jobs.STOP_SECONDS", 0.01)
     mailbox = Mailbox()
     workspace = Workspace(replace(settings, body=None), mailbox.put)
     workspace.upload(tmp_path / "a" / "slow.obj")
-    late = workspace._work
+    late = workspace._jobs._work
     assert late is not None
     workspace.upload(tmp_path / "b" / "new.obj")
     mailbox.wait_for(Opened, kind="mesh", name="new")

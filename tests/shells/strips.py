@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from snapspace import (
     HandleBox,
@@ -12,6 +12,7 @@ from snapspace import (
     PosingModel,
     PosingProblem,
     ShellMesh,
+    StableNeoHookean,
     reduce,
     sample,
     snapshot_pca,
@@ -21,7 +22,7 @@ from snapspace import (
 from .sheets import grid
 
 
-def strip(nx: int = 16, ny: int = 4, *, thickness: float = 0.03) -> ShellMesh:
+def strip(nx: int = 16, ny: int = 4, *, thickness: ArrayLike = 0.03) -> ShellMesh:
     """A strip of length two, bent to a quarter of a cylinder along its length, and irregular."""
     x, y = np.meshgrid(np.linspace(0, 2, nx + 1), np.linspace(0, 0.5, ny + 1), indexing="ij")
     noise = np.random.default_rng(3).uniform(-0.1, 0.1, size=(2, *x.shape)) / nx
@@ -32,9 +33,17 @@ def strip(nx: int = 16, ny: int = 4, *, thickness: float = 0.03) -> ShellMesh:
     return ShellMesh(vertices, grid(nx, ny, alternating=True), thickness=thickness)
 
 
-def shell_model(material: Material | None = None) -> PosingModel:
-    """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions."""
+def shell_model(material: Material | None = None, *, varied: bool = False) -> PosingModel:
+    """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions.
+
+    material : default StableNeoHookean()
+    varied : whether thickness and moduli differ from triangle to triangle
+    """
     mesh = strip(thickness=0.1)
+    if varied:
+        count = len(mesh.triangles)
+        mesh = strip(thickness=np.linspace(0.08, 0.12, count))
+        material = StableNeoHookean(lam=np.linspace(2, 1, count), mu=np.linspace(1, 2, count))
     along = _along(mesh)
     problem = PosingProblem(
         mesh,

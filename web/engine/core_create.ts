@@ -78,12 +78,14 @@ function cubatureOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature,
   });
 }
 
-function rowsOf(exports: CoreExports, memory: CoreMemory, { rows }: Cubature, dimension: number): number {
+function rowsOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature, dimension: number): number {
+  const { rows, material } = elastic;
   if (rows instanceof Float32Array) return memory.numbers(rows);
   const tets = rows.points.length / 12;
   const made = memory.take(4 * 9 * tets * dimension);
   const [points, modes] = [memory.numbers(rows.points), memory.numbers(rows.modes)];
-  exports.snapspace_displacement_rows(tets, dimension, points, modes, made);
+  const shell = material.shellPoints ? memory.numbers(material.moduli as Float64Array) : 0;
+  exports.snapspace_displacement_rows(tets, dimension, points, modes, shell, made);
   return made;
 }
 
@@ -135,9 +137,17 @@ export function valueScaleOf(exports: CoreExports, given: number | Body): number
 }
 
 /** The fields of a snapspace_material. */
-function materialOf(exports: CoreExports, memory: CoreMemory, { kind, rows, moduli }: Material) {
+function materialOf(exports: CoreExports, memory: CoreMemory, material: Material) {
+  const { kind, rows, moduli, shellPoints } = material;
   const name = memory.text(kind);
   const count = exports.snapspace_moduli(name);
+  if (shellPoints) {
+    const made = memory.take(8 * Math.max(count, 0) * rows);
+    const [points, given] = [memory.numbers(shellPoints), memory.numbers(moduli as Float64Array)];
+    if (exports.snapspace_shell_moduli(name, rows, points, given, made) !== ERROR.OK)
+      throw unknownMaterial(kind);
+    return { materialKind: name, materialCount: rows, materialModuli: made };
+  }
   const numbers =
     moduli instanceof Float64Array
       ? moduli

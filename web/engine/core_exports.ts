@@ -24,7 +24,15 @@ export interface CoreExports {
     dimension: number,
     points: number,
     modes: number,
+    shellModuli: number,
     rows: number,
+  ): number;
+  snapspace_shell_moduli(
+    kind: number,
+    elements: number,
+    points: number,
+    shellModuli: number,
+    moduli: number,
   ): number;
   snapspace_create_posing_cubature(
     dimension: number,

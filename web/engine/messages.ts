@@ -29,6 +29,10 @@ export type * from "./page_messages.ts";
  * is_running : whether that is still running
  * has_model : whether a model of that follows
  * has_surface : whether the mesh came as a surface, so that `Check` examines it
+ * thickness : of the shell that the surface is; null: a solid
+ * usual_thickness : to begin with where a solid becomes a shell; null: it came as tets
+ * is_filled : whether there are tets, and not only a surface
+ * is_open : whether the surface is a shell with holes, which filling would close
  */
 export interface Workspace {
   readonly type: "workspace";
@@ -56,6 +60,10 @@ export interface Workspace {
   readonly is_running?: boolean;
   readonly has_model?: boolean;
   readonly has_surface?: boolean;
+  readonly thickness?: number | null;
+  readonly usual_thickness?: number | null;
+  readonly is_filled?: boolean;
+  readonly is_open?: boolean;
 }
 
 /** Server: the handles are accepted, in this order; the first one holds the shape. */
@@ -132,6 +140,15 @@ export interface Cancelled {
   readonly request: number;
 }
 
+/** Server: the surface is opened again; a `Workspace` follows.
+ *
+ * request : that of the `Reopen`
+ */
+export interface Reopened {
+  readonly type: "reopened";
+  readonly request: number;
+}
+
 /** Server: a request was refused, or its work failed.
  *
  * request : 0 if the message could not be read, and for meshes
@@ -203,6 +220,7 @@ export type ServerMessage =
   | Progress
   | Model
   | Cancelled
+  | Reopened
   | Failed
   | Saved
   | Exported

@@ -40,6 +40,9 @@ export interface Material {
   readonly rows: number;
   /** In the density's order; or by name, where there is one row. */
   readonly moduli: Float64Array<ArrayBuffer> | Readonly<Record<string, unknown>>;
+  /** Of the elements of a shell, their corners at rest, rows x 4 x 3: there are three moduli per row, and the core makes the
+   * other numbers. */
+  readonly shellPoints?: Float64Array<ArrayBuffer>;
 }
 
 /** All tets at rest: their volumes, and what they are made of. */

@@ -34,11 +34,13 @@ export interface PartChoice {
  *
  * kind, title : its name in files and messages, and its name for the reader
  * has_poisson : whether Poisson's ratio changes anything
+ * has_membrane : whether shells can be made of it
  */
 export interface MaterialChoice {
   readonly kind: string;
   readonly title: string;
   readonly has_poisson: boolean;
+  readonly has_membrane: boolean;
 }
 
 /** Where a handle is: a rigid motion about its centre at rest.
@@ -77,6 +79,7 @@ export interface SurfaceFinding {
  * request : any 32-bit integer, repeated in the answers
  * translation, angle : common bounds of the sampled motions, half widths per axis
  * parts : stiffer and softer parts; the rest has the material's moduli
+ * thickness : of the shell that the surface becomes; null: the body as it was opened
  */
 export interface Choose {
   readonly type: "choose";
@@ -85,6 +88,7 @@ export interface Choose {
   readonly translation: Vector;
   readonly angle: Vector;
   readonly parts?: readonly PartChoice[];
+  readonly thickness?: number | null;
 }
 
 /** Page: compute models for the handles chosen last. A running computation is replaced.
@@ -168,6 +172,7 @@ export interface Keep {
   readonly material: string;
   readonly poisson: number | null;
   readonly up: string;
+  readonly thickness?: number | null;
 }
 
 /** Page: choose other handles on the body of the server's model. Answered by `Workspace`. */
@@ -176,7 +181,7 @@ export interface Edit {
   readonly request: number;
 }
 
-/** Page: examine the surface that was filled. Answered by `Checked`, or `Failed`. */
+/** Page: examine the surface. Answered by `Checked`, or `Failed`. */
 export interface Check {
   readonly type: "check";
   readonly request: number;
@@ -216,5 +221,18 @@ export interface Export {
   readonly timeline?: string | null;
 }
 
+/** Page: fill the surface with tets, or take it as a shell at once, also while it is filled.
+ *
+ * Answered by `Reopened` and a `Workspace` with the choices of the last `Keep`, or by `Failed`. If
+ * filling fails or is cancelled, the body is as before, which another `Workspace` says.
+ *
+ * thickness : of the shell; null: fill it
+ */
+export interface Reopen {
+  readonly type: "reopen";
+  readonly request: number;
+  readonly thickness?: number | null;
+}
+
 export type PageMessage =
-  Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror | Extend | Export;
+  Choose | Compute | Cancel | Save | Polish | Keep | Edit | Check | Mirror | Extend | Export | Reopen;

@@ -15,20 +15,22 @@ import {
   type PoseQuartics,
   type Quartic,
 } from "./model.ts";
+import { fileBody, scalesOfTets } from "./read_body.ts";
 import { fileMaterial, materialOfTets } from "./read_material.ts";
 import { paintedOwners, readRecord, timelineOf, upOf } from "./read_record.ts";
 import { registered } from "./registration.ts";
 import { boxesOf } from "./sampled_box.ts";
 import { quantised } from "./shape_space.ts";
-import { boundary, ownSurface } from "./read_surface.ts";
-import { diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
+import { ownSurface } from "./read_surface.ts";
+import { tetVolumes } from "./tets.ts";
 
 /** Reads a .snapspace file (snapspace/model_file); `name` is shown where the file has none. */
 export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
-  if (kind === "posing" || kind === "posing-cubature") return readPosing(container, name);
-  if (kind === "posing-shell" || kind === "interpolation-shell")
-    throw new UnreadableModel("This is a model of a shell. Open it with `snapspace view FILE`.");
+  if (kind === "posing" || kind === "posing-cubature" || kind === "posing-shell")
+    return readPosing(container, name);
+  if (kind === "interpolation-shell")
+    throw new UnreadableModel("This is a model of blended shells. Open it with `snapspace view FILE`.");
   if (kind === "interpolation" || kind === "interpolation-cubature")
     return readInterpolation(container, name);
   throw new UnreadableModel(
@@ -40,17 +42,14 @@ function readPosing(container: Container, name: string): Model {
   const about = JSON.parse(container.header["problem"]);
   const [dimension] = container.shape("basis", 2);
   const [vertices] = container.shape("vertices", 2);
-  const [tetCount] = container.shape("tets", 2);
-  const rest = container.doubles("vertices", vertices, 3);
-  const tets = container.indices("tets", vertices, [tetCount, 4]);
+  const body = fileBody(container, about.material);
+  const { rest, elements, masses, material } = body;
   const basis = container.doubles("basis", dimension, 3 * vertices);
   const count = about.handles.length as number;
   const [pinned] = container.shape("handle_vertices", 1);
   const members = container.indices("handle_vertices", vertices, [pinned]);
   const sizes = container.indices("handle_sizes", pinned + 1, [count]);
 
-  const volumes = tetVolumes(rest, tets);
-  const masses = vertexMasses(volumes, tets, vertices);
   const handleOf = new Int32Array(vertices).fill(-1);
   const handles: Handle[] = [];
   for (let handle = 0, start = 0; handle < count; start += sizes[handle++]) {
@@ -61,11 +60,9 @@ function readPosing(container: Container, name: string): Model {
 
   const { faces, nearest, embedded } = container.has("surface_faces")
     ? ownSurface(container, vertices)
-    : boundary(tets, vertices);
+    : body.surface();
   const record = readRecord(container);
   const names = handles.map((handle) => handle.name);
-  const diagonal = diagonalOf(rest);
-  const material = fileMaterial(container, about.material, tetCount);
   return {
     kind: "posing",
     name,
@@ -75,11 +72,11 @@ function readPosing(container: Container, name: string): Model {
     faces,
     appearance: readAppearance(container, about.appearance, nearest.length),
     space: quantised(embedded(rest), embedded(basis)),
-    ...scales(material, volumes, diagonal),
+    ...body.scales,
     material: material.kind,
     estimator: estimatorOf(
       container,
-      { tets, basis, tau: rest, rests: [rest], material },
+      { tets: elements, basis, tau: rest, rests: [rest], material },
       (corners, isSampled) =>
         pinsOf(corners, isSampled, { handleOf, handles, rest, masses, stiffness: Number(about.stiffness) }),
     ),
@@ -88,7 +85,7 @@ function readPosing(container: Container, name: string): Model {
       paintedOwners(record, names, nearest.length) ?? Int32Array.from(nearest, (vertex) => handleOf[vertex]),
     boxes: boxesOf(about.domain, count),
     mirror: NO_MIRROR,
-    elastic: readElastic(container, rest, tets, basis, material),
+    elastic: readElastic(container, rest, elements, basis, material),
     K: container.doubles("handle_K", dimension, dimension),
     L: container.doubles("handle_L", count, dimension, 12),
     S: container.doubles("handle_S", count, 4, 4),
@@ -135,7 +132,7 @@ function readInterpolation(container: Container, name: string): Model {
     faces,
     appearance: readAppearance(container, about.appearance, base.length / 3),
     space: quantised(base, embedded(basis)),
-    ...scales(material, tetVolumes(first, tets), diagonalOf(first)),
+    ...scalesOfTets(material, tetVolumes(first, tets), first),
     material: material.kind,
     estimator: estimatorOf(
       container,
@@ -148,16 +145,6 @@ function readInterpolation(container: Container, name: string): Model {
     blends: readBlends(container, [...poses.map((_, k) => pose(k)), mean], tets, basis, material),
     sampleWeights: container.doubles("training_parameters", samples, poses.length),
     sampleCoordinates: container.doubles("training_coordinates", samples, dimension),
-  };
-}
-
-/** Units for the termination tests: the energy of a strain of 10 %, a displacement by a tenth of the diagonal. */
-function scales(material: Material, volumes: Float64Array, diagonal: number) {
-  const volume = volumes.reduce((sum, tet) => sum + tet, 0);
-  return {
-    valueScale: { volumes, material },
-    coordinateScale: 0.1 * diagonal * Math.sqrt(volume),
-    diagonal,
   };
 }
 

@@ -20,10 +20,15 @@ export function readMaterial(container: Container, name: string, kind: string, t
 }
 
 /** The material of some tets, in their order. */
-export function materialOfTets({ kind, rows, moduli }: Material, tets: Int32Array): Material {
-  if (!(moduli instanceof Float64Array) || rows === 1) return { kind, rows, moduli };
-  const count = moduli.length / rows;
-  const chosen = new Float64Array(count * tets.length);
-  tets.forEach((tet, i) => chosen.set(moduli.subarray(count * tet, count * (tet + 1)), count * i));
-  return { kind, rows: tets.length, moduli: chosen };
+export function materialOfTets(material: Material, tets: Int32Array): Material {
+  const { kind, rows, moduli, shellPoints } = material;
+  if (!(moduli instanceof Float64Array) || rows === 1) return material;
+  const taken = (numbers: Float64Array) => {
+    const count = numbers.length / rows;
+    const chosen = new Float64Array(count * tets.length);
+    tets.forEach((tet, i) => chosen.set(numbers.subarray(count * tet, count * (tet + 1)), count * i));
+    return chosen;
+  };
+  const ofTets = { kind, rows: tets.length, moduli: taken(moduli) };
+  return shellPoints ? { ...ofTets, shellPoints: taken(shellPoints) } : ofTets;
 }

@@ -34,6 +34,12 @@ export function boundary(tets: Int32Array, vertices: number): FileSurface {
   return { faces, nearest: surface, embedded: (rows) => picked(rows, surface, vertices) };
 }
 
+/** The surface of a shell: all of it. */
+export function everywhere(triangles: Int32Array, vertices: number): FileSurface {
+  const nearest = Int32Array.from({ length: vertices }, (_, vertex) => vertex);
+  return { faces: Uint32Array.from(triangles), nearest, embedded: (rows) => rows };
+}
+
 /** The vertices that faces use, in order, and the faces numbered by them. */
 function compacted(faces: Uint32Array, vertices: number) {
   const number = new Int32Array(vertices).fill(-1);

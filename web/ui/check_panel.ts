@@ -11,6 +11,8 @@ const INVENTED = 0xe2593f;
  * close its holes. */
 export class CheckPanel {
   readonly elements: readonly HTMLElement[];
+  /** Whether the surface is filled, so that it has been mended. */
+  isFilled = true;
   readonly #stage: Stage;
   readonly #server: Server;
   readonly #button: HTMLButtonElement;
@@ -49,7 +51,7 @@ export class CheckPanel {
     this.#result.replaceChildren(h("p", {}, "Checking…"));
     try {
       const { message: found } = await this.#server.ask({ type: "check" }, "checked");
-      this.#result.replaceChildren(...lines(found));
+      this.#result.replaceChildren(...lines(found, this.isFilled));
       this.dispose();
       if (found.invented.length > 0) this.#invented = invented(found.invented);
       if (this.#result.isConnected) this.show();
@@ -62,20 +64,31 @@ export class CheckPanel {
   }
 }
 
-function lines({ fine, findings, mended, invented: positions }: Checked): HTMLElement[] {
-  const verdict = fine ? "Ready: nothing needs mending." : mendedText(mended);
+function lines(checked: Checked, isFilled: boolean): HTMLElement[] {
+  const { fine, findings, mended, invented: positions } = checked;
+  const verdict = fine ? "Ready: nothing needs mending." : mendedText(mended, isFilled);
   const first = h("p", { className: fine ? "ready" : "mended" }, verdict);
   const list = h("ul", {}, ...findings.map(item));
   const legend =
     positions.length > 0
-      ? [h("p", { className: "invented" }, "Red on the shape: faces that close holes.")]
+      ? [
+          h(
+            "p",
+            { className: "invented" },
+            isFilled
+              ? "Red on the shape: faces that close holes."
+              : "Red on the shape: faces that would close holes.",
+          ),
+        ]
       : [];
   return [first, ...legend, ...(findings.length > 0 ? [list] : [])];
 }
 
-function mendedText(mended: readonly string[]): string {
+function mendedText(mended: readonly string[], isFilled: boolean): string {
   if (mended.length === 0) return "It has faults, which are left to the filling.";
-  return `Mended before it was filled: ${mended.join("; ")}. Your file is as it was.`;
+  const changes = mended.join("; ");
+  if (!isFilled) return `A shell stays as it is. A solid would be mended first: ${changes}.`;
+  return `Mended before it was filled: ${changes}. Your file is as it was.`;
 }
 
 function item({ name, fault, text, meaning, cure }: SurfaceFinding): HTMLElement {

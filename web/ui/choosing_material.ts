@@ -7,8 +7,9 @@ const MOST_POISSON = 0.49; // tets lock beyond
 /** What the server offers, and begins with. */
 export type Materials = Pick<Workspace, "materials" | "material" | "poisson">;
 
-/** The material, and below it the parts of the body that are stiffer or softer. Changes `sampling`. */
-export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLElement): HTMLElement {
+/** The material, and below it the parts of the body that are stiffer or softer. Changes `sampling`. After it has become
+ * a shell or a solid, `update` shows which materials it can have. */
+export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLElement) {
   const select = h("select", { "aria-label": "Material" });
   select.append(...given.materials.map(({ kind, title }) => h("option", { value: kind }, capital(title))));
   select.value = sampling.material;
@@ -23,6 +24,14 @@ export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLE
   });
   const field = h("label", { className: "field" }, h("span", {}, "Poisson's ratio"), ratio);
   const update = () => {
+    const isShell = sampling.thickness !== null;
+    given.materials.forEach(({ has_membrane }, i) => (select.options[i].disabled = isShell && !has_membrane));
+    if (select.selectedOptions[0]?.disabled) {
+      const fitting = given.materials.filter(({ has_membrane }) => has_membrane);
+      sampling.material = select.value = (
+        fitting.find(({ kind }) => kind === given.material) ?? fitting[0]
+      ).kind;
+    }
     field.hidden = !given.materials.find(({ kind }) => kind === select.value)?.has_poisson;
     if (!field.hidden) return;
     sampling.poisson = null;
@@ -33,7 +42,8 @@ export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLE
     update();
   });
   update();
-  return section("Material", h("div", { className: "field" }, select), field, parts);
+  const element = section("Material", h("div", { className: "field" }, select), field, parts);
+  return { element, update };
 }
 
 const capital = (title: string) => title.charAt(0).toUpperCase() + title.slice(1);

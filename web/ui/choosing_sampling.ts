@@ -15,6 +15,8 @@ export interface Sampling {
   material: string;
   /** Null: the server's own. */
   poisson: number | null;
+  /** Of the shell that the surface is; null: a solid. */
+  thickness: number | null;
 }
 
 export type CommonRanges = () => Pick<Sampling, "translation" | "angle">;
@@ -31,6 +33,7 @@ export function samplingOf(given: Workspace): Sampling {
     stiffness,
     material,
     poisson,
+    thickness: given.thickness ?? null,
   };
 }
 

@@ -1,6 +1,6 @@
 import type { Choice } from "../engine/choice.ts";
-import type { Workspace } from "../engine/messages.ts";
 import { Choosing } from "./choosing.ts";
+import { bodyPanel, type Forms } from "./choosing_body.ts";
 import { HandleList } from "./choosing_handles.ts";
 import { listenToChoosingKeys } from "./choosing_keys.ts";
 import { HandleMirror } from "./choosing_mirror.ts";
@@ -28,10 +28,15 @@ export function choosingView(
   scene: MeshScene,
   start: Choice,
   sampling: Sampling,
-  given: Materials & Pick<Workspace, "diagonal">,
+  given: Materials & Forms,
   below: readonly HTMLElement[],
   server: Pick<Server, "ask">,
-  onChoice: (choice: Choice) => void,
+  acts: {
+    /** Takes the present choice. */
+    choose(choice: Choice): void;
+    /** Fills the surface with tets. */
+    fill(): void;
+  },
 ): ChoosingView {
   const { mesh, surface } = scene;
   const stop = new AbortController();
@@ -57,8 +62,18 @@ export function choosingView(
     select.update();
     handles.update();
     parts.update();
-    onChoice(choosing.choice);
+    acts.choose(choosing.choice);
   };
+  const material = materialPanel(sampling, given, parts.element);
+  const body = bodyPanel(
+    sampling,
+    given,
+    () => acts.fill(),
+    () => {
+      material.update();
+      acts.choose(choosing.choice);
+    },
+  );
   choosing.changed();
 
   scene.sheet = shortcutSheet(CHOOSING, (view) => stage.look(1, VIEWS[view]), stop.signal);
@@ -66,9 +81,10 @@ export function choosingView(
     choosing,
     hud: meshHud(scene),
     panel: [
+      ...body,
       select.element,
       handles.element,
-      materialPanel(sampling, given, parts.element),
+      material.element,
       samplingPanel(sampling, given.diagonal),
       scene.panel,
       ...below,

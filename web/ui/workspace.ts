@@ -49,7 +49,7 @@ export class Workspace {
 
   constructor(shell: AppShell, server: Server) {
     [this.#shell, this.#server] = [shell, server];
-    this.#reading = new ReadingBox(shell, server);
+    this.#reading = new ReadingBox(shell, server, (thickness) => this.#reopen(thickness));
     this.#surface = new WorkspaceSurface(shell, server);
     const workspace = this;
     const models = (this.#models = new ServedModels(shell, server, {
@@ -148,6 +148,7 @@ export class Workspace {
     }
     if (given.kind === "surface") {
       if (this.#isBack) return; // its tets follow
+      this.#mesh = null;
       await this.#surface.look(given, () => this.#leave());
       this.#reading.fill(given);
       return;
@@ -168,6 +169,7 @@ export class Workspace {
       return;
     }
     this.#isBack = false;
+    this.#reading.done();
     const scene = await this.#surface.scene(given, () => this.#leave());
     this.#mesh = { ...scene.mesh, diagonal: given.diagonal };
     this.#choice = choiceOf(given.handles, given.parts);
@@ -177,6 +179,13 @@ export class Workspace {
     models.motions = motionsOf(location.hash); // after a reload
     await this.#choosing(scene);
     if (before?.kind === "surface") this.#keepSoon(); // what points up
+  }
+
+  /** Fills the surface, or takes it as a shell; what was chosen stays. */
+  #reopen(thickness: number | null): void {
+    this.#keep();
+    const refused = (error: Error) => this.#reading.failed(error.message);
+    this.#server.ask({ type: "reopen", thickness }, "reopened").catch(refused);
   }
 
   /** Shows that there is no mesh: asks for one, or waits for it. */
@@ -210,7 +219,7 @@ export class Workspace {
       this.#given!,
       [...(this.#surface.check?.elements ?? []), this.#models.panel.element],
       this.#server,
-      onChoice,
+      { choose: onChoice, fill: () => this.#reopen(null) },
     );
     await nextTask();
     if (given) this.#leave(); // now, so that its surface stays visible
@@ -248,7 +257,7 @@ export class Workspace {
     const models = this.#models;
     if (!models.panel.isValid()) return;
     await this.#sendChoice();
-    const { translation: _, angle: __, ...wanted } = this.#sampling!;
+    const { translation: _, angle: __, thickness: ___, ...wanted } = this.#sampling!;
     models.clear();
     this.#staysChoosing = false;
     models.motions = new Map(); // they are of the handles before
@@ -258,9 +267,9 @@ export class Workspace {
   }
 
   async #sendChoice(): Promise<void> {
-    const { translation, angle } = this.#sampling!;
+    const { translation, angle, thickness } = this.#sampling!;
     const [handles, parts] = [orderedHandleMessages(this.#choice.handles), partMessages(this.#choice.parts)];
-    await this.#server.ask({ type: "choose", handles, translation, angle, parts }, "chosen");
+    await this.#server.ask({ type: "choose", handles, translation, angle, parts, thickness }, "chosen");
   }
 
   #later(act: () => Promise<void> | void): void {

@@ -15,6 +15,7 @@ export class ReadingBox {
   readonly #server: Server;
   readonly #bar = new ProgressBar();
   readonly #elapsed = h("span", { className: "detail" });
+  readonly #reopen: (thickness: number | null) => void;
   #clock = 0;
   #given: Given | null = null;
   #sending: AbortController | null = null;
@@ -22,9 +23,10 @@ export class ReadingBox {
   /** Whether the surface that is filled stays visible. */
   #isBelow = false;
 
-  constructor(shell: AppShell, server: Server) {
+  constructor(shell: AppShell, server: Server, reopen: (thickness: number | null) => void) {
     this.#shell = shell;
     this.#server = server;
+    this.#reopen = reopen;
   }
 
   /** Asks for a mesh. */
@@ -35,7 +37,7 @@ export class ReadingBox {
     const formats = h(
       "p",
       { className: "formats" },
-      `A closed surface (${SURFACES.join(" ")}), which is filled with tets, or tets (${TETS.join(" ")}).`,
+      `A surface (${SURFACES.join(" ")}), or tets (${TETS.join(" ")}). A closed surface is filled with tets, an open one is a shell.`,
     );
     this.#shell.showMessage("Drop a mesh here", false, formats, this.#picker());
   }
@@ -84,8 +86,15 @@ export class ReadingBox {
   fill(given: Given): void {
     this.#given = given;
     if (!this.#isShown) this.#begin();
+    this.#isBelow = true;
     this.#tell(`Filling ${given.name} with tets`);
-    this.#shell.messageBelow = this.#isBelow = true;
+    this.#shell.messageBelow = true;
+  }
+
+  /** There is a mesh, and the box is not needed. */
+  done(): void {
+    this.#isShown = this.#isBelow = false;
+    clearInterval(this.#clock);
   }
 
   progress(progress: Progress): void {
@@ -100,7 +109,7 @@ export class ReadingBox {
   failed(message: string): void {
     this.#isShown = false;
     clearInterval(this.#clock);
-    this.#shell.showMessage(message.replace(/^snapspace: /, ""), true, this.#picker());
+    this.#shell.showMessage(message.replace(/^snapspace: /, ""), true, ...this.#asShell(), this.#picker());
     this.#shell.messageBelow = this.#isBelow;
   }
 
@@ -117,7 +126,16 @@ export class ReadingBox {
 
   #tell(text: string): void {
     const cancel = h("button", { type: "button", onclick: () => this.#cancel() }, "Cancel");
-    this.#shell.showMessage(text, false, this.#bar.element, this.#elapsed, cancel);
+    this.#shell.showMessage(text, false, this.#bar.element, this.#elapsed, ...this.#asShell(), cancel);
+  }
+
+  /** A button that takes the surface as it is, while it is filled and after that has failed. */
+  #asShell(): HTMLElement[] {
+    const thickness = this.#isBelow ? this.#given?.usual_thickness : null;
+    if (typeof thickness !== "number") return [];
+    const title = "A thin body: the surface stays as it is";
+    const onclick = () => this.#reopen(thickness);
+    return [h("button", { type: "button", title, onclick }, "Use as a shell")];
   }
 
   /** Shows how long it has taken, after the first second. */

@@ -28,6 +28,7 @@ export class WorkspaceSurface {
 
   /** The scene of a mesh: the one that is shown without tets, or a new one. `leave` removes what is shown before that. */
   async scene(given: Given, leave: () => void): Promise<MeshScene> {
+    const isFilled = given.kind === "surface" || (given.is_filled ?? false);
     const scene = this.#shown === given.mesh ? this.#view?.take() : null;
     this.#view = null;
     if (scene) return scene;
@@ -37,6 +38,7 @@ export class WorkspaceSurface {
     leave();
     this.#check?.dispose();
     this.#check = given.has_surface ? new CheckPanel(stage, this.#server) : null;
+    if (this.#check) this.#check.isFilled = isFilled;
     return MeshScene.create(stage, mesh, this.#shell.options(mesh.up));
   }
 

@@ -38,11 +38,11 @@ function surface(session: PosingSession): Float32Array {
   return shape;
 }
 
-// every material with other moduli in every tet
+// every material with other moduli in every tet, and shells
 const materials = expected<string[]>("materials.json");
 const models = ["posing", "own_surface", "cubature", ...materials];
-const shells = ["shell.packed", "surface-arap.packed"];
-for (const file of [...models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]), ...shells])
+const files = models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]);
+for (const file of [...files, "surface-arap.packed"])
   test(`a drag is that of Session: ${file}`, async () => {
     const [name, ending] = file.split(".");
     const { frames, leading } = expected<Drag>(`${name}.json`);
@@ -76,10 +76,6 @@ for (const file of [...models.flatMap((name) => [`${name}.snapspace`, `${name}.p
     session.reset();
     assert.ok(distance(surface(session), model.space.base) === 0);
   });
-
-test("a file of a shell names the program that opens it", () => {
-  assert.throws(() => readModel(bytes("shell.snapspace"), "strip"), /shell.*`snapspace view FILE`/);
-});
 
 test("a motion beyond all numbers is taken back", async () => {
   const session = await PosingSession.create(core, readModel(bytes("posing.packed"), "") as PosingModel);

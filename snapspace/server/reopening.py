@@ -1,0 +1,45 @@
+"""Reopening: a surface that becomes a shell or a solid, whichever it is now."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..filling import SurfaceFilling
+from .body import Body
+from .opening import Opening
+from .user_surface import UserSurface
+
+
+def reopening(
+    surface: UserSurface, thickness: float | None, filling: SurfaceFilling | None
+) -> Callable[[Opening], Body]:
+    """Makes the shell of a thickness, or with None the solid inside the surface.
+
+    ValueError at once for a surface or a thickness of no shell; filling it may fail later.
+    """
+    if thickness is not None:
+        shell = surface.shell(thickness)
+        return lambda _: shell
+
+    def fill(opening: Opening) -> Body:
+        opening.read(surface)
+        return surface.filled(filling or SurfaceFilling(), stage=opening.stage)
+
+    return fill
+
+
+def surface_of(body: Body) -> UserSurface:
+    """The surface that a body was made of; ValueError if it came as tets."""
+    source = None if body.surface is None else body.surface.source
+    if source is None:
+        raise ValueError("this mesh came as tets, or without the file of its surface")
+    material = body.material if body.problem is None else body.problem.material
+    return UserSurface(
+        name=body.name,
+        source=source,
+        folder=body.folder,
+        path=body.surface_file,
+        up=body.up,
+        mirror=body.mirror,
+        material=material,
+    )

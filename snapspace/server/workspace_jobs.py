@@ -1,0 +1,60 @@
+"""WorkspaceJobs: the background work of one page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .job import Job
+from .page_channel import PageChannel
+from .polish_jobs import PolishJobs
+
+#: How long to wait for stopped work to end: solvers check between the parts of an iteration.
+STOP_SECONDS = 0.4
+
+
+class WorkspaceJobs:
+    """Opening a body or computing models, one at a time; beside that a check, and polishing.
+
+    Parameters
+    ----------
+    emit : PageChannel
+    failed : callable
+        Called with the number of a request and the error of its work.
+    """
+
+    def __init__(self, emit: PageChannel, failed: Callable[[int, Exception], None]) -> None:
+        self._failed = failed
+        self._work: Job | None = None
+        self._check: Job | None = None
+        self.polishes = PolishJobs(emit, failed)
+
+    @property
+    def working(self) -> bool:
+        """Whether a body is being opened, or models are being computed."""
+        return self._work is not None and self._work.running
+
+    def begin(self, work: Callable[[], None], *, request: int) -> None:
+        """Begins work for a request, after `end_work`."""
+        self._work = Job(work, failed=lambda error: self._failed(request, error))
+
+    def end_work(self) -> None:
+        """Stops the work, and waits for a moment until it has ended."""
+        if self._work is not None:
+            self._work.stop()
+            self._work.wait(STOP_SECONDS)
+
+    def check(self, work: Callable[[], None], *, request: int) -> None:
+        """Begins a check in place of the last one."""
+        if self._check is not None:
+            self._check.stop()
+        self._check = Job(work, failed=lambda error: self._failed(request, error))
+
+    def stop(self) -> None:
+        """Stops all jobs and forgets them; the garbage collector would not see their size."""
+        all_jobs = (self._work, self._check, self.polishes.stop())
+        jobs = [job for job in all_jobs if job is not None]
+        for job in jobs:
+            job.stop()
+        for job in jobs:
+            job.wait(STOP_SECONDS)
+        self._work = self._check = None

@@ -1,0 +1,82 @@
+"""A cloth that is dragged by two corners: nothing is lost, turned over or thrown away.
+
+`benchmarks/cloth.py` does the same with ten thousand triangles and as many drags.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import (
+    HandleBox,
+    Handles,
+    PosingModel,
+    PosingProblem,
+    ShellMesh,
+    reduce,
+    sample,
+    snapshot_pca,
+    solve_snapshots,
+)
+
+from .sheets import sheet
+
+FloatArray = NDArray[np.float64]
+
+
+@pytest.fixture(scope="module")
+def model() -> PosingModel:
+    """A square with folds, 288 triangles, in 40 dimensions."""
+    flat = sheet(12, 12, size=(1.0, 1.0), alternating=True)
+    x, y, _ = flat.vertices.T
+    folds = 0.04 * (1.2 - y) * np.sin(3.0 * np.pi * x)
+    mesh = ShellMesh(np.stack([x, y, folds], 1), flat.triangles, thickness=0.03)
+    corners = [(side < 0.1) & (y > 0.9) for side in (x, 1.0 - x)]
+    box = HandleBox(translation=0.14, angle=np.pi / 4)
+    problem = PosingProblem(mesh, Handles(corners, names=["left", "right"]), domain=box)
+    snapshots = solve_snapshots(problem, sample(box, 80, seed=1), threads=1)
+    made = reduce(problem, snapshot_pca(snapshots, dimension=40), snapshots=snapshots, threads=1)
+    assert isinstance(made, PosingModel)
+    return made
+
+
+def angles(mesh: ShellMesh, shape: FloatArray) -> FloatArray:
+    """Of all hinges, in (-pi, pi]."""
+    v0, v1, v2, v3 = (shape[mesh.hinges[:, k]] for k in range(4))
+    edge = v1 - v0
+    first, second = np.cross(edge, v2 - v0), np.cross(v3 - v0, edge)
+    sine = np.linalg.norm(edge, axis=1) * np.einsum("hi,hi->h", first, v3 - v0)
+    return np.asarray(np.arctan2(sine, np.einsum("hi,hi->h", first, second)))
+
+
+def area_ratios(mesh: ShellMesh, shape: FloatArray) -> FloatArray:
+    a, b, c = (shape[mesh.triangles[:, k]] for k in range(3))
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / (2.0 * mesh.areas))
+
+
+@pytest.mark.parametrize(("reach", "drags"), [(0.3, 120), (2.0, 30)])
+def test_a_dragged_cloth_neither_flips_nor_flies(
+    model: PosingModel, reach: float, drags: int
+) -> None:
+    mesh, half = model.problem.mesh, model.problem.domain.half_widths
+    assert isinstance(mesh, ShellMesh)
+    session, rng, w = model.session(), np.random.default_rng(5), np.zeros(6)
+    bent, held = angles(mesh, mesh.vertices), model.problem.pinned
+    before = mesh.vertices
+    for _ in range(drags):
+        w = np.clip(w + reach * half * rng.uniform(-1, 1, 6), -half, half)
+        assert np.isfinite(session.pose(w).value)
+        shape = session.vertices
+        assert np.isfinite(shape).all()
+        assert np.abs(shape - mesh.vertices).max() < mesh.diagonal
+        # followed through whole turns: a hinge beyond half a turn has passed through itself
+        now = angles(mesh, shape)
+        bent = now + 2 * np.pi * np.round((bent - now) / (2 * np.pi))
+        assert np.abs(bent).max() < np.pi
+        ratios = area_ratios(mesh, shape)
+        assert 0.2 < ratios.min() and ratios.max() < 3.0
+        way = np.linalg.norm(shape - before, axis=1)
+        assert way.max() < 20 * way[held].max(), "the free corners swing, but not farther"
+        before = shape
