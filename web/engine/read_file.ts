@@ -40,6 +40,10 @@ export function readFile(container: Container, name: string): Model {
 
 function readPosing(container: Container, name: string): Model {
   const about = JSON.parse(container.header["problem"]);
+  if (container.has("triangles") && about.material.model === "arap")
+    throw new UnreadableModel(
+      "This is a model of a surface that is as rigid as possible. Open it with `snapspace view FILE`.",
+    );
   const [dimension] = container.shape("basis", 2);
   const [vertices] = container.shape("vertices", 2);
   const body = fileBody(container, about.material);

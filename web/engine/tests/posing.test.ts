@@ -77,6 +77,10 @@ for (const file of [...files, "surface-arap.packed"])
     assert.ok(distance(surface(session), model.space.base) === 0);
   });
 
+test("a file of a surface as rigid as possible names the program that opens it", () => {
+  assert.throws(() => readModel(bytes("surface-arap.snapspace"), "strip"), /rigid.*`snapspace view FILE`/);
+});
+
 test("a motion beyond all numbers is taken back", async () => {
   const session = await PosingSession.create(core, readModel(bytes("posing.packed"), "") as PosingModel);
   session.move(1, [0, 0, 0.2], [0.1, 0, 0]);
