@@ -1,5 +1,4 @@
 import type { Container } from "./container.ts";
-import { UnreadableModel } from "./errors.ts";
 import type { Body, Material } from "./model.ts";
 import { fileMaterial } from "./read_material.ts";
 import { boundary, everywhere, type FileSurface } from "./read_surface.ts";
@@ -46,10 +45,6 @@ export function fileBody(container: Container, material: { readonly model: strin
 }
 
 function shellBody(container: Container, rest: Float64Array, material: { readonly model: string }): FileBody {
-  if (material.model === "arap")
-    throw new UnreadableModel(
-      "This is a model of an as-rigid-as-possible surface. Open it with `snapspace view FILE`.",
-    );
   const [count] = container.shape("triangles", 2);
   const [numbers] = container.shape("thickness", 1);
   const triangles = container.indices("triangles", rest.length / 3, [count, 3]);
