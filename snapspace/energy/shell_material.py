@@ -21,6 +21,8 @@ Bending = Literal["angle", "tangent"]
 BENDINGS: dict[Bending, str] = {"angle": "", "tangent": "-tangent"}
 #: Materials whose membranes the core has.
 MEMBRANES: tuple[type[Material], ...] = (StableNeoHookean, StVK)
+#: Materials that shells can be made of.
+SHELLS: tuple[type[Material], ...] = (*MEMBRANES, ARAP)
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +82,7 @@ def element_material(
         if bending != "angle":
             raise ValueError(f"{who}: ARAP has no hinges, so bending cannot be '{bending}'")
         return ShellMaterial(KIND, arap_triangles(mesh, material))
-    _check_membrane(material, (*MEMBRANES, ARAP), "a shell", who)
+    _check_membrane(material, SHELLS, "a shell", who)
     return shell_materials(mesh, mesh.vertices[None], material, bending=bending, who=who)[0]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..energy.shell_material import MEMBRANES
+from ..energy.shell_material import SHELLS
 from ..material import DEFAULT_MATERIAL, MATERIALS, Material, material_class
 from ..mesh import Body, ShellMesh
 from .messages import MaterialChoice
@@ -20,7 +20,7 @@ def material_choices() -> tuple[MaterialChoice, ...]:
             kind=kind,
             title=material.title,
             has_poisson=bool(material.from_lame(lam=1.0, mu=1.0).lam > 0),
-            has_membrane=issubclass(material, MEMBRANES),
+            makes_shells=issubclass(material, SHELLS),
         )
         for kind, material in MATERIALS.items()
     )
@@ -56,8 +56,8 @@ def chosen_material(given: Material, *, kind: str | None, poisson: float | None)
 
 
 def fitted_material(material: Material, mesh: Body) -> Material:
-    """The material for a body: of moduli for other cells their means, and for shells a membrane."""
-    if isinstance(mesh, ShellMesh) and not isinstance(material, MEMBRANES):
+    """The material for a body: one that shells can be made of; means of moduli for other cells."""
+    if isinstance(mesh, ShellMesh) and not isinstance(material, SHELLS):
         material = DEFAULT_MATERIAL.from_lame(lam=material.lam, mu=material.mu)
     moduli = {name: getattr(material, name) for name in material.names()}
     if all(np.size(value) in (1, len(mesh.cells)) for value in moduli.values()):

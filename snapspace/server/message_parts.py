@@ -45,13 +45,13 @@ class MaterialChoice:
 
     kind, title : its name in files and messages, and its name for the reader
     has_poisson : whether Poisson's ratio changes anything
-    has_membrane : whether shells can be made of it
+    makes_shells : whether shells can be made of it
     """
 
     kind: str
     title: str
     has_poisson: bool
-    has_membrane: bool
+    makes_shells: bool
 
 
 @dataclass(frozen=True, kw_only=True)

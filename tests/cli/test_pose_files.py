@@ -34,6 +34,7 @@ def options(**changes: Any) -> PoseOptions:
     plain: dict[str, Any] = {
         "tets": None,
         "edge_length": None,
+        "thickness": None,
         "deviation": 1e-3,
         "scale": "auto",
         "accept_inverted": False,

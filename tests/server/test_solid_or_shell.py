@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import ARAP, ShellMesh, StableNeoHookean, TetMesh, open_surface, write_surface
+from snapspace import Corotational, ShellMesh, StableNeoHookean, TetMesh, open_surface, write_surface
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import solid_of
 from snapspace.server import messages as m
@@ -147,14 +147,14 @@ def test_tets_are_no_shell(tmp_path: Path) -> None:
         bodies.of(0.1)
 
 
-def test_a_material_without_a_membrane_becomes_one_with_the_same_moduli(tmp_path: Path) -> None:
+def test_a_material_that_shells_have_not_becomes_one_with_the_same_moduli(tmp_path: Path) -> None:
     body = mesh_body(surface_file(tmp_path, closed=False), stage=no_stage)
     moduli = np.linspace(1.0, 3.0, 7)
-    fitted = fitted_material(ARAP(mu=moduli), body.mesh)
+    fitted = fitted_material(Corotational(lam=0.5, mu=moduli), body.mesh)
     assert isinstance(fitted, StableNeoHookean)
-    assert (fitted.lam, fitted.mu) == (0.0, pytest.approx(2.0))
-    membranes = {choice.kind for choice in material_choices() if choice.has_membrane}
-    assert membranes == {"stable-neo-hookean", "stvk"}
+    assert (fitted.lam, fitted.mu) == (0.5, pytest.approx(2.0))
+    made = {choice.kind for choice in material_choices() if choice.makes_shells}
+    assert made == {"stable-neo-hookean", "stvk", "arap"}
 
 
 def dropped(
@@ -253,7 +253,7 @@ def test_shells_are_computed_saved_and_given_back_after_a_reload(tmp_path: Path)
     order = m.Compute(request=2, target_error=0.5, most_samples=20, seed=0, stiffness=100.0)
     workspace.receive(keep(replace(opened, thickness=0.25), SHEET.vertices))
     workspace.receive(choose(SHEET.vertices, 0.25))
-    workspace.receive(replace(order, material="arap"))
+    workspace.receive(replace(order, material="corotational"))
     mailbox.wait_for(m.Failed, request=2)
     workspace.receive(replace(order, request=3))
     mailbox.wait_for(m.Model, request=3, final=True)

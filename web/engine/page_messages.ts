@@ -34,13 +34,13 @@ export interface PartChoice {
  *
  * kind, title : its name in files and messages, and its name for the reader
  * has_poisson : whether Poisson's ratio changes anything
- * has_membrane : whether shells can be made of it
+ * makes_shells : whether shells can be made of it
  */
 export interface MaterialChoice {
   readonly kind: string;
   readonly title: string;
   readonly has_poisson: boolean;
-  readonly has_membrane: boolean;
+  readonly makes_shells: boolean;
 }
 
 /** Where a handle is: a rigid motion about its centre at rest.

@@ -25,9 +25,9 @@ export function materialPanel(sampling: Sampling, given: Materials, parts: HTMLE
   const field = h("label", { className: "field" }, h("span", {}, "Poisson's ratio"), ratio);
   const update = () => {
     const isShell = sampling.thickness !== null;
-    given.materials.forEach(({ has_membrane }, i) => (select.options[i].disabled = isShell && !has_membrane));
+    given.materials.forEach(({ makes_shells }, i) => (select.options[i].disabled = isShell && !makes_shells));
     if (select.selectedOptions[0]?.disabled) {
-      const fitting = given.materials.filter(({ has_membrane }) => has_membrane);
+      const fitting = given.materials.filter(({ makes_shells }) => makes_shells);
       sampling.material = select.value = (
         fitting.find(({ kind }) => kind === given.material) ?? fitting[0]
       ).kind;
