@@ -11,7 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import Corotational, ShellMesh, StableNeoHookean, TetMesh, open_surface, write_surface
+from snapspace import (
+    Corotational,
+    ShellMesh,
+    StableNeoHookean,
+    TetMesh,
+    open_surface,
+    write_surface,
+)
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import solid_of
 from snapspace.server import messages as m
