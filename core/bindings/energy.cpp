@@ -96,9 +96,8 @@ void bind_material(nb::module_& m) {
       },
       nb::arg("poses"), nb::arg("elements").noconvert(), nb::arg("kind"), nb::arg("moduli"),
       "Rows of a shell's density (k, m, 15) with each of several poses (k, n, 3) as the rest "
-      "shape: "
-      "mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their rest "
-      "shapes.");
+      "shape: mu, lam and bending (m, 3) of the triangles and hinges, and the numbers of their "
+      "rest shapes.");
   nb::enum_<Projection>(m, "Projection",
                         "The matrix that Newton's method uses for the Hessian of a tet.")
       .value("none", Projection::none)
@@ -149,8 +148,7 @@ void bind_energy(nb::module_& m) {
           },
           nb::arg("u"),
           "Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each element: a "
-          "tet, "
-          "a triangle or a hinge, or the star of a vertex.")
+          "tet, a triangle or a hinge, or the star of a vertex.")
       .def(
           "stars",
           [](const ElasticEnergy& self) {

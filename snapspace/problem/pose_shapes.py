@@ -1,4 +1,4 @@
-"""Checks of the shapes and the names of poses."""
+"""PoseShapes: what poses of tets and of shells have in common, and its checks."""
 
 from __future__ import annotations
 
@@ -10,6 +10,32 @@ from numpy.typing import ArrayLike, NDArray
 from .names import check_names
 
 FloatArray = NDArray[np.float64]
+
+
+class PoseShapes:
+    """Two or more named shapes (k, n, 3) of one mesh; ValueError, in the name of `who`, otherwise.
+
+    As for `Poses`, which says more; the shapes are copied and read-only.
+    """
+
+    def __init__(self, shapes: ArrayLike, names: Sequence[str] | None, *, who: str) -> None:
+        self._shapes = as_shapes(shapes, who=who)
+        self._names = as_names(names, len(self._shapes), who=who)
+        check_finite_shapes(self._shapes, self._names, who=who)
+        self._shapes.setflags(write=False)
+
+    @property
+    def shapes(self) -> FloatArray:
+        """Vertices of each pose, (k, n, 3) float64."""
+        return self._shapes
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names in order."""
+        return self._names
+
+    def __len__(self) -> int:
+        return len(self._shapes)
 
 
 def pose_count(count: int) -> str:

@@ -11,13 +11,13 @@ from ..input_error import InputError, fault_of
 from ..mesh import TetMesh, tet_volumes
 from ..mesh.correspondence import check_same_tets
 from ..mesh.quality import flat_tets
-from .pose_shapes import as_names, as_shapes, check_finite_shapes, check_pose_count
+from .pose_shapes import PoseShapes, as_names, check_pose_count
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
 
 
-class Poses:
+class Poses(PoseShapes):
     """Two or more shapes of one tet mesh, vertex i at vertex i; their arrays are read-only.
 
     Parameters
@@ -48,16 +48,14 @@ class Poses:
         names: Sequence[str] | None = None,
         accept_inverted: bool = False,
     ) -> None:
-        self._shapes = as_shapes(shapes, who="Poses")
-        self._names = as_names(names, len(self._shapes), who="Poses")
-        check_finite_shapes(self._shapes, self._names, who="Poses")
+        super().__init__(shapes, names, who="Poses")
         self._reference = _reference(self._shapes[0], tets, self._names[0])
         self._volumes = np.stack([self._volumes_of(pose) for pose in range(len(self))])
         inverted: NDArray[np.int64] = (self._volumes < 0).sum(axis=1)
         self._inverted_tets = inverted
         if not accept_inverted:
             self._check_inverted()
-        for array in (self._shapes, self._volumes, self._inverted_tets):
+        for array in (self._volumes, self._inverted_tets):
             array.setflags(write=False)
 
     @classmethod
@@ -79,19 +77,9 @@ class Poses:
         return cls(shapes, meshes[0].tets, names=names, accept_inverted=accept_inverted)
 
     @property
-    def shapes(self) -> FloatArray:
-        """Vertices of each pose, (k, n, 3) float64."""
-        return self._shapes
-
-    @property
     def tets(self) -> IndexArray:
         """Vertex indices of the tets, (m, 4) int32."""
         return self._reference.tets
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names in order."""
-        return self._names
 
     @property
     def reference(self) -> TetMesh:
@@ -107,9 +95,6 @@ class Poses:
     def inverted_tets(self) -> NDArray[np.int64]:
         """How many tets are inverted in each pose, (k,); zero unless they were accepted."""
         return self._inverted_tets
-
-    def __len__(self) -> int:
-        return len(self._shapes)
 
     def __repr__(self) -> str:
         inverted = self._inverted_tets.sum()

@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 from ..input_error import InputError, fault_of
 from ..mesh import ShellMesh
 from ..mesh.correspondence import check_same_faces
-from .pose_shapes import as_names, as_shapes, check_finite_shapes, check_pose_count
+from .pose_shapes import PoseShapes, as_names, check_pose_count
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]
 
 
-class ShellPoses:
+class ShellPoses(PoseShapes):
     """Two or more shapes of one surface, vertex i at vertex i; their arrays are read-only.
 
     Nothing is filled, and no pose is fitted: the triangles themselves are the body.
@@ -52,9 +52,7 @@ class ShellPoses:
         thickness: ArrayLike,
         names: Sequence[str] | None = None,
     ) -> None:
-        self._shapes = as_shapes(shapes, who="ShellPoses")
-        self._names = as_names(names, len(self._shapes), who="ShellPoses")
-        check_finite_shapes(self._shapes, self._names, who="ShellPoses")
+        super().__init__(shapes, names, who="ShellPoses")
         meshes = [
             _mesh(shape, triangles, thickness, name)
             for shape, name in zip(self._shapes, self._names, strict=True)
@@ -62,8 +60,7 @@ class ShellPoses:
         self._reference = meshes[0]
         _check_connected(self._reference)
         self._volumes = np.stack([mesh.volumes for mesh in meshes])
-        for array in (self._shapes, self._volumes):
-            array.setflags(write=False)
+        self._volumes.setflags(write=False)
 
     @classmethod
     def of(cls, meshes: Sequence[ShellMesh], *, names: Sequence[str] | None = None) -> ShellPoses:
@@ -88,11 +85,6 @@ class ShellPoses:
         return cls(shapes, first.triangles, thickness=first.thickness, names=names)
 
     @property
-    def shapes(self) -> FloatArray:
-        """Vertices of each pose, (k, n, 3) float64."""
-        return self._shapes
-
-    @property
     def triangles(self) -> IndexArray:
         """Vertex indices of the triangles, (f, 3) int32."""
         return self._reference.triangles
@@ -101,11 +93,6 @@ class ShellPoses:
     def thickness(self) -> float | FloatArray:
         """Thickness of all triangles, or of each, (f,)."""
         return self._reference.thickness
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names in order."""
-        return self._names
 
     @property
     def reference(self) -> ShellMesh:
@@ -121,9 +108,6 @@ class ShellPoses:
     def inverted_tets(self) -> NDArray[np.int64]:
         """Zeros, (k,): a surface has no inside."""
         return np.zeros(len(self), np.int64)
-
-    def __len__(self) -> int:
-        return len(self._shapes)
 
     def __repr__(self) -> str:
         n, f = self._shapes.shape[1], len(self.triangles)
