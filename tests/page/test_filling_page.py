@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 
-from snapspace import TetMesh
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh.surface import compact_surface
-from snapspace.stopping import check_stop
 
+from ..server.held_filling import HeldFilling
 from ..server.in_process import started
 from .choosing_page import BAR, cancel, places, press, selected, stroke, tool, wait_for_text
 from .pages import OpenPage, Page
@@ -21,22 +17,6 @@ from .pages import OpenPage, Page
 CAMERA = "snapspace.stage.camera.position.toArray()"
 IS_LOOKED_AT = "snapspace.kind === 'surface'"
 RED = "v {} {} {} 1 0 0"
-
-
-@dataclass(frozen=True)
-class HeldFilling(SurfaceFilling):
-    """Gives the tets of `BAR`, or fails, once it is let go."""
-
-    fails: bool = False
-    let_go: threading.Event = field(default_factory=threading.Event)
-
-    def fill(self, *_: object, stage: Callable[..., None]) -> TetMesh:
-        stage("filling")
-        while not self.let_go.wait(0.01):
-            check_stop()
-        if self.fails:
-            raise ValueError("it is too thin here; thicken it")
-        return BAR
 
 
 def dropped(folder: Path, opened: OpenPage, filling: SurfaceFilling) -> Page:
@@ -54,7 +34,7 @@ def dropped(folder: Path, opened: OpenPage, filling: SurfaceFilling) -> Page:
 
 @pytest.fixture
 def filling() -> HeldFilling:
-    return HeldFilling()
+    return HeldFilling(outcome=BAR)
 
 
 def test_a_surface_is_there_before_its_tets_and_nothing_moves_when_they_come(
@@ -94,7 +74,7 @@ def test_a_surface_is_there_before_its_tets_and_nothing_moves_when_they_come(
 def test_a_surface_that_cannot_be_filled_stays_with_the_reason(
     tmp_path: Path, opened: OpenPage, chromium: object
 ) -> None:
-    filling = HeldFilling(fails=True)
+    filling = HeldFilling(outcome="it is too thin here; thicken it")
     page = dropped(tmp_path, opened, filling)
     filling.let_go.set()
     wait_for_text(page, "#message", "bar.obj: it is too thin here; thicken it")

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import json
-import threading
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, ShellMesh, TetMesh, load, write_surface
-from snapspace.filling import SurfaceFilling
+from snapspace import PosingModel, ShellMesh, load, write_surface
 from snapspace.mesh.surface import compact_surface
-from snapspace.stopping import check_stop
 
+from ..server.held_filling import HeldFilling
 from ..server.in_process import started
 from ..shells.sheets import sheet
 from .choosing_page import (
@@ -30,19 +26,6 @@ from .choosing_page import (
 )
 from .pages import OpenPage, Page
 from .test_posing_page import assert_shown
-
-
-@dataclass(frozen=True)
-class HeldFilling(SurfaceFilling):
-    """Gives the tets of `BAR` once it is let go."""
-
-    let_go: threading.Event = field(default_factory=threading.Event)
-
-    def fill(self, *_: object, stage: Callable[..., None]) -> TetMesh:
-        stage("filling")
-        while not self.let_go.wait(0.01):
-            check_stop()
-        return BAR
 
 
 def dropped(
@@ -128,7 +111,7 @@ def test_an_open_surface_is_a_shell_that_is_posed_saved_and_reloaded(
 def test_a_closed_surface_is_a_shell_at_once_and_a_solid_later(
     tmp_path: Path, opened: OpenPage, chromium: object
 ) -> None:
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     surface = compact_surface(BAR.vertices, BAR.surface)
     page = dropped(opened, tmp_path, surface, filling=filling)
     wait_for_text(page, "#message", "Filling it with tets")

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
 
-from snapspace import TetMesh, write_surface
+from snapspace import write_surface
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import SurfaceFile
 from snapspace.server.bodies import mesh_body
@@ -20,28 +17,12 @@ from snapspace.server.opening import Opening
 from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
 from snapspace.server.workspace import Workspace
-from snapspace.stopping import check_stop
 
 from ..shapes import bar_problem
+from .held_filling import HeldFilling
 from .test_workspace import Mailbox
 
 BAR = bar_problem().mesh
-
-
-@dataclass(frozen=True)
-class HeldFilling(SurfaceFilling):
-    """Waits until it is let go, or stopped; then it gives the tets, or fails without any."""
-
-    mesh: TetMesh | None = BAR
-    let_go: threading.Event = field(default_factory=threading.Event)
-
-    def fill(self, *_: object, stage: Callable[..., None]) -> TetMesh:
-        stage("filling")
-        while not self.let_go.wait(0.01):
-            check_stop()
-        if self.mesh is None:
-            raise ValueError("too thin; use --exact")
-        return self.mesh
 
 
 def dropped(folder: Path, filling: SurfaceFilling) -> tuple[Workspace, Mailbox]:
@@ -78,7 +59,7 @@ def shown(mailbox: Mailbox, kind: str) -> Opened:
 
 
 def test_a_surface_comes_before_its_tets_and_is_the_same_after(tmp_path: Path) -> None:
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     workspace, mailbox = dropped(tmp_path, filling)
     surface = shown(mailbox, "surface")
     assert (surface.name, surface.up, surface.has_surface) == ("bar", "y", True)
@@ -96,7 +77,7 @@ def test_a_surface_comes_before_its_tets_and_is_the_same_after(tmp_path: Path) -
 
 
 def test_a_surface_stays_if_it_cannot_be_filled_also_after_a_reload(tmp_path: Path) -> None:
-    filling = HeldFilling(mesh=None)
+    filling = HeldFilling(outcome="too thin; use --exact")
     workspace, mailbox = dropped(tmp_path, filling)
     filling.let_go.set()
     mailbox.wait_for(Failed, request=0)
@@ -113,7 +94,7 @@ def test_a_surface_stays_if_it_cannot_be_filled_also_after_a_reload(tmp_path: Pa
 
 
 def test_a_page_that_is_loaded_again_while_a_surface_is_filled_shows_it(tmp_path: Path) -> None:
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     workspace, _ = dropped(tmp_path, filling)
     workspace.pause()
     again = Mailbox()
@@ -125,7 +106,7 @@ def test_a_page_that_is_loaded_again_while_a_surface_is_filled_shows_it(tmp_path
 
 
 def test_filling_can_be_cancelled_or_replaced(tmp_path: Path) -> None:
-    workspace, mailbox = dropped(tmp_path, HeldFilling())
+    workspace, mailbox = dropped(tmp_path, HeldFilling(outcome=BAR))
     workspace.receive(Cancel(request=6))
     mailbox.wait_for(Cancelled, request=6)
     assert kinds(mailbox)[-2:] == ["empty", "Cancelled"]
@@ -133,7 +114,7 @@ def test_filling_can_be_cancelled_or_replaced(tmp_path: Path) -> None:
 
     again = tmp_path / "again"
     again.mkdir()
-    workspace, mailbox = dropped(again, HeldFilling())
+    workspace, mailbox = dropped(again, HeldFilling(outcome=BAR))
     other = again / "other" / "other.mesh"
     other.parent.mkdir()
     other.write_text("no mesh")
@@ -147,7 +128,7 @@ def test_filling_can_be_cancelled_or_replaced(tmp_path: Path) -> None:
 def test_a_page_that_waits_for_another_one_sees_the_surface(tmp_path: Path) -> None:
     path = tmp_path / "bar.ply"
     write_surface(path, BAR.vertices, BAR.surface)
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
 
     def make(opening: Opening) -> Body:
         return mesh_body(path, stage=opening.stage, filling=filling, read=opening.read)

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import threading
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +13,6 @@ from snapspace import (
     Corotational,
     ShellMesh,
     StableNeoHookean,
-    TetMesh,
     open_surface,
     write_surface,
 )
@@ -31,31 +28,15 @@ from snapspace.server.models import Models
 from snapspace.server.settings import ServerSettings
 from snapspace.server.user_surface import UserSurface
 from snapspace.server.workspace import Workspace
-from snapspace.stopping import check_stop
 
 from ..shapes import bar_problem
 from ..shells.sheets import sheet, sphere
+from .held_filling import HeldFilling
 from .test_workspace import Mailbox
 
 BAR = solid_of(bar_problem().mesh, who="a test")
 FIN = [[0, 1, 2], [1, 0, 3], [0, 1, 4]]
 SHEET = sheet(8, 4, size=(2.0, 1.0))
-
-
-@dataclass(frozen=True)
-class HeldFilling(SurfaceFilling):
-    """Gives the tets of a bar, or fails, once it is let go."""
-
-    fails: bool = False
-    let_go: threading.Event = field(default_factory=threading.Event)
-
-    def fill(self, *_: object, stage: Callable[..., None]) -> TetMesh:
-        stage("filling")
-        while not self.let_go.wait(0.01):
-            check_stop()
-        if self.fails:
-            raise ValueError("it encloses no volume")
-        return BAR
 
 
 def surface_file(folder: Path, *, closed: bool) -> Path:
@@ -93,7 +74,7 @@ def test_an_open_surface_is_a_shell_by_itself_and_a_closed_one_is_filled(tmp_pat
     assert isinstance(shell.mesh, ShellMesh)
     assert shell.mesh.thickness == pytest.approx(0.02 * shell.mesh.diagonal, rel=0.05)
     path = surface_file(tmp_path, closed=True)
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     filling.let_go.set()
     assert mesh_body(path, stage=no_stage, filling=filling).mesh is BAR
     assert isinstance(mesh_body(path, stage=no_stage, thickness=0.1).mesh, ShellMesh)
@@ -121,7 +102,7 @@ def test_an_open_surface_that_is_no_shell_is_left_to_the_filling(tmp_path: Path)
 
 
 def test_a_filled_surface_becomes_a_shell_with_the_same_handles(tmp_path: Path) -> None:
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     filling.let_go.set()
     body = mesh_body(surface_file(tmp_path, closed=True), stage=no_stage, filling=filling)
     assert body.surface is not None
@@ -222,7 +203,7 @@ def test_an_open_surface_says_that_it_is_open_and_can_be_filled(tmp_path: Path) 
 
 
 def test_a_surface_that_is_being_filled_becomes_a_shell_at_once_and_back(tmp_path: Path) -> None:
-    filling = HeldFilling()
+    filling = HeldFilling(outcome=BAR)
     workspace, mailbox = dropped(tmp_path, filling, closed=True)
     thickness = last(mailbox, m.Workspace).usual_thickness
     assert thickness is not None
