@@ -56,8 +56,8 @@ def test_posing_strains(
     # the scale covers nearly all of it, and has not grown far beyond
     assert page.text(".legend").startswith("Strain of the surface")
     end = "parseFloat(document.querySelectorAll('.legend div span')[2].textContent) / 100"
-    page.wait(f"{end} > {expected.mean()}")
-    assert np.quantile(expected, 0.8) < page.run(end) < 4 * expected.max()
+    page.wait(f"{end} > {np.quantile(expected, 0.8)}")  # it looks four times a second
+    assert page.run(end) < 4 * expected.max()
 
 
 def test_a_blend_has_the_mean_strain_of_its_poses(
