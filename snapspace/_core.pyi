@@ -606,17 +606,32 @@ class CubatureLoop(PosingLoop):
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, K: NDArray[numpy.float64], L: NDArray[numpy.float64], S: NDArray[numpy.float64]) -> None: ...
 
-class BlendedCubature(TetFunction):
+class BlendedFunction(TetFunction):
+    """Blended energy of several poses."""
+
+    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
+
+class BlendedCubature(BlendedFunction):
     """Blended energy of several poses as a weighted sum over few tets."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
 
-    def set_weights(self, weights: NDArray[numpy.float64]) -> None: ...
+class BlendedStars(BlendedFunction):
+    """
+    Blended ARAP energy of a surface as a weighted sum over few stars, with a quadratic form.
+    """
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, origins: NDArray[numpy.float64], forms: NDArray[numpy.float64]) -> None: ...
 
 class BlendedCubatureLoop(BlendingLoop):
     """The live loop of blending with a cubature instead of quartics."""
 
     def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, corners: NDArray[numpy.float64]) -> None: ...
+
+class BlendedStarsLoop(BlendingLoop):
+    """The live loop of blending with stars instead of quartics."""
+
+    def __init__(self, rows: NDArray[numpy.float32], weights: NDArray[numpy.float64], material: Material, origins: NDArray[numpy.float64], forms: NDArray[numpy.float64]) -> None: ...
 
 class ResidualProbe:
     """The full objective's gradient at sampled vertices."""

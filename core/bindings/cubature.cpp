@@ -25,27 +25,56 @@ live::PoseArrays pose_arrays(const TensorIn& corners, std::size_t tets) {
   return {static_cast<int>(poses), corners.data(), corners.data() + poses * 12 * tets};
 }
 
+/// The arguments of BlendedStars and of its loop.
+live::StarArrays star_arrays(const RowsIn& rows, const VectorIn& weights,
+                             const MaterialField& material, const TensorIn& origins,
+                             const TensorIn& forms) {
+  const std::size_t stars = weights.size(), poses = forms.shape(0), d = rows.shape(2);
+  require(stars >= 1 && poses >= 1 && d >= 1 && rows.shape(0) == poses * stars &&
+              rows.shape(1) == 9 && origins.shape(0) == poses && origins.shape(1) == stars &&
+              origins.shape(2) == 9 && forms.shape(1) == d + 1 && forms.shape(2) == d + 1,
+          "rows (poses * stars, 9, d), weights (stars,), origins (poses, stars, 9) and forms "
+          "(poses, d + 1, d + 1) do not match");
+  require(material.fits(rows.shape(0)), "the material has moduli for a different number of stars");
+  return {static_cast<int>(d), static_cast<int>(poses), static_cast<int>(stars), rows.data(),
+          weights.data(),      material.view(),         origins.data(),          forms.data()};
+}
+
+constexpr auto kNotDefinite =
+    "the reduced Hessian at the mean shape is far from positive definite; the model is damaged";
+
 void bind_blended(nb::module_& m) {
-  nb::class_<BlendedCubature, TetFunction>(
-      m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
-      .def(
-          "__init__",
-          [](BlendedCubature* self, RowsIn rows, VectorIn weights, const MaterialField& material,
-             TensorIn corners) {
-            live::BlendedPointer function = live::blended_cubature(
-                cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size()));
-            live::BlendedFunction* blend = function.get();
-            new (self) BlendedCubature{{{std::move(function)}, blend}, blend};
-          },
-          nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"))
+  nb::class_<BlendedFunction, TetFunction>(m, "BlendedFunction", "Blended energy of several poses.")
       .def(
           "set_weights",
-          [](BlendedCubature& self, VectorIn weights) {
+          [](BlendedFunction& self, VectorIn weights) {
             require(weights.size() == static_cast<std::size_t>(self.blend->poses()),
                     "weights must have one entry per pose");
             self.blend->set_weights(weights.data());
           },
           nb::arg("weights"));
+  nb::class_<BlendedCubature, BlendedFunction>(
+      m, "BlendedCubature", "Blended energy of several poses as a weighted sum over few tets.")
+      .def(
+          "__init__",
+          [](BlendedCubature* self, RowsIn rows, VectorIn weights, const MaterialField& material,
+             TensorIn corners) {
+            new (self) BlendedCubature(live::blended_cubature(
+                cubature_arrays(rows, weights, material), pose_arrays(corners, weights.size())));
+          },
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"));
+  nb::class_<BlendedStars, BlendedFunction>(
+      m, "BlendedStars",
+      "Blended ARAP energy of a surface as a weighted sum over few stars, with a quadratic form.")
+      .def(
+          "__init__",
+          [](BlendedStars* self, RowsIn rows, VectorIn weights, const MaterialField& material,
+             TensorIn origins, TensorIn forms) {
+            new (self) BlendedStars(
+                live::blended_stars(star_arrays(rows, weights, material, origins, forms)));
+          },
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("origins"),
+          nb::arg("forms"));
 
   nb::class_<BlendedCubatureLoop, BlendingLoop>(
       m, "BlendedCubatureLoop", "The live loop of blending with a cubature instead of quartics.")
@@ -53,13 +82,24 @@ void bind_blended(nb::module_& m) {
           "__init__",
           [](BlendedCubatureLoop* self, RowsIn rows, VectorIn weights,
              const MaterialField& material, TensorIn corners) {
-            new (self) BlendedCubatureLoop(
-                live::blending_solver(cubature_arrays(rows, weights, material),
-                                      pose_arrays(corners, weights.size())),
-                "the reduced Hessian at the mean shape is far from positive definite; the model is "
-                "damaged");
+            new (self)
+                BlendedCubatureLoop(live::blending_solver(cubature_arrays(rows, weights, material),
+                                                          pose_arrays(corners, weights.size())),
+                                    kNotDefinite);
           },
           nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("corners"));
+  nb::class_<BlendedStarsLoop, BlendingLoop>(
+      m, "BlendedStarsLoop", "The live loop of blending with stars instead of quartics.")
+      .def(
+          "__init__",
+          [](BlendedStarsLoop* self, RowsIn rows, VectorIn weights, const MaterialField& material,
+             TensorIn origins, TensorIn forms) {
+            new (self) BlendedStarsLoop(
+                live::blending_solver(star_arrays(rows, weights, material, origins, forms)),
+                kNotDefinite);
+          },
+          nb::arg("rows"), nb::arg("weights"), nb::arg("material"), nb::arg("origins"),
+          nb::arg("forms"));
 }
 
 }  // namespace

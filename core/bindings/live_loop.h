@@ -45,8 +45,19 @@ struct TetFunction : ReducedFunction {
   live::TetFunction* sum;  // the same function
 };
 struct Cubature : TetFunction {};
-struct BlendedCubature : TetFunction {
+struct BlendedFunction : TetFunction {
   live::BlendedFunction* blend;  // the same function
+
+  explicit BlendedFunction(live::BlendedPointer blended) : blend(blended.get()) {
+    sum = blend;
+    function = std::move(blended);
+  }
+};
+struct BlendedCubature : BlendedFunction {
+  using BlendedFunction::BlendedFunction;
+};
+struct BlendedStars : BlendedFunction {
+  using BlendedFunction::BlendedFunction;
 };
 
 /// A live solver with its current coordinates, as many as its capacity.
@@ -74,6 +85,9 @@ struct BlendingLoop : LiveLoop {
   using LiveLoop::LiveLoop;
 };
 struct BlendedCubatureLoop : BlendingLoop {
+  using BlendingLoop::BlendingLoop;
+};
+struct BlendedStarsLoop : BlendingLoop {
   using BlendingLoop::BlendingLoop;
 };
 

@@ -1,6 +1,7 @@
 #include "energy/blended_energy.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "energy/shell_poses.h"
 #include "material/pose_blend.h"
@@ -39,6 +40,7 @@ BlendedEnergy::BlendedEnergy(const double* poses, int count, int vertex_count,
     std::vector<double>& offset = offsets_.emplace_back(poses, poses + size);
     for (std::size_t i = 0; i < size; ++i) offset[i] -= pose[i];
   }
+  if (energies_[0].stars) return;
   const int numbers = numbers_of(kind());
   numbers_.resize(static_cast<std::size_t>(tet_count) * count * numbers);
   double* next = numbers_.data();
@@ -107,10 +109,35 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
   }
 }
 
+/// Energy of some stars; adds its gradient to `gradient`. A single sample is a lane of a narrow
+/// pack: it has the same bits in lanes and alone.
+template <class Real>
+Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
+                                   int end) const {
+  using Pack = std::conditional_t<std::is_same_v<Real, double>, Lanes<2>, Real>;
+  std::vector<Pack> shape(size()), forces(size());
+  Sum<Real> energy(0.0);
+  for (int k = 0; k < poses(); ++k) {
+    for (int i = 0; i < size(); ++i) shape[i] = Pack(u[i]) + Pack(offsets_[k][i]);
+    std::fill(forces.begin(), forces.end(), Pack(0.0));
+    const Sum<Pack> value =
+        energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
+    if constexpr (std::is_same_v<Real, double>) {
+      energy += blend[k] * value[0];
+      for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i][0];
+    } else {
+      energy += widened(blend[k]) * value;
+      for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i];
+    }
+  }
+  return energy;
+}
+
 template <class Real>
 Sum<Real> BlendedEnergy::value_and_gradient(const Real* blend, const Real* u, Real* gradient,
                                             int begin, int end) const {
   std::fill_n(gradient, size(), Real(0.0));
+  if (energies_[0].stars) return add_stars(blend, u, gradient, begin, end);
   return Densities::with(kind(), [&]<class Density>() {
     Sum<Real> energy(0.0);
     for (int t = begin; t < end; ++t) {

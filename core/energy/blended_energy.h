@@ -11,6 +11,8 @@ namespace snapspace {
 /// function of displacements u from pose 0.
 /// All poses have the same tets, and a tet's energy against pose k is that of F A_k, see PoseBlend.
 /// So a pose needs neither its own vertices nor its own F.
+/// Surfaces that are as rigid as possible have the stars of their vertices in place of tets, and
+/// every pose has its own.
 /// Samples differ in their weights. Evaluations need them in a form that is made once per sample:
 /// the weights themselves or, where the density collapses, the numbers of all tets.
 class BlendedEnergy {
@@ -23,7 +25,7 @@ class BlendedEnergy {
 
   [[nodiscard]] int poses() const { return static_cast<int>(energies_.size()); }
   [[nodiscard]] int size() const { return 3 * energies_[0].rest.vertex_count; }
-  [[nodiscard]] int tets() const { return energies_[0].tets(); }
+  [[nodiscard]] int tets() const { return energies_[0].elements(); }
   /// E_k, which takes displacements from pose k.
   [[nodiscard]] const ElasticEnergy& energy(int pose) const { return energies_[pose]; }
   /// Pose 0 minus this pose, 3n: it is added to u for E_k.
@@ -42,7 +44,7 @@ class BlendedEnergy {
                                              int begin, int end) const;
 
   /// First Piola-Kirchhoff stresses against pose 0 times its volume (tets x 9, row by row),
-  /// energies (tets) and the resulting gradient (3n), at u for these weights.
+  /// energies (tets) and the resulting gradient (3n), at u for these weights; not of stars.
   void tet_stresses(const double* weights, const double* u, double* stresses, double* energies,
                     double* gradient) const;
 
@@ -55,6 +57,9 @@ class BlendedEnergy {
   /// Whether a sample keeps the sums of all tets.
   [[nodiscard]] bool keeps_sums() const;
   void fill_numbers(int tet, int pose, double* result) const;
+  template <class Real>
+  [[nodiscard]] Sum<Real> add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
+                                    int end) const;
   template <class Density, class Real>
   [[nodiscard]] Sum<Real> tet_value_and_stress(int tet, const Real* blend, const Real G[3][3],
                                                Real P[3][3]) const;

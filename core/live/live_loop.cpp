@@ -6,6 +6,7 @@
 #include "live/second_thread.h"
 #include "online/blended_cubature.h"
 #include "online/blended_quartic.h"
+#include "online/blended_stars.h"
 #include "online/blending_solver.h"
 #include "online/cubature.h"
 #include "online/inertial_minimizer.h"
@@ -18,6 +19,7 @@ namespace {
 
 using online::BlendedCubature;
 using online::BlendedQuartic;
+using online::BlendedStars;
 using online::BlendingSolver;
 using online::Cubature;
 using online::PosingSolver;
@@ -50,11 +52,12 @@ class TetsOf : public FunctionOf<Function, Interface> {
   }
 };
 
-class BlendedOf final : public TetsOf<BlendedCubature, BlendedFunction> {
+template <class Function>
+class BlendedOf final : public TetsOf<Function, BlendedFunction> {
  public:
-  using TetsOf::TetsOf;
-  [[nodiscard]] int poses() const override { return function_.poses(); }
-  void set_weights(const double* weights) override { function_.set_weights(weights); }
+  using TetsOf<Function, BlendedFunction>::TetsOf;
+  [[nodiscard]] int poses() const override { return this->function_.poses(); }
+  void set_weights(const double* weights) override { this->function_.set_weights(weights); }
 };
 
 template <class Elastic>
@@ -125,6 +128,12 @@ BlendedCubature make_cubature(const CubatureArrays& arrays, const PoseArrays& po
           arrays.weights,   arrays.material, {poses.poses, poses.corners, poses.tau}};
 }
 
+BlendedStars make_stars(const StarArrays& arrays) {
+  return {arrays.dimension,
+          {arrays.poses, arrays.stars, arrays.rows, arrays.weights, arrays.material, arrays.origins,
+           arrays.forms}};
+}
+
 /// A cubature for a live solve, which shares large evaluations with a second thread.
 template <class Elastic>
 Elastic with_second_thread(Elastic elastic) {
@@ -154,7 +163,11 @@ TetPointer cubature(const CubatureArrays& arrays) {
 }
 
 BlendedPointer blended_cubature(const CubatureArrays& arrays, const PoseArrays& poses) {
-  return std::make_unique<BlendedOf>(make_cubature(arrays, poses));
+  return std::make_unique<BlendedOf<BlendedCubature>>(make_cubature(arrays, poses));
+}
+
+BlendedPointer blended_stars(const StarArrays& arrays) {
+  return std::make_unique<BlendedOf<BlendedStars>>(make_stars(arrays));
 }
 
 SolverPointer posing_solver(int dimension, const double* coefficients, bool single,
@@ -174,6 +187,11 @@ SolverPointer blending_solver(int dimension, int poses, const double* coefficien
 SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses) {
   return std::make_unique<SolverOf<BlendingSolver<BlendedCubature>>>(
       with_second_thread(make_cubature(arrays, poses)));
+}
+
+SolverPointer blending_solver(const StarArrays& arrays) {
+  return std::make_unique<SolverOf<BlendingSolver<BlendedStars>>>(
+      with_second_thread(make_stars(arrays)));
 }
 
 }  // namespace snapspace::live

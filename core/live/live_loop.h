@@ -66,6 +66,15 @@ struct PoseArrays {
   const double *corners, *tau;
 };
 
+/// Some stars of a surface in several poses; see online::PoseStars.
+struct StarArrays {
+  int dimension, poses, stars;
+  const float* rows;
+  const double* weights;
+  TetMaterial material;
+  const double *origins, *forms;
+};
+
 /// A blended energy, whose weights can be set.
 class BlendedFunction : public TetFunction {
  public:
@@ -92,6 +101,7 @@ using SolverPointer = std::unique_ptr<LiveSolver>;
 [[nodiscard]] TetPointer cubature(const CubatureArrays& arrays);
 [[nodiscard]] BlendedPointer blended_cubature(const CubatureArrays& arrays,
                                               const PoseArrays& poses);
+[[nodiscard]] BlendedPointer blended_stars(const StarArrays& arrays);
 [[nodiscard]] SolverPointer posing_solver(int dimension, const double* coefficients, bool single,
                                           const HandleArrays& handles);
 [[nodiscard]] SolverPointer posing_solver(const CubatureArrays& arrays,
@@ -100,5 +110,6 @@ using SolverPointer = std::unique_ptr<LiveSolver>;
 [[nodiscard]] SolverPointer blending_solver(int dimension, int poses, const double* coefficients,
                                             bool single);
 [[nodiscard]] SolverPointer blending_solver(const CubatureArrays& arrays, const PoseArrays& poses);
+[[nodiscard]] SolverPointer blending_solver(const StarArrays& arrays);
 
 }  // namespace snapspace::live
