@@ -10,10 +10,11 @@ from .residual_sample import (
     residual_sample,
     scalar_diagonal,
 )
-from .star_probe import StarProbe, posing_probe
+from .star_probe import BlendingStarProbe, StarProbe, blending_probe, posing_probe
 
 __all__ = [
     "BlendingProbe",
+    "BlendingStarProbe",
     "Certificate",
     "ErrorEstimator",
     "LocalRatios",
@@ -21,6 +22,7 @@ __all__ = [
     "ResidualProbe",
     "ResidualSample",
     "StarProbe",
+    "blending_probe",
     "grown",
     "growth_exponent",
     "posing_probe",

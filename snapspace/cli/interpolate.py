@@ -16,7 +16,7 @@ from rich.text import Text
 from ..accurate import BLENDS, check_budget, check_target
 from ..cubature import FEWEST_BLENDS
 from ..fitting import DEVIATION, PoseFit, check_deviation
-from ..material import MATERIALS, StableNeoHookean, material_class
+from ..material import ARAP, MATERIALS, StableNeoHookean, material_class
 from ..mesh import write_tets
 from ..problem import InterpolationProblem, Poses, Simplex
 from ..registration import SCALE_POLICIES, ScalePolicy
@@ -90,9 +90,8 @@ SAMPLES, DIMENSION = 40, 30
     "--material",
     "kind",
     type=click.Choice(sorted(MATERIALS)),
-    default=StableNeoHookean.kind,
-    show_default=True,
-    help="Material of the body; stvk is the paper's.",
+    help=f"Material of the body; stvk is the paper's [default: {StableNeoHookean.kind}, or "
+    f"{ARAP.kind} with --shell].",
 )
 @click.option("--lam", type=float, default=1.0, show_default=True, help="First Lame parameter.")
 @click.option("--mu", type=float, default=1.0, show_default=True, help="Second Lame parameter.")
@@ -111,7 +110,7 @@ SAMPLES, DIMENSION = 40, 30
     type=TET_COUNT,
     metavar="N",
     help="Number of tets of the reduced energy, a sum over a few tets [default: 15 per mode, at "
-    "most 1000].",
+    "most 1000; of arap with --shell 8 vertices per mode].",
 )
 @budget_option
 @choice_options(samples=SAMPLES, dimension=DIMENSION, sampling=None, samplings=WEIGHT_SAMPLINGS)
@@ -130,7 +129,7 @@ def interpolate(
     accept_inverted: bool,
     save_poses: Path | None,
     extrapolation: float,
-    kind: str,
+    kind: str | None,
     lam: float,
     mu: float,
     target_error: float,
@@ -166,6 +165,8 @@ def interpolate(
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     if tets is not None and edge_length is not None:
         raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
+    usual = StableNeoHookean if thickness is None else ARAP
+    kind = usual.kind if kind is None else kind
     if thickness is not None:
         check_shell_options(kind)
     material = material_class(kind).from_lame(lam=lam, mu=mu)

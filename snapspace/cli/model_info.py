@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..material import ARAP
+from ..cubature import has_stars
 from ..mesh import ShellMesh
 from ..model_file import load
 from ..reduction import (
@@ -66,7 +66,7 @@ def energy_text(model: ReducedModel) -> str:
     if model.cubature is not None:
         what = "tets"
         if isinstance(model.problem.mesh, ShellMesh):
-            stars = isinstance(model.problem.material, ARAP)
+            stars = has_stars(model.problem)
             what = "vertices with their triangles" if stars else "triangles and hinges"
         return f"cubature of {len(model.cubature.tets)} {what}"
     if isinstance(model, InterpolationModel):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..energy import MEMBRANES
+from ..energy import SHELLS
 from ..mesh import EmbeddedSurface, open_surface
 from ..mesh.correspondence import check_same_faces
 from ..mesh.shell_of_file import welded, welded_surface
@@ -37,9 +37,10 @@ def check_shell_options(material: str) -> None:
                 f"{name} is for poses that are tets or filled with tets, but --shell takes "
                 "surfaces as they are; leave one of them out"
             )
-    if material not in {membrane.kind for membrane in MEMBRANES}:
-        known = " or ".join(membrane.kind for membrane in MEMBRANES)
-        raise ValueError(f"--material {material} has no form for shells; take {known}")
+    known = [shell.kind for shell in SHELLS]
+    if material not in known:
+        names = f"{', '.join(known[:-1])} or {known[-1]}"
+        raise ValueError(f"--material {material} has no form for shells; take {names}")
 
 
 def read_shell_poses(

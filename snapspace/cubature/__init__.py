@@ -1,8 +1,10 @@
 """Cubature: elastic energies in reduced coordinates, summed over a few tets."""
 
 from .blended_cubature import BlendedCubature, WeightedCubature
+from .blended_stars import BlendedStars, WeightedStars
+from .blended_sum import BlendedSum, blended_sum
 from .cubature import Cubature
-from .elements import element_count, has_hinges
+from .elements import element_count, has_hinges, has_stars
 from .fit_tets import FEWEST_SNAPSHOTS
 from .held_out_errors import CubatureErrors
 from .train import (
@@ -17,13 +19,18 @@ __all__ = [
     "FEWEST_BLENDS",
     "FEWEST_SNAPSHOTS",
     "BlendedCubature",
+    "BlendedStars",
+    "BlendedSum",
     "Cubature",
     "CubatureErrors",
     "WeightedCubature",
+    "WeightedStars",
+    "blended_sum",
     "default_blended_tets",
     "default_tets",
     "element_count",
     "has_hinges",
+    "has_stars",
     "train_blended_cubature",
     "train_cubature",
 ]

@@ -15,11 +15,14 @@ def check_chosen(
     tets: NDArray[np.int32],
     weights: FloatArray,
     rows: NDArray[np.float32],
-    material: Material | ShellMaterial,
+    material: Material | ShellMaterial | None,
     *,
     who: str,
 ) -> None:
-    """Raises ValueError unless sizes match and all weights are positive and finite."""
+    """Raises ValueError unless sizes match and all weights are positive and finite.
+
+    A material of None is not checked.
+    """
     r = len(tets)
     if r == 0 or weights.shape != (r,) or rows.ndim != 3 or rows.shape[:2] != (r, 9):
         raise ValueError(
@@ -32,7 +35,8 @@ def check_chosen(
             f"{who}: the weight of tet {tets[bad[0]]} is {weights[bad[0]]}, but weights "
             "must be positive"
         )
-    material.check_tets(r, who)
+    if material is not None:
+        material.check_tets(r, who)
 
 
 def check_in_mesh(tets: NDArray[np.int32], count: int, *, who: str) -> None:

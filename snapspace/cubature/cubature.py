@@ -13,7 +13,7 @@ from ..material import Material
 from ..problem import PosingProblem
 from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
-from .elements import elements_of
+from .elements import posed_elements_of
 from .summed_curvatures import summed_curvatures
 
 FloatArray = NDArray[np.float64]
@@ -80,7 +80,7 @@ class Cubature:
         ValueError
             As for the constructor, or for a tet that the mesh does not have.
         """
-        elements = elements_of(problem)
+        elements = posed_elements_of(problem)
         check_in_mesh(tets, len(elements.measures), who="Cubature")
         rows = elements.gradients(subspace.basis, tets)
         remainder = elements.remainder(subspace.basis)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
 from .blended_cubature import BlendedCubature
+from .blended_sum import BlendedSum
 from .cubature import Cubature
 
 FloatArray = NDArray[np.float64]
@@ -201,8 +202,11 @@ class BlendingStates:
 
     def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
         """See `ElasticStates`."""
-        estimate = BlendedCubature.of_tets(self.problem, self.subspace, tets, volumes)
+        return self._hessians_of(
+            BlendedCubature.of_tets(self.problem, self.subspace, tets, volumes)
+        )
 
+    def _hessians_of(self, estimate: BlendedSum) -> Callable[[int | None], FloatArray]:
         def hessian(state: int | None) -> FloatArray:
             if state is None:
                 return estimate.rough_hessian(

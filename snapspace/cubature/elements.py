@@ -8,11 +8,12 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..energy import ShellMaterial, VertexStars
+from ..energy import ShellMaterial, VertexStars, is_of_stars
 from ..material import Material
 from ..mesh import Body, ShellMesh
 from ..problem import InterpolationProblem, PosingProblem, Problem
 from .displacement_gradients import displacement_gradients
+from .star_poses import StarPoses
 
 FloatArray = NDArray[np.float64]
 
@@ -25,15 +26,22 @@ class Elements(Protocol):
         """Volume or area of each, (m,)."""
         ...
 
-    @property
-    def material(self) -> Material | ShellMaterial:
-        """The density of the elements."""
-        ...
-
     def gradients(
         self, basis: FloatArray, which: NDArray[np.int32], *, threads: int | None = None
     ) -> NDArray[np.float32]:
-        """The nine numbers of modes (3n, d) in some elements (r,), (r, 9, d)."""
+        """The nine numbers of modes (3n, d) in some elements (r,), (r, 9, d).
+
+        Stars of a blend have nine for each pose, (r, 9 poses, d).
+        """
+        ...
+
+
+class PosedElements(Elements, Protocol):
+    """The elements of a body with one rest shape."""
+
+    @property
+    def material(self) -> Material | ShellMaterial:
+        """The density of the elements."""
         ...
 
     def remainder(self, basis: FloatArray) -> FloatArray | None:
@@ -43,7 +51,7 @@ class Elements(Protocol):
 
 @dataclass(frozen=True)
 class MeshElements:
-    """The elements of a mesh; see `Elements`."""
+    """The elements of a mesh; see `PosedElements`."""
 
     mesh: Body
     material: Material | ShellMaterial
@@ -65,7 +73,7 @@ class MeshElements:
 
 @dataclass(frozen=True)
 class StarElements:
-    """The stars of a surface that is as rigid as possible; see `Elements`."""
+    """The stars of a surface that is as rigid as possible; see `PosedElements`."""
 
     stars: VertexStars
 
@@ -83,28 +91,58 @@ class StarElements:
         self, basis: FloatArray, which: NDArray[np.int32], *, threads: int | None = None
     ) -> NDArray[np.float32]:
         """See `Elements`."""
-        return self.stars.gradients(basis, which)
+        return self.stars.gradients(basis, which).astype(np.float32)
 
     def remainder(self, basis: FloatArray) -> FloatArray:
         """See `Elements`."""
         return self.stars.remainder(basis)
 
 
+@dataclass(frozen=True)
+class PoseStarElements:
+    """The stars of a blend; see `Elements`."""
+
+    poses: StarPoses
+
+    @property
+    def measures(self) -> FloatArray:
+        """See `Elements`."""
+        return self.poses.measures
+
+    def gradients(
+        self, basis: FloatArray, which: NDArray[np.int32], *, threads: int | None = None
+    ) -> NDArray[np.float32]:
+        """See `Elements`."""
+        rows = self.poses.rows(basis, which)
+        return rows.swapaxes(0, 1).reshape(len(which), -1, rows.shape[3])
+
+
 def elements_of(problem: PosingProblem | InterpolationProblem) -> Elements:
     """The elements whose sum is the energy of a problem, or of each of its poses."""
-    if isinstance(problem, PosingProblem) and problem.energy.stars is not None:
+    if isinstance(problem, PosingProblem):
+        return posed_elements_of(problem)
+    if has_stars(problem):
+        return PoseStarElements(StarPoses(problem))
+    return MeshElements(problem.mesh, problem.element_material)
+
+
+def posed_elements_of(problem: PosingProblem) -> PosedElements:
+    """The elements whose sum is the energy of a posing problem, with what they leave of it."""
+    if problem.energy.stars is not None:
         return StarElements(problem.energy.stars)
     return MeshElements(problem.mesh, problem.element_material)
 
 
 def element_count(problem: Problem) -> int:
     """How many elements a cubature may choose from."""
-    if isinstance(problem, PosingProblem) and problem.energy.stars is not None:
-        return len(problem.energy.stars)
-    return len(problem.mesh.elements)
+    return len(problem.mesh.vertices if has_stars(problem) else problem.mesh.elements)
+
+
+def has_stars(problem: Problem) -> bool:
+    """Whether the elements are the stars of vertices: of a surface that is as rigid as possible."""
+    return is_of_stars(problem.mesh, problem.material)
 
 
 def has_hinges(problem: Problem) -> bool:
     """Whether the elements are triangles and hinges."""
-    stars = isinstance(problem, PosingProblem) and problem.energy.stars is not None
-    return isinstance(problem.mesh, ShellMesh) and not stars
+    return isinstance(problem.mesh, ShellMesh) and not has_stars(problem)

@@ -23,7 +23,8 @@ class StateForces:
     energies : (s,), of all tets together
     units : (s,), energies that errors are relative to
     forces : (s, d), reduced gradients of the energies
-    stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets
+    stresses : (s, c, 9) float32, first Piola-Kirchhoff stress times volume of some tets; of blended
+        stars nine for each pose
     tet_energies : (s, c), energies of the same tets
     """
 
@@ -41,7 +42,7 @@ def state_forces(
     """Evaluates all states, and the tets (c,) alone; bitwise the same for any `threads`."""
     basis, count = states.subspace.basis, len(states)
     energies, forces = np.empty(count), np.empty((count, basis.shape[1]))
-    stresses = np.empty((count, len(tets), 9), np.float32)
+    stresses: list[NDArray[np.float32]] = [np.empty(0, np.float32)] * -(-count // core.lane_count)
     tet_energies = np.empty((count, len(tets)))
 
     def fill(first: int) -> None:
@@ -50,9 +51,11 @@ def state_forces(
         found = states.evaluated(first, displacements, tets)
         energies[some], forces[some] = found.energies, found.gradients @ basis
         if len(tets):
-            stresses[some], tet_energies[some] = found.stresses, found.tet_energies
+            stresses[first // core.lane_count] = found.stresses.astype(np.float32)
+            tet_energies[some] = found.tet_energies
 
     with ThreadPoolExecutor(max_workers=threads or os.cpu_count()) as pool:
         list(pool.map(fill, range(0, count, core.lane_count)))
     units = np.maximum(energies, states.floor)
-    return StateForces(energies, units, forces, stresses, tet_energies)
+    every = np.concatenate(stresses) if len(tets) else np.empty((count, 0, 9), np.float32)
+    return StateForces(energies, units, forces, every, tet_energies)

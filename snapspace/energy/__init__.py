@@ -1,23 +1,25 @@
 """Elastic energies."""
 
 from .elastic_energy import ElasticEnergy
+from .pose_energies import PoseEnergies
 from .shell_material import (
-    MEMBRANES,
+    SHELLS,
     Bending,
     ShellMaterial,
     element_material,
+    is_of_stars,
     rigidities,
-    shell_materials,
 )
 from .vertex_stars import VertexStars
 
 __all__ = [
-    "MEMBRANES",
+    "SHELLS",
     "Bending",
     "ElasticEnergy",
+    "PoseEnergies",
     "ShellMaterial",
     "VertexStars",
     "element_material",
+    "is_of_stars",
     "rigidities",
-    "shell_materials",
 ]

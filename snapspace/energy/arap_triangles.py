@@ -13,11 +13,13 @@ from ..mesh import ShellMesh
 KIND, NUMBERS = "shell-arap", 12
 
 
-def arap_triangles(mesh: ShellMesh, material: Material) -> NDArray[np.float64]:
-    """Rows (f, 12) of the density: moduli times the thickness, and tangent frames."""
+def arap_triangles(
+    mesh: ShellMesh, poses: NDArray[np.float64], material: Material
+) -> NDArray[np.float64]:
+    """Rows (k, f, 12) of the density in poses (k, n, 3): moduli times thickness, tangent frames."""
     moduli = np.zeros((len(mesh.triangles), 3))
     moduli[:, 0] = material.mu * mesh.thickness
     # the frames are those of all shells, and the rows of others are longer
     triangles = np.ascontiguousarray(mesh.elements[: len(mesh.triangles)])
-    rows = _core.shell_moduli(mesh.vertices[None], triangles, "shell-stvk", moduli)[0]
-    return np.ascontiguousarray(rows[:, :NUMBERS])
+    rows = _core.shell_moduli(np.ascontiguousarray(poses), triangles, "shell-stvk", moduli)
+    return np.ascontiguousarray(np.asarray(rows)[:, :, :NUMBERS])

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import bsr_array, csr_array
 
 from .. import _core
-from ..material import ARAP, Material, checked_material
-from ..mesh import Body, ShellMesh
-from .shell_material import Bending, element_material
+from ..material import Material, checked_material
+from ..mesh import Body
+from .shell_material import Bending, element_material, is_of_stars
 from .vertex_stars import VertexStars
 
 FloatArray = NDArray[np.float64]
@@ -82,7 +82,7 @@ class ElasticEnergy:
 
     @property
     def _has_stars(self) -> bool:
-        return isinstance(self.mesh, ShellMesh) and isinstance(self.material, ARAP)
+        return is_of_stars(self.mesh, self.material)
 
     def value(self, x: ArrayLike) -> float:
         """Energy at x."""

@@ -78,11 +78,6 @@ def element_material(
         raise ValueError(f"{who}: unknown bending '{bending}'; known are {', '.join(BENDINGS)}")
     if not isinstance(mesh, ShellMesh):
         return material
-    if isinstance(material, ARAP):
-        if bending != "angle":
-            raise ValueError(f"{who}: ARAP has no hinges, so bending cannot be '{bending}'")
-        return ShellMaterial(KIND, arap_triangles(mesh, material))
-    _check_membrane(material, SHELLS, "a shell", who)
     return shell_materials(mesh, mesh.vertices[None], material, bending=bending, who=who)[0]
 
 
@@ -96,15 +91,20 @@ def shell_materials(
 ) -> list[ShellMaterial]:
     """The materials of a shell's elements with each of several poses (k, n, 3) as the rest shape.
 
-    Moduli are those in the mesh itself. Bending vanishes where a triangle collapses, relative to
-    the mean areas of all poses, so that blends of energies collapse (core/energy/shell_poses.h).
+    Those of `ARAP` are the triangles alone. Moduli are those in the mesh itself. Bending vanishes
+    where a triangle collapses, relative to the mean areas of all poses, so that blends of energies
+    collapse (core/energy/shell_poses.h).
 
     Raises
     ------
     ValueError
-        For a material without a membrane.
+        For a material without a membrane, or a measure of bending for `ARAP`.
     """
-    _check_membrane(material, MEMBRANES, "a shell" if len(poses) == 1 else "a blended shell", who)
+    if isinstance(material, ARAP):
+        if bending != "angle":
+            raise ValueError(f"{who}: ARAP has no hinges, so bending cannot be '{bending}'")
+        return [ShellMaterial(KIND, rows) for rows in arap_triangles(mesh, poses, material)]
+    _check_membrane(material, who)
     count = len(mesh.triangles)
     moduli = np.zeros((len(mesh.elements), 3))
     moduli[:count, 0] = material.mu * mesh.thickness
@@ -117,14 +117,17 @@ def shell_materials(
     return [ShellMaterial(kind, row) for row in rows]
 
 
-def _check_membrane(
-    material: Material, known: tuple[type[Material], ...], what: str, who: str
-) -> None:
-    if isinstance(material, known):
+def is_of_stars(mesh: Body, material: Material) -> bool:
+    """Whether the elements are the stars of vertices: of a surface that is as rigid as possible."""
+    return isinstance(mesh, ShellMesh) and isinstance(material, ARAP)
+
+
+def _check_membrane(material: Material, who: str) -> None:
+    if isinstance(material, MEMBRANES):
         return
-    *names, last = (one.__name__ for one in known)
+    *names, last = (one.__name__ for one in SHELLS)
     raise ValueError(
-        f"{who}: {what} cannot be made of {material.title}, which has no such form; take "
+        f"{who}: a shell cannot be made of {material.title}, which has no such form; take "
         f"{', '.join(names)} or {last}"
     )
 

@@ -47,12 +47,12 @@ class VertexStars:
         return len(self.measures)
 
     @single_threaded_blas
-    def gradients(self, basis: FloatArray, stars: NDArray[np.integer[Any]]) -> NDArray[np.float32]:
-        """The nine numbers of modes (3n, d) in some stars (r,), (r, 9, d)."""
+    def gradients(self, basis: FloatArray, stars: NDArray[np.integer[Any]]) -> FloatArray:
+        """The nine numbers of displacements (3n, d) in some stars (r,), (r, 9, d)."""
         rows = self._gradients[(3 * stars[:, None] + np.arange(3)).reshape(-1)]
         parts = [np.asarray(rows @ basis[a::3]) for a in range(3)]  # (3 r, d) of each coordinate a
         both = np.stack(parts).reshape(3, len(stars), 3, -1).swapaxes(0, 1)
-        return np.ascontiguousarray(both.reshape(len(stars), 9, -1), np.float32)
+        return np.ascontiguousarray(both.reshape(len(stars), 9, -1))
 
     @single_threaded_blas
     def remainder(self, basis: FloatArray) -> FloatArray:

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from ..cubature import BlendedSum, blended_sum
 from ..problem import InterpolationProblem, Poses, ShellPoses
 from ..reduction import (
-    BlendedCubature,
     FullBlends,
     InterpolationModel,
     PoseQuartics,
@@ -117,21 +117,21 @@ def _poses(arrays: Arrays, content: dict[str, Any]) -> Poses | ShellPoses:
     )
 
 
-def _blend_arrays(blends: PoseQuartics | BlendedCubature | FullBlends) -> Arrays:
+def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
     if isinstance(blends, FullBlends):
         raise not_stored("save_model")
-    if isinstance(blends, BlendedCubature):
+    if isinstance(blends, BlendedSum):
         return {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
     return {"quartics": blends.coefficients}
 
 
 def _blends(
     arrays: Arrays, problem: InterpolationProblem, subspace: AffineSubspace
-) -> PoseQuartics | BlendedCubature:
+) -> PoseQuartics | BlendedSum:
     d = subspace.dimension
     if "quartics" in arrays:
         check_shapes(arrays, {"quartics": (len(problem.poses), coefficient_count(d))})
         return PoseQuartics(d, arrays["quartics"])
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
-    return BlendedCubature.of_tets(problem, subspace, tets, weights)
+    return blended_sum(problem, subspace, tets, weights)

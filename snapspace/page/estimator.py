@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..certificate import BlendingProbe, PosingProbe, ResidualProbe
+from ..cubature import has_stars
 from ..model_file.container import Arrays
 from ..reduction import InterpolationModel, PosingModel
 
@@ -17,14 +18,12 @@ def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     integers would hide small residuals.
     """
     estimator = model.error_estimator
-    if estimator is None:
+    if estimator is None or has_stars(model.problem):
         return {}
     subspace, sample = model.subspace, estimator.sample
     arrays: Arrays = {}
     probe: ResidualProbe
     if isinstance(model, PosingModel):
-        if model.problem.energy.stars is not None:
-            return {}
         probe = PosingProbe(model.problem, subspace, sample)
         arrays = {
             "estimator_pin_corners": probe.pinned,

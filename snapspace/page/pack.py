@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..cubature import BlendedStars, BlendedSum
 from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
 from ..reduction import (
-    BlendedCubature,
     Cubature,
     FullBlends,
     FullEnergy,
@@ -207,10 +207,18 @@ def _interpolation_arrays(model: InterpolationModel) -> Arrays:
     }
 
 
-def _blend_arrays(blends: PoseQuartics | BlendedCubature | FullBlends) -> Arrays:
+def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
     if isinstance(blends, FullBlends):
         raise not_stored("packed")
-    if isinstance(blends, BlendedCubature):
+    if isinstance(blends, BlendedStars):
+        return {
+            "stars_rows": blends.rows,
+            "stars_weights": blends.weights,
+            "stars_moduli": blends.material.moduli,
+            "stars_origins": blends.origins,
+            "stars_forms": blends.forms,
+        }
+    if isinstance(blends, BlendedSum):
         return {
             "cubature_rows": blends.rows,
             "cubature_weights": blends.weights,

@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.sparse import csr_array
 
 from .. import _core as core
-from ..energy import ShellMaterial, shell_materials
+from ..energy import PoseEnergies, ShellMaterial
 from ..interruptible import run_abandonable
-from ..material import Material, StableNeoHookean, checked_material
+from ..material import ARAP, Material, StableNeoHookean, checked_material
 from ..mesh import ShellMesh, TetMesh, mass_matrix, mass_of_cells, tet_volumes, triangle_areas
 from ..registration import registered
 from .certain_range import CertainRange, certain_range
@@ -41,9 +41,10 @@ class InterpolationProblem:
     ----------
     poses : Poses or ShellPoses, or a sequence of TetMesh or of ShellMesh
         Two or more; each may be in its own frame.
-    material : Material, default StableNeoHookean(lam=1, mu=1)
-        Any of `MATERIALS`; of shells StableNeoHookean or StVK. Moduli are numbers, or arrays with
-        one number per tet or triangle.
+    material : Material, default StableNeoHookean(lam=1, mu=1), of shells ARAP()
+        Any of `MATERIALS`; of shells ARAP, StableNeoHookean or StVK. Moduli are numbers, or arrays
+        with one number per tet or triangle. Blends of ARAP are unique where others crumple, see
+        docs/materials.md.
     extrapolation : float, default 0
         Samples also come from outside the simplex, which is enlarged by this share about its
         centre. F may have no minimum for negative weights; such samples are reported as not
@@ -71,7 +72,9 @@ class InterpolationProblem:
         mean_shape: ArrayLike | None = None,
     ) -> None:
         self.poses = as_poses(poses)
-        made_of = StableNeoHookean() if material is None else material
+        shell = isinstance(self.mesh, ShellMesh)
+        usual: Material = ARAP() if shell else StableNeoHookean()
+        made_of = usual if material is None else material
         self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
@@ -153,7 +156,14 @@ class InterpolationProblem:
     @cached_property
     def element_material(self) -> Material | ShellMaterial:
         """The material of the elements of the first pose."""
-        return self._pose_materials(self.poses.shapes)[0]
+        return PoseEnergies(self.mesh, self.poses.shapes, self.material).materials[0]
+
+    @cached_property
+    def pose_energies(self) -> PoseEnergies:
+        """The energies E_k of the poses registered to the mean shape."""
+        return PoseEnergies(
+            self.mesh, self.pose_shapes.reshape(self.poses.shapes.shape), self.material
+        )
 
     @cached_property
     def fingerprint(self) -> str:
@@ -223,8 +233,7 @@ class InterpolationProblem:
 
     def pose_energy(self, pose: int) -> core.ElasticEnergy:
         """E_k of a pose registered to the mean shape; it takes displacements from there."""
-        rest = self.pose_shapes[pose].reshape(-1, 3)
-        return core.ElasticEnergy(rest, self.mesh.elements, self._mean_materials[pose].core)
+        return self.pose_energies.energy(pose)
 
     def linear_blend(self, weights: ArrayLike, *, extrapolate: bool = False) -> FloatArray:
         """Vertices (n, 3) of sum_k w_k pose_k, the linear blend of the registered poses."""
@@ -241,24 +250,14 @@ class InterpolationProblem:
     def _rest_system(self) -> core.InterpolationSystem:
         # energies do not depend on the poses' frames, but differences lose digits in distant ones
         shapes = self._near_poses.reshape(self.poses.shapes.shape)
-        elements, material = self.mesh.elements, self.element_material
-        return run_abandonable(lambda: core.InterpolationSystem(shapes, elements, material.core))
+        corners = PoseEnergies(self.mesh, shapes, self.material).corners
+        material = self.element_material
+        return run_abandonable(lambda: core.InterpolationSystem(shapes, corners, material.core))
 
     def _system_near(self, displacement: FloatArray) -> core.InterpolationSystem:
         """The system with a factor for solutions near a displacement (3n,)."""
         rest, shapes = self._rest_system, np.ascontiguousarray(displacement)[None, :]
         return run_abandonable(lambda: rest.adapted(shapes, self.domain.center[None]))
-
-    def _pose_materials(self, shapes: FloatArray) -> Sequence[Material | ShellMaterial]:
-        """The material of the elements with each of the shapes (k, n, 3) of the poses at rest."""
-        if not isinstance(self.mesh, ShellMesh):
-            return [self.material] * len(shapes)
-        return shell_materials(self.mesh, shapes, self.material, who="InterpolationProblem")
-
-    @cached_property
-    def _mean_materials(self) -> Sequence[Material | ShellMaterial]:
-        """Those of the poses registered to the mean shape."""
-        return self._pose_materials(self.pose_shapes.reshape(self.poses.shapes.shape))
 
     @cached_property
     def _mean_mass(self) -> csr_array:

@@ -8,6 +8,7 @@ from ..cubature import (
     default_tets,
     element_count,
     has_hinges,
+    has_stars,
 )
 from .energy_choice import (
     ENERGIES,
@@ -58,6 +59,7 @@ __all__ = [
     "fewest_snapshots",
     "handle_quadric",
     "has_hinges",
+    "has_stars",
     "not_stored",
     "pose_quartics",
     "reduce",

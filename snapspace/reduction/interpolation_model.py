@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cubature import BlendedCubature, WeightedCubature
+from ..cubature import BlendedCubature, BlendedSum, WeightedCubature, WeightedStars
 from ..mesh import ShellMesh
 from ..problem import CertainRange, InterpolationProblem, certain_range
 from .full_energy import FullBlends, FullEnergy
@@ -27,7 +27,8 @@ class InterpolationModel(ReducedModel):
     """An interpolation problem restricted to a subspace attached to the mean shape.
 
     Fields as for `ReducedModel`, and
-    blends : PoseQuartics, exact, BlendedCubature, a sum over few tets, or FullBlends, over all
+    blends : PoseQuartics, exact, BlendedCubature or BlendedStars, sums over few elements, or
+        FullBlends, over all
 
     The subspace is M-orthogonal to the translations and infinitesimal rotations of the mean shape,
     because all its snapshots were registered there: the reduced problem has no rigid null
@@ -35,12 +36,12 @@ class InterpolationModel(ReducedModel):
     """
 
     problem: InterpolationProblem
-    blends: PoseQuartics | BlendedCubature | FullBlends
+    blends: PoseQuartics | BlendedSum | FullBlends
 
     @property
-    def cubature(self) -> BlendedCubature | None:
+    def cubature(self) -> BlendedSum | None:
         """The reduced elastic energy where it is a sum over few tets; None where it is exact."""
-        return self.blends if isinstance(self.blends, BlendedCubature) else None
+        return self.blends if isinstance(self.blends, BlendedSum) else None
 
     @cached_property
     def certain_range(self) -> CertainRange | None:
@@ -49,11 +50,15 @@ class InterpolationModel(ReducedModel):
         Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
         full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
         """
-        if self.cubature is None or isinstance(self.problem.mesh, ShellMesh):
+        if not isinstance(self.cubature, BlendedCubature) or isinstance(
+            self.problem.mesh, ShellMesh
+        ):
             return None
         return certain_range(self.problem.material, self.cubature.corners[:-1])
 
-    def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
+    def elastic(
+        self, weights: ArrayLike
+    ) -> Quartic | WeightedCubature | WeightedStars | FullEnergy:
         """The reduced energy for weights (poses,)."""
         return self.blends.at(weights)
 

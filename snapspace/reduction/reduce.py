@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, overload
 
-from ..cubature import BlendedCubature, Cubature, train_blended_cubature, train_cubature
+from ..cubature import BlendedSum, Cubature, train_blended_cubature, train_cubature
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem, is_quartic
 from ..snapshots import Snapshots
@@ -96,7 +96,7 @@ def reduce(
     tets : int, optional
         The most tets that a cubature may choose, r. Default: 8 d for posing, 15 d for blending, but
         at most 1000, or all tets if there are fewer. Of a shell they are triangles and hinges, by
-        default 12 d, but at most 1500.
+        default 12 d, but at most 1500; or the stars of vertices, 8 d.
     seed : int, default 0
         Seeds the random combinations of forces that a cubature is trained on.
     surface : EmbeddedSurface, optional
@@ -142,7 +142,7 @@ def reduce(
     parameters, coordinates = training(problem, subspace, snapshots)
     record = dict(provenance or {})
     if isinstance(problem, InterpolationProblem):
-        blends: PoseQuartics | BlendedCubature | FullBlends
+        blends: PoseQuartics | BlendedSum | FullBlends
         if kind == "exact":
             blends = pose_quartics(problem, subspace, threads=threads)
         elif kind == "full":

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..certificate import ErrorEstimator
-from ..cubature import BlendedCubature, Cubature
+from ..cubature import BlendedSum, Cubature
 from ..energy import rigidities
 from ..mesh import EmbeddedSurface, MirrorPlane, ShellMesh
 from ..problem import Problem
@@ -95,7 +95,7 @@ class ReducedModel(ABC):
 
     @property
     @abstractmethod
-    def cubature(self) -> Cubature | BlendedCubature | None:
+    def cubature(self) -> Cubature | BlendedSum | None:
         """The reduced elastic energy where it is a sum over few tets; None where it is exact."""
 
     @abstractmethod

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
-from ..certificate import BlendingProbe, ResidualSample
+from ..certificate import BlendingProbe, BlendingStarProbe, ResidualSample, blending_probe
+from ..cubature import BlendedStars
 from ..reduction import FullBlends, InterpolationModel, PoseQuartics
 from ..timeline import Timeline
 from .display_shapes import Vertices
@@ -224,8 +225,8 @@ class BlendingSession(Session[InterpolationModel]):
     def _placed(self, vertices: Vertices) -> Vertices:
         return vertices
 
-    def _make_probe(self, sample: ResidualSample) -> BlendingProbe:
-        return BlendingProbe(self.model.problem, self.model.subspace, sample)
+    def _make_probe(self, sample: ResidualSample) -> BlendingProbe | BlendingStarProbe:
+        return blending_probe(self.model.problem, self.model.subspace, sample)
 
     def _aim(self, target: ArrayLike | None) -> Callable[[], None]:
         before = self._weights
@@ -244,6 +245,8 @@ class BlendingSession(Session[InterpolationModel]):
             return core.BlendingLoop(blends.dimension, blends.coefficients, single=single)
         if single:
             raise ValueError(SINGLE_CUBATURE)
+        if isinstance(blends, BlendedStars):
+            return core.BlendedStarsLoop(*blends.core_arguments)
         return core.BlendedCubatureLoop(*blends.core_arguments)
 
 

@@ -13,6 +13,7 @@ from ..reduction import (
     default_tets,
     element_count,
     has_hinges,
+    has_stars,
     training_tolerance,
 )
 from ..sampling import Method
@@ -94,7 +95,7 @@ def next_option(model: ReducedModel, split: ErrorSplit) -> NextOption:
     if isinstance(problem, InterpolationProblem):
         # for two poses `blends` would only add the middle
         method = "blends" if problem.parameter_count > 2 else "sobol"
-        usual = default_blended_tets(model.dimension)
+        usual = default_blended_tets(model.dimension, stars=has_stars(model.problem))
     available = element_count(problem)
     if part == "cubature" and tets is not None and tets < available:
         wanted = min(max(ceil(MORE * tets), usual), available)

@@ -1,0 +1,188 @@
+"""The blended energy of a surface that is as rigid as possible, summed over a few stars."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .. import _core as core
+from ..energy import ShellMaterial
+from ..problem import InterpolationProblem
+from ..subspace import AffineSubspace
+from .chosen_tets import check_chosen, check_in_mesh
+from .star_poses import StarPoses
+from .summed_curvatures import summed_curvatures
+
+FloatArray = NDArray[np.float64]
+
+
+class BlendedStars:
+    """sum_k w_k E_k(tau + U q) of `ARAP` as a sum over the same few stars in all poses.
+
+    What stars leave of the energy is a quadratic form, and exact; see `VertexStars`. The rotations
+    of a star differ from pose to pose, so an evaluation costs 18 r d multiply-adds for r stars and
+    each pose whose weight is not zero.
+
+    Parameters
+    ----------
+    tets : (r,) int32
+        Which vertices of the mesh, ascending.
+    weights : (r,) float64
+        The area in the first pose that each star stands for, > 0.
+    rows : (poses, r, 9, d) float32
+        The nine numbers of the modes in each pose.
+    material : ShellMaterial
+        The densities of the stars per area of the first pose, poses * r rows.
+    origins : (poses, r, 9) float64
+        The nine numbers of the mean shape, displaced from each pose.
+    forms : (poses, d + 1, d + 1) float64
+        What the stars leave of each energy: (q, 1)^T M (q, 1) with a symmetric matrix M.
+
+    Raises
+    ------
+    ValueError
+        If sizes do not match, or a weight is not positive and finite.
+    """
+
+    def __init__(
+        self,
+        tets: NDArray[np.int32],
+        weights: FloatArray,
+        rows: NDArray[np.float32],
+        material: ShellMaterial,
+        origins: FloatArray,
+        forms: FloatArray,
+    ) -> None:
+        if rows.ndim != 4 or not len(rows):
+            raise ValueError(f"BlendedStars: rows must be (poses, r, 9, d), got {rows.shape}")
+        poses, r, _, d = rows.shape
+        check_chosen(tets, weights, rows[0], None, who="BlendedStars")
+        material.check_tets(poses * r, "BlendedStars")
+        for name, array, shape in (
+            ("origins", origins, (poses, r, 9)),
+            ("forms", forms, (poses, d + 1, d + 1)),
+        ):
+            if array.shape != shape:
+                raise ValueError(f"BlendedStars: {name} must be {shape}, got {array.shape}")
+        self.tets = tets
+        self.weights = weights
+        self.rows = np.ascontiguousarray(rows, np.float32)
+        self.material = material
+        self.origins = np.ascontiguousarray(origins)
+        self.forms = np.ascontiguousarray(forms)
+        self._core = core.BlendedStars(*self.core_arguments)
+
+    @classmethod
+    def of_tets(
+        cls,
+        problem: InterpolationProblem,
+        subspace: AffineSubspace,
+        tets: NDArray[np.int32],
+        weights: FloatArray,
+    ) -> BlendedStars:
+        """Makes the cubature of the stars of some vertices, for a subspace at the mean shape.
+
+        With all stars, weighted by their areas in the first pose, it is the exact energy.
+
+        Raises
+        ------
+        ValueError
+            As for the constructor, or for a vertex that the mesh does not have.
+        """
+        poses = StarPoses(problem)
+        check_in_mesh(tets, len(poses.measures), who="BlendedStars")
+        return cls(
+            tets,
+            weights,
+            poses.rows(subspace.basis, tets),
+            poses.material_of(tets),
+            poses.origins(subspace.tau, tets),
+            poses.forms(subspace),
+        )
+
+    def __reduce__(self) -> tuple[type[BlendedStars], tuple[Any, ...]]:
+        """Pickles the arguments; unpickling makes the compiled part again."""
+        arguments = self.tets, self.weights, self.rows, self.material, self.origins, self.forms
+        return type(self), arguments
+
+    @property
+    def core_arguments(
+        self,
+    ) -> tuple[NDArray[np.float32], FloatArray, core.Material, FloatArray, FloatArray]:
+        """Arguments of the compiled part: rows (poses * r, 9, d), weights, material, the others."""
+        flat = self.rows.reshape(-1, 9, self.dimension)
+        return flat, self.weights, self.material.core, self.origins, self.forms
+
+    @property
+    def dimension(self) -> int:
+        """d."""
+        return int(self.rows.shape[3])
+
+    @property
+    def poses(self) -> int:
+        """Number of weights."""
+        return len(self.rows)
+
+    def at(self, weights: ArrayLike) -> WeightedStars:
+        """The blended energy for weights (poses,)."""
+        return WeightedStars(self, np.asarray(weights, np.float64))
+
+    def value_and_gradient(self, q: ArrayLike, weights: FloatArray) -> tuple[float, FloatArray]:
+        """Energy at q (d,) for weights (poses,), and its gradient (d,)."""
+        self._core.set_weights(weights)
+        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
+        return value, gradient
+
+    def hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
+        """Hessian at q, (d, d)."""
+        self._core.set_weights(weights)
+        hessian: FloatArray = self._core.derivatives(np.asarray(q, np.float64))[2]
+        return hessian
+
+    def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
+        """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
+        self._core.set_weights(weights)
+        curvatures = self._core.curvatures(np.asarray(q, np.float64))
+        d = self.dimension
+        form: FloatArray = np.einsum("k,kij->ij", weights, self.forms[:, :d, :d])
+        return summed_curvatures(self.core_arguments[0], curvatures) + 2.0 * form
+
+    def leading(self, dimension: int) -> BlendedStars:
+        """The cubature of the same stars for the first `dimension` coordinates."""
+        kept = [*range(dimension), self.dimension]
+        return BlendedStars(
+            self.tets,
+            self.weights,
+            self.rows[..., :dimension],
+            self.material,
+            self.origins,
+            self.forms[:, kept][:, :, kept],
+        )
+
+    def without_form(self) -> BlendedStars:
+        """The sum over stars alone."""
+        forms = np.zeros_like(self.forms)
+        return BlendedStars(self.tets, self.weights, self.rows, self.material, self.origins, forms)
+
+
+@dataclass(frozen=True)
+class WeightedStars:
+    """Blended stars for some weights (poses,), as a function of q alone."""
+
+    stars: BlendedStars
+    weights: FloatArray
+
+    def value(self, q: ArrayLike) -> float:
+        """Energy at q (d,)."""
+        return self.value_and_gradient(q)[0]
+
+    def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
+        """Energy at q and its gradient (d,)."""
+        return self.stars.value_and_gradient(q, self.weights)
+
+    def hessian(self, q: ArrayLike) -> FloatArray:
+        """Hessian at q, (d, d)."""
+        return self.stars.hessian(q, self.weights)

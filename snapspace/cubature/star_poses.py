@@ -1,0 +1,61 @@
+"""StarPoses: the stars of a surface's vertices in all poses of a blend."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..energy import ShellMaterial, VertexStars
+from ..problem import InterpolationProblem
+from ..subspace import AffineSubspace
+
+FloatArray = NDArray[np.float64]
+
+
+class StarPoses:
+    """The stars of a blend of `ARAP`. Every pose has its own, at the same vertices.
+
+    Parameters
+    ----------
+    problem : InterpolationProblem
+        Of `ShellPoses` and `ARAP`.
+    """
+
+    def __init__(self, problem: InterpolationProblem) -> None:
+        stars = problem.pose_energies.stars
+        assert stars is not None
+        self.stars: list[VertexStars] = stars
+        self._shapes = problem.pose_shapes
+
+    @property
+    def measures(self) -> FloatArray:
+        """A third of the area around each vertex in the first pose, (n,)."""
+        return self.stars[0].measures
+
+    def rows(self, basis: FloatArray, which: NDArray[np.int32]) -> NDArray[np.float32]:
+        """The nine numbers of modes (3n, d) in some stars (r,), (poses, r, 9, d)."""
+        return np.stack([one.gradients(basis, which).astype(np.float32) for one in self.stars])
+
+    def material_of(self, which: NDArray[np.int32]) -> ShellMaterial:
+        """Densities per area of the first pose of some stars (r,), poses * r rows."""
+        rows = [one.material.moduli[which].copy() for one in self.stars]
+        for one, moduli in zip(self.stars, rows, strict=True):
+            moduli[:, 0] *= one.measures[which] / self.measures[which]
+        return ShellMaterial(self.stars[0].material.kind, np.concatenate(rows))
+
+    def origins(self, shape: FloatArray, which: NDArray[np.int32]) -> FloatArray:
+        """The nine numbers of a shape (3n,), displaced from each pose, (poses, r, 9)."""
+        parts = [
+            one.gradients((shape - pose)[:, None], which)[..., 0]
+            for one, pose in zip(self.stars, self._shapes, strict=True)
+        ]
+        return np.stack(parts)
+
+    def forms(self, subspace: AffineSubspace) -> FloatArray:
+        """The quadratic part of each energy: (q, 1)^T M (q, 1), (poses, d + 1, d + 1)."""
+        return np.stack(
+            [
+                one.remainder(np.column_stack([subspace.basis, subspace.tau - pose]))
+                for one, pose in zip(self.stars, self._shapes, strict=True)
+            ]
+        )

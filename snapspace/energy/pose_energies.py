@@ -1,0 +1,72 @@
+"""PoseEnergies: the energies of several poses of one body, each with a pose as its rest shape."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .. import _core
+from ..material import Material
+from ..mesh import Body, ShellMesh
+from .shell_material import ShellMaterial, is_of_stars, shell_materials
+from .vertex_stars import VertexStars
+
+FloatArray = NDArray[np.float64]
+
+
+class PoseEnergies:
+    """The energies E_k of a blend; each takes displacements from its pose.
+
+    Parameters
+    ----------
+    mesh : TetMesh or ShellMesh
+        The first pose.
+    shapes : (k, n, 3)
+        All poses, in any frames.
+    material : Material
+        Of tets, or of triangles.
+
+    Raises
+    ------
+    ValueError
+        For a shell of a material that has no such form.
+    """
+
+    def __init__(self, mesh: Body, shapes: FloatArray, material: Material) -> None:
+        self._mesh, self._shapes, self._material = mesh, np.ascontiguousarray(shapes), material
+        self._compiled: dict[int, _core.ElasticEnergy] = {}
+
+    def __len__(self) -> int:
+        return len(self._shapes)
+
+    @property
+    def corners(self) -> NDArray[np.int32]:
+        """Corners of the elements that the core sums: all, or the triangles of stars, (m, 4)."""
+        if not is_of_stars(self._mesh, self._material):
+            return self._mesh.elements
+        return np.ascontiguousarray(self._mesh.elements[: len(self._mesh.cells)])
+
+    @cached_property
+    def materials(self) -> Sequence[Material | ShellMaterial]:
+        """The material of these elements in each pose."""
+        if not isinstance(self._mesh, ShellMesh):
+            return [self._material] * len(self)
+        return shell_materials(self._mesh, self._shapes, self._material, who="InterpolationProblem")
+
+    @cached_property
+    def stars(self) -> list[VertexStars] | None:
+        """The stars of each pose, of a surface that is as rigid as possible; None for others."""
+        if not is_of_stars(self._mesh, self._material):
+            return None
+        return [VertexStars(self.energy(k)) for k in range(len(self))]
+
+    def energy(self, pose: int) -> _core.ElasticEnergy:
+        """E_k, compiled; it takes displacements (3n,) from the pose."""
+        if pose not in self._compiled:
+            self._compiled[pose] = _core.ElasticEnergy(
+                self._shapes[pose], self.corners, self.materials[pose].core
+            )
+        return self._compiled[pose]
