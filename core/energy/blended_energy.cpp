@@ -120,8 +120,12 @@ Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradi
   for (int k = 0; k < poses(); ++k) {
     for (int i = 0; i < size(); ++i) shape[i] = Pack(u[i]) + Pack(offsets_[k][i]);
     std::fill(forces.begin(), forces.end(), Pack(0.0));
-    const Sum<Pack> value =
-        energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
+    Sum<Pack> value;
+    if constexpr (std::is_same_v<typename ScalarOf<Pack>::type, float>)
+      value = energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
+    else
+      value = energies_[k].stars->add_value_and_gradient_by_rotations(begin, end, shape.data(),
+                                                                      forces.data());
     if constexpr (std::is_same_v<Real, double>) {
       energy += blend[k] * value[0];
       for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i][0];

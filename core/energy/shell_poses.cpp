@@ -31,7 +31,7 @@ std::vector<MaterialField> shell_pose_materials(const double* poses, int count, 
   for (int k = 0; k < count; ++k) {
     std::vector<double> rows(static_cast<std::size_t>(element_count) * width, 0.0);
     for (int e = 0; e < element_count; ++e) {
-      double row[kMaxModuli];  // the numbers of a rest triangle are more than ARAP needs
+      double row[kMaxModuli] = {};  // the numbers of a rest triangle are more than ARAP needs
       std::copy_n(material.of(e), moduli, row);
       set_rest_shape(material.kind, vertices_of(k), elements + 4 * static_cast<std::size_t>(e),
                      products[e], row);

@@ -77,6 +77,7 @@ VertexStars::VertexStars(const RestShape& rest, const TetMaterial& material)
   }
   find_corners(rest.vertex_count);
   stops = star_stops(first_corner, corners, rest.vertex_count);
+  find_couplings();
   gradients.resize(3 * corners.size());
   frames.resize(9 * weights.size());
   inverse_inertias_.resize(frames.size());
@@ -110,6 +111,27 @@ void VertexStars::find_corners(int vertex_count) {
     std::sort(ring, corners.end());
     corners.erase(std::unique(ring, corners.end()), corners.end());
     first_corner.push_back(static_cast<std::int32_t>(corners.size()));
+  }
+}
+
+void VertexStars::find_couplings() {
+  couplings_.assign(corners.size(), 0.0);
+  for (const Triangle<double>& triangle : double_.triangles) {
+    const double hats[3][2] = {
+        {-triangle.first[0], -triangle.first[1] - triangle.second},
+        {triangle.first[0], triangle.first[1]},
+        {0.0, triangle.second},
+    };
+    for (int j = 0; j < 3; ++j) {
+      const std::int32_t star = triangle.vertices[j];
+      const auto begin = corners.begin() + first_corner[star];
+      const auto end = corners.begin() + first_corner[star + 1];
+      for (int k = 0; k < 3; ++k) {
+        const auto place = j == k ? begin : std::lower_bound(begin + 1, end, triangle.vertices[k]);
+        couplings_[place - corners.begin()] +=
+            3.0 * triangle.weight * (hats[j][0] * hats[k][0] + hats[j][1] * hats[k][1]);
+      }
+    }
   }
 }
 

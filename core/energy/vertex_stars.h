@@ -51,6 +51,13 @@ class VertexStars {
   [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
                                                  Real* gradient) const;
 
+  /// The same, from a form that takes half as long and loses digits where displacements are large:
+  /// the Dirichlet energy of u, and what the rotations of the stars add to it. For double
+  /// precision.
+  template <class Real>
+  [[nodiscard]] Sum<Real> add_value_and_gradient_by_rotations(int begin, int end, const Real* u,
+                                                              Real* gradient) const;
+
   /// Adds the Hessian at rest times v to `product` (3n).
   template <class Real>
   void add_rest_product(const Real* v, Real* product) const;
@@ -80,6 +87,7 @@ class VertexStars {
   };
 
   void find_corners(int vertex_count);
+  void find_couplings();
   void make_star(int star);
   template <class T>
   [[nodiscard]] const Numbers<T>& numbers() const {
@@ -92,6 +100,8 @@ class VertexStars {
   Sum<Real> add_stars(int begin, int end, const Real* u, Real* gradient, const Turn& turn) const;
 
   std::vector<std::int32_t> first_triangle_, triangles_;  // around each vertex
+  std::vector<double>
+      couplings_;  // per corner: the Dirichlet energy is the sum of u_i . u_j times it
   Numbers<double> double_;
   Numbers<float> single_;
   // inverse of tr(M) I - M, nine per star: turns the torque of a small displacement into a rotation

@@ -165,8 +165,7 @@ def interpolate(
         raise ValueError(f"interpolate needs two poses or more, got {len(files)}")
     if tets is not None and edge_length is not None:
         raise ValueError("--edge-length is for filling the surface; leave it or --tets out")
-    usual = StableNeoHookean if thickness is None else ARAP
-    kind = usual.kind if kind is None else kind
+    kind = kind or (StableNeoHookean if thickness is None else ARAP).kind
     if thickness is not None:
         check_shell_options(kind)
     material = material_class(kind).from_lame(lam=lam, mu=mu)

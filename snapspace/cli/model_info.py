@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cubature import has_stars
 from ..mesh import ShellMesh
 from ..model_file import load
 from ..reduction import (
     InterpolationModel,
     PosingModel,
     ReducedModel,
+    has_stars,
 )
 from .accuracy_facts import accuracy_facts
 from .mesh_info import Info, mesh_facts, mesh_figures

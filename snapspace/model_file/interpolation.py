@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from ..cubature import BlendedSum, blended_sum
 from ..problem import InterpolationProblem, Poses, ShellPoses
 from ..reduction import (
+    BlendedSum,
     FullBlends,
     InterpolationModel,
     PoseQuartics,
+    blended_sum,
     coefficient_count,
     not_stored,
 )

@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..certificate import BlendingProbe, PosingProbe, ResidualProbe
-from ..cubature import has_stars
 from ..model_file.container import Arrays
-from ..reduction import InterpolationModel, PosingModel
+from ..reduction import InterpolationModel, PosingModel, has_stars
 
 
 def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:

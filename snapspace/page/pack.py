@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cubature import BlendedStars, BlendedSum
 from ..disk.safetensors_bytes import safetensors_bytes
 from ..mesh import EmbeddedSurface
 from ..model_file.appearance import appearance_arrays
 from ..model_file.container import Arrays
 from ..reduction import (
+    BlendedStars,
+    BlendedSum,
     Cubature,
     FullBlends,
     FullEnergy,

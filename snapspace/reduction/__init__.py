@@ -2,8 +2,11 @@
 
 from ..cubature import (
     BlendedCubature,
+    BlendedStars,
+    BlendedSum,
     Cubature,
     CubatureErrors,
+    blended_sum,
     default_blended_tets,
     default_tets,
     element_count,
@@ -38,6 +41,8 @@ __all__ = [
     "ENERGIES",
     "STORED_ENERGIES",
     "BlendedCubature",
+    "BlendedStars",
+    "BlendedSum",
     "Cubature",
     "CubatureErrors",
     "Energy",
@@ -50,6 +55,7 @@ __all__ = [
     "PosingModel",
     "Quartic",
     "ReducedModel",
+    "blended_sum",
     "chosen_energy",
     "coefficient_count",
     "default_blended_tets",

@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import _core as core
 from ..certificate import BlendingProbe, BlendingStarProbe, ResidualSample, blending_probe
-from ..cubature import BlendedStars
-from ..reduction import FullBlends, InterpolationModel, PoseQuartics
+from ..reduction import BlendedStars, FullBlends, InterpolationModel, PoseQuartics
 from ..timeline import Timeline
 from .display_shapes import Vertices
 from .frame_report import FrameReport

@@ -33,7 +33,8 @@ def test_open_surfaces_are_blended_and_written(run: Run, tmp_path: Path, poses: 
     model = load(path)
     assert isinstance(model, InterpolationModel) and isinstance(model.problem.poses, ShellPoses)
     assert model.problem.mesh.thickness == 0.1
-    assert "triangles and hinges" in run("info", path).err
+    assert model.problem.material.kind == "arap"
+    assert "vertices with their triangles" in run("info", path).err
     run("blend", path, "--weights", "0,1", "-o", blend)
     vertices, faces = read_surface(blend)
     np.testing.assert_array_equal(faces, SHEET.triangles)
@@ -67,7 +68,7 @@ def test_seams_of_texture_coordinates_are_no_cuts(run: Run, tmp_path: Path) -> N
     [
         (["--edge-length", 0.1], "--edge-length is for poses that are tets or filled with tets"),
         (["--accept-inverted"], "--accept-inverted is for poses that are tets"),
-        (["--material", "arap"], "--material arap has no form for shells"),
+        (["--material", "corotational"], "--material corotational has no form for shells"),
     ],
 )
 def test_options_of_tets_are_refused(

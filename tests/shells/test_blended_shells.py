@@ -102,7 +102,7 @@ def test_halfway_a_hinge_has_the_mean_of_its_angles() -> None:
     angles = (0.5, -1.1)
     triangles = np.array([[0, 1, 2], [1, 0, 3]])
     meshes = [ShellMesh(hinge_vertices(angle), triangles, thickness=0.1) for angle in angles]
-    one = InterpolationProblem(meshes)
+    one = InterpolationProblem(meshes, material=StableNeoHookean())
     halfway = one.mean_shape.reshape(-1, 3)
     normals = np.cross(
         halfway[triangles[:, 1]] - halfway[triangles[:, 0]],
@@ -117,7 +117,7 @@ def test_a_hinge_that_is_folded_in_one_pose_is_blended() -> None:
     """Its bending does not take the digits of the other poses, and is no stiffer than theirs."""
     triangles = np.array([[0, 1, 2], [1, 0, 3]])
     meshes = [ShellMesh(hinge_vertices(angle), triangles, thickness=0.1) for angle in (np.pi, 0.2)]
-    one = InterpolationProblem(meshes)
+    one = InterpolationProblem(meshes, material=StableNeoHookean())
     x = one.pose_shapes[1]
     value, gradient = one.value_and_gradient(x, np.array([0.0, 1.0]))
     assert abs(value) < 1e-15 and np.abs(gradient).max() < 1e-11
@@ -129,7 +129,8 @@ def model() -> InterpolationModel:
     flat = sheet(10, 6, thickness=0.1)
     shapes = [flat.vertices, rolled(flat.vertices, 1.0, 0.2), rolled(flat.vertices, -1.2, 1.2)]
     one = InterpolationProblem(
-        [ShellMesh(shape, flat.triangles, thickness=0.1) for shape in shapes]
+        [ShellMesh(shape, flat.triangles, thickness=0.1) for shape in shapes],
+        material=StableNeoHookean(),
     )
     weights = sample(one.domain, 24, seed=1)
     snapshots = solve_snapshots(one, weights, threads=1)
