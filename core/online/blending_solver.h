@@ -10,7 +10,7 @@ namespace snapspace::online {
 
 /// Minimises the reduced interpolation energy sum_k w_k E_k(q) frame by frame. Allocates no memory
 /// after construction.
-/// @tparam Elastic  BlendedQuartic or BlendedCubature
+/// @tparam Elastic  BlendedQuartic, BlendedCubature or BlendedStars
 template <class Elastic>
 class BlendingSolver final : public Objective {
  public:

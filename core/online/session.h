@@ -9,6 +9,7 @@
 #include "material/tet_material.h"
 #include "online/blended_cubature.h"
 #include "online/blended_quartic.h"
+#include "online/blended_stars.h"
 #include "online/blending_solver.h"
 #include "online/cubature.h"
 #include "online/inertial_minimizer.h"
@@ -17,17 +18,19 @@
 #include "online/residual_probe.h"
 #include "online/snapspace_online.h"
 
-/// One of the four solvers, with its coordinates and inputs.
+/// One of the five solvers, with its coordinates and inputs.
 struct snapspace_session {
   using Posing = snapspace::online::PosingSolver<snapspace::online::Quartic>;
   using PosingCubature = snapspace::online::PosingSolver<snapspace::online::Cubature>;
   using Blending = snapspace::online::BlendingSolver<snapspace::online::BlendedQuartic>;
   using BlendingCubature = snapspace::online::BlendingSolver<snapspace::online::BlendedCubature>;
+  using BlendingStars = snapspace::online::BlendingSolver<snapspace::online::BlendedStars>;
 
   std::unique_ptr<Posing> posing;
   std::unique_ptr<PosingCubature> cubature;
   std::unique_ptr<Blending> blending;
   std::unique_ptr<BlendingCubature> blending_cubature;
+  std::unique_ptr<BlendingStars> blending_stars;
   std::unique_ptr<snapspace::online::ResidualProbe> probe;
   std::unique_ptr<snapspace::online::InertialMinimizer> inertia;
   snapspace_basis basis;
@@ -51,6 +54,10 @@ struct snapspace_session {
     state.assign(solver->poses(), 1.0 / solver->poses());
     blending_cubature = std::move(solver);
   }
+  void take(std::unique_ptr<BlendingStars> solver) {
+    state.assign(solver->poses(), 1.0 / solver->poses());
+    blending_stars = std::move(solver);
+  }
 
   /// Returns act(solver) for the solver of this session.
   template <class Act>
@@ -58,10 +65,11 @@ struct snapspace_session {
     if (posing) return act(*posing);
     if (cubature) return act(*cubature);
     if (blending) return act(*blending);
-    return act(*blending_cubature);
+    if (blending_cubature) return act(*blending_cubature);
+    return act(*blending_stars);
   }
   /// Whether the session blends poses; otherwise it poses handles.
-  [[nodiscard]] bool blends() const { return blending || blending_cubature; }
+  [[nodiscard]] bool blends() const { return blending || blending_cubature || blending_stars; }
   [[nodiscard]] int dimension() const {
     return with_solver([](const auto& solver) { return solver.dimension(); });
   }

@@ -14,6 +14,7 @@ using snapspace::TetMaterial;
 using snapspace::online::all_finite;
 using snapspace::online::BlendedCubature;
 using snapspace::online::BlendedQuartic;
+using snapspace::online::BlendedStars;
 using snapspace::online::BlendingSolver;
 using snapspace::online::Cubature;
 using snapspace::online::InertialMinimizer;
@@ -27,6 +28,7 @@ using PosingSolver = snapspace::online::PosingSolver<Quartic>;
 using CubatureSolver = snapspace::online::PosingSolver<Cubature>;
 using BlendingQuarticSolver = BlendingSolver<BlendedQuartic>;
 using BlendingCubatureSolver = BlendingSolver<BlendedCubature>;
+using BlendingStarsSolver = BlendingSolver<BlendedStars>;
 
 namespace {
 
@@ -36,6 +38,11 @@ bool is_basis(const snapspace_basis* basis) {
 
 bool is_cubature(const snapspace_cubature* cubature) {
   return cubature && cubature->tets >= 1 && cubature->rows && cubature->weights;
+}
+
+bool are_stars(const snapspace_stars* stars) {
+  return stars && stars->poses >= 1 && stars->stars >= 1 && stars->rows && stars->weights &&
+         stars->origins && stars->forms;
 }
 
 snapspace_session* fail(int* error, int code) {
@@ -171,9 +178,23 @@ snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
   TetMaterial material;
   const int code = read_material(cubature->material, cubature->tets, material);
   if (code != SNAPSPACE_OK) return fail(error, code);
+  if (snapspace::is_of_stars(material.kind)) return fail(error, SNAPSPACE_BAD_ARGUMENT);
   BlendedCubature elastic(dimension, cubature->tets, cubature->rows, cubature->weights, material,
                           {poses, corners, tau});
   return begin(std::make_unique<BlendingCubatureSolver>(std::move(elastic)), *basis, error);
+}
+
+snapspace_session* snapspace_create_blending_stars(int dimension, const snapspace_stars* stars,
+                                                   const snapspace_basis* basis, int* error) {
+  if (dimension < 1 || !are_stars(stars) || !is_basis(basis))
+    return fail(error, SNAPSPACE_BAD_ARGUMENT);
+  TetMaterial material;
+  const int code = read_material(stars->material, stars->poses * stars->stars, material);
+  if (code != SNAPSPACE_OK) return fail(error, code);
+  if (!snapspace::is_of_stars(material.kind)) return fail(error, SNAPSPACE_BAD_ARGUMENT);
+  BlendedStars elastic(dimension, {stars->poses, stars->stars, stars->rows, stars->weights,
+                                   material, stars->origins, stars->forms});
+  return begin(std::make_unique<BlendingStarsSolver>(std::move(elastic)), *basis, error);
 }
 
 void snapspace_destroy(snapspace_session* session) { delete session; }
@@ -191,6 +212,7 @@ int snapspace_set_weights(snapspace_session* session, const double* weights) {
   if (!all_finite(weights, session->state.size())) return SNAPSPACE_NOT_FINITE;
   if (session->blending) session->blending->set_weights(weights);
   if (session->blending_cubature) session->blending_cubature->set_weights(weights);
+  if (session->blending_stars) session->blending_stars->set_weights(weights);
   std::copy_n(weights, session->state.size(), session->state.data());
   return SNAPSPACE_OK;
 }

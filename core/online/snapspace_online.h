@@ -70,7 +70,8 @@ snapspace_session* snapspace_create_posing(int dimension, int handles, const dou
 
 /* The material of tets. Moduli are energies per volume, and not negative. The elements of a shell,
  * triangles and hinges, count as tets; rows of their moduli are followed by numbers of the rest
- * shape, see core/material/shell.h. They cannot be blended. */
+ * shape, see core/material/shell.h, and core/material/shell_arap.h for the stars of a surface that
+ * is as rigid as possible. */
 typedef struct snapspace_material {
   const char* kind;     /* name of the density, such as "stable-neo-hookean" */
   int count;            /* rows of moduli: 1 if all tets share them, or one per tet */
@@ -124,14 +125,33 @@ snapspace_session* snapspace_create_posing_cubature(int dimension, int handles,
 snapspace_session* snapspace_create_blending(int dimension, int poses, const double* quartics,
                                              const snapspace_basis* basis, int* error);
 
-/* A blending session with a cubature instead of quartics; copies its arrays. rows and weights are
- * those of pose 0. corners (poses x tets x 4 x 3) are the cubature's tets in each pose, no tet
- * without volume, and tau (tets x 4 x 3) are its tets at the mean shape. If the sum of the density
- * over poses collapses, as for stable neo-Hookean, many poses are as fast as two. */
+/* A blending session with a cubature of tets, or of a shell's triangles and hinges, instead of
+ * quartics; copies its arrays. rows and weights are those of pose 0. corners (poses x tets x 4 x 3)
+ * are the cubature's tets in each pose, no tet without volume, and tau (tets x 4 x 3) are its tets
+ * at the mean shape. If the sum of the density over poses collapses, as for stable neo-Hookean,
+ * many poses are as fast as two. */
 snapspace_session* snapspace_create_blending_cubature(int dimension, int poses,
                                                       const snapspace_cubature* cubature,
                                                       const double* corners, const double* tau,
                                                       const snapspace_basis* basis, int* error);
+
+/* The blended energy of a surface that is as rigid as possible, as a weighted sum over the stars of
+ * few vertices, the same in all poses. In every pose a star has its own moduli and nine numbers:
+ * rows times coordinates, added to origins, those at the mean shape. forms are symmetric matrices M
+ * for what the stars leave of the energy of each pose, (q, 1)^T M (q, 1). */
+typedef struct snapspace_stars {
+  int poses;
+  int stars;
+  const float* rows;           /* poses x stars x 9 x dimension */
+  const double* weights;       /* stars, the areas in pose 0 that they represent */
+  snapspace_material material; /* "shell-arap", of poses x stars rows */
+  const double* origins;       /* poses x stars x 9 */
+  const double* forms;         /* poses x (dimension + 1) x (dimension + 1) */
+} snapspace_stars;
+
+/* A blending session of a surface that is as rigid as possible; copies its arrays. */
+snapspace_session* snapspace_create_blending_stars(int dimension, const snapspace_stars* stars,
+                                                   const snapspace_basis* basis, int* error);
 
 void snapspace_destroy(snapspace_session* session);
 

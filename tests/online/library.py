@@ -64,6 +64,8 @@ def compiled(folder: Path) -> ctypes.CDLL:
     library.snapspace_create_posing.restype = ctypes.c_void_p
     library.snapspace_create_posing_cubature.restype = ctypes.c_void_p
     library.snapspace_create_blending.restype = ctypes.c_void_p
+    library.snapspace_create_blending_cubature.restype = ctypes.c_void_p
+    library.snapspace_create_blending_stars.restype = ctypes.c_void_p
     library.snapspace_modulus_name.restype = ctypes.c_char_p
     return library
 
@@ -90,6 +92,18 @@ class Cubature(ctypes.Structure):
         ("rows", ctypes.c_void_p),
         ("weights", ctypes.c_void_p),
         ("material", Material),
+    )
+
+
+class Stars(ctypes.Structure):
+    _fields_ = (
+        ("poses", ctypes.c_int),
+        ("stars", ctypes.c_int),
+        ("rows", ctypes.c_void_p),
+        ("weights", ctypes.c_void_p),
+        ("material", Material),
+        ("origins", ctypes.c_void_p),
+        ("forms", ctypes.c_void_p),
     )
 
 

@@ -60,6 +60,7 @@ export interface CoreExports {
     basis: number,
     error: number,
   ): number;
+  snapspace_create_blending_stars(dimension: number, stars: number, basis: number, error: number): number;
   snapspace_destroy(session: number): void;
   snapspace_set_offsets(session: number, offsets: number): number;
   snapspace_set_weights(session: number, weights: number): number;
@@ -158,6 +159,21 @@ export const CUBATURE = {
     materialKind: ["int", 12],
     materialCount: ["int", 16],
     materialModuli: ["int", 20],
+  },
+} as const satisfies Layout;
+
+export const STARS = {
+  size: 36,
+  fields: {
+    poses: ["int", 0],
+    stars: ["int", 4],
+    rows: ["int", 8],
+    weights: ["int", 12],
+    materialKind: ["int", 16],
+    materialCount: ["int", 20],
+    materialModuli: ["int", 24],
+    origins: ["int", 28],
+    forms: ["int", 32],
   },
 } as const satisfies Layout;
 

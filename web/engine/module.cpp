@@ -5,6 +5,7 @@
 #include <new>
 
 #include "online/blended_cubature.cpp"
+#include "online/blended_stars.cpp"
 #include "online/cubature.cpp"
 #include "online/probe_entry.cpp"
 #include "online/quartic.cpp"
