@@ -60,9 +60,9 @@ export class Core {
     this.#dimension = model.dimension;
     this.#session = createSession(exports, model);
     this.valueScale = valueScaleOf(exports, model.valueScale);
-    // a Hessian of a cubature costs d / 4 times its gradient
+    // a Hessian of a cubature costs d / 4 times its gradient, and so does one of stars
     const energy = model.kind === "posing" ? model.elastic : model.blends;
-    this.#method = energy.kind === "cubature" ? METHOD.BFGS : METHOD.NEWTON;
+    this.#method = energy.kind === "cubature" || energy.kind === "stars" ? METHOD.BFGS : METHOD.NEWTON;
     const inputs = model.kind === "posing" ? 12 * model.handles.length : model.poses.length;
     this.#memory = new CoreMemory(exports);
     this.#numbers = this.#memory.take(8 * Math.max(inputs, model.dimension));

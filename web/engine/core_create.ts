@@ -1,8 +1,8 @@
-import { BASIS, CUBATURE, ERROR, MATERIAL, PROBE, type CoreExports } from "./core_exports.ts";
+import { BASIS, CUBATURE, ERROR, MATERIAL, PROBE, STARS, type CoreExports } from "./core_exports.ts";
 import { CoreMemory } from "./core_memory.ts";
 import { UnreadableModel } from "./errors.ts";
 import type { Estimator } from "./estimator.ts";
-import type { BlendingModel, Body, Cubature, Material, PosingModel } from "./model.ts";
+import type { BlendedStars, BlendingModel, Body, Cubature, Material, PosingModel } from "./model.ts";
 
 /** A session of the core, as a pointer. Throws UnreadableModel for a damaged model, or one of an unknown material. */
 export function createSession(exports: CoreExports, model: PosingModel | BlendingModel): number {
@@ -53,6 +53,10 @@ function createBlending(
     const quartics = new CoreMemory(exports).numbers(blends.coefficients); // read in place: stays
     return exports.snapspace_create_blending(dimension, poses.length, quartics, basis, error);
   }
+  if (blends.kind === "stars") {
+    const stars = starsOf(exports, memory, blends, poses.length);
+    return exports.snapspace_create_blending_stars(dimension, stars, basis, error);
+  }
   const cubature = cubatureOf(exports, memory, blends, dimension);
   const ofTau = 12 * blends.weights.length * poses.length;
   const [corners, tau] = [blends.corners.subarray(0, ofTau), blends.corners.subarray(ofTau)].map((array) =>
@@ -67,6 +71,18 @@ function createBlending(
     basis,
     error,
   );
+}
+
+function starsOf(exports: CoreExports, memory: CoreMemory, blends: BlendedStars, poses: number): number {
+  return memory.struct(STARS, {
+    poses,
+    stars: blends.weights.length,
+    rows: memory.numbers(blends.rows),
+    weights: memory.numbers(blends.weights),
+    ...materialOf(exports, memory, blends.material),
+    origins: memory.numbers(blends.origins),
+    forms: memory.numbers(blends.forms),
+  });
 }
 
 function cubatureOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature, dimension: number): number {

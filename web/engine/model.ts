@@ -100,6 +100,22 @@ export interface BlendedCubature extends Cubature {
   readonly corners: Float64Array<ArrayBuffer>;
 }
 
+/** The blended energy of a surface that is as rigid as possible: a sum over the same few stars of all poses, and a quadratic
+ * form. A star has its own rows, moduli and origin in every pose. */
+export interface BlendedStars {
+  readonly kind: "stars";
+  /** The nine numbers of the modes, poses x stars x 9 x dimension. */
+  readonly rows: Float32Array<ArrayBuffer>;
+  /** The area in the first pose that each star stands for. */
+  readonly weights: Float64Array<ArrayBuffer>;
+  /** Of all poses, pose by pose. */
+  readonly material: Material;
+  /** The nine numbers at the mean shape, poses x stars x 9. */
+  readonly origins: Float64Array<ArrayBuffer>;
+  /** What the stars leave of each pose's energy, poses x (dimension + 1) x (dimension + 1). */
+  readonly forms: Float64Array<ArrayBuffer>;
+}
+
 /** Positions of the tets' corners at rest, tets x 4 x 3, and the modes there, tets x 4 x 3 x dimension. */
 export interface CornerModes {
   readonly points: Float64Array<ArrayBuffer>;
@@ -120,7 +136,7 @@ export interface BlendingModel extends ModelBase {
   readonly poseSpace: ShapeSpace;
   /** The least weight that was sampled. */
   readonly lowestWeight: number;
-  readonly blends: PoseQuartics | BlendedCubature;
+  readonly blends: PoseQuartics | BlendedCubature | BlendedStars;
   /** Weights and coordinates of the samples that the model was trained with. */
   readonly sampleWeights: Float64Array<ArrayBuffer>;
   readonly sampleCoordinates: Float64Array<ArrayBuffer>;

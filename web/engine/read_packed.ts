@@ -6,11 +6,11 @@ import { exponentOf } from "./read_estimator.ts";
 import { readMaterial } from "./read_material.ts";
 import {
   coefficientCount,
-  type BlendedCubature,
+  type BlendedStars,
+  type BlendingModel,
   type Cubature,
   type Handle,
   type Model,
-  type PoseQuartics,
   type Quartic,
 } from "./model.ts";
 import { readMirror } from "./mirror.ts";
@@ -111,7 +111,8 @@ function readCubature(container: Container, { dimension, material }: Known): Cub
   };
 }
 
-function readBlends(container: Container, known: Known, poses: number): PoseQuartics | BlendedCubature {
+function readBlends(container: Container, known: Known, poses: number): BlendingModel["blends"] {
+  if (container.has("stars_rows")) return readStars(container, known, poses);
   if (!container.has("cubature_rows")) {
     const coefficients = container.doubles("quartics", poses, coefficientCount(known.dimension));
     return { kind: "quartics", coefficients };
@@ -119,6 +120,18 @@ function readBlends(container: Container, known: Known, poses: number): PoseQuar
   const cubature = readCubature(container, known);
   const corners = container.doubles("cubature_corners", poses + 1, cubature.weights.length, 12);
   return { ...cubature, corners };
+}
+
+function readStars(container: Container, { dimension, material }: Known, poses: number): BlendedStars {
+  const [stars] = container.shape("stars_weights", 1);
+  return {
+    kind: "stars",
+    rows: container.floats("stars_rows", poses, stars, 9, dimension),
+    weights: container.doubles("stars_weights", stars),
+    material: readMaterial(container, "stars_moduli", material, poses * stars),
+    origins: container.doubles("stars_origins", poses, stars, 9),
+    forms: container.doubles("stars_forms", poses, dimension + 1, dimension + 1),
+  };
 }
 
 function readEstimator(
