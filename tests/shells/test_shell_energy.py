@@ -18,6 +18,7 @@ from snapspace import (
     StVK,
     TetMesh,
 )
+from snapspace.energy.shell_material import element_material
 
 from ..shapes import irregular_bar
 from .sheets import bumpy, equilateral, hinge, hinge_vertices, irregular, rolled, sheet, sphere
@@ -266,6 +267,12 @@ def test_per_triangle_moduli_are_those_of_their_triangles() -> None:
     same = ElasticEnergy(mesh, StableNeoHookean(lam=np.full(count, LAM), mu=np.full(count, MU)))
     x = bumpy(mesh, 0.001)
     assert same.value(x) == even.value(x)
+
+
+def test_what_triangles_do_not_need_of_their_rows_is_zero() -> None:
+    mesh = irregular(20)
+    rows = element_material(mesh, StVK(), who="test").moduli
+    assert not rows[: len(mesh.triangles), 9:].any()
 
 
 def test_what_a_shell_cannot_be_is_refused() -> None:
