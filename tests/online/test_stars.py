@@ -98,10 +98,13 @@ def test_wrong_stars_are_refused(library: ctypes.CDLL, arrays: Arrays) -> None:
 
     negative, unknown = moduli.copy(), moduli.copy()
     negative[1, 0], unknown[1, 5] = -1.0, np.nan
-    for changes, code in (
+    cases: tuple[tuple[dict[str, Any], int], ...] = (
         ({"poses": 0}, BAD_ARGUMENT),
         ({"stars": 0}, BAD_ARGUMENT),
-        *(({name: None}, BAD_ARGUMENT) for name in ("rows", "weights", "origins", "forms")),
+        ({"rows": None}, BAD_ARGUMENT),
+        ({"weights": None}, BAD_ARGUMENT),
+        ({"origins": None}, BAD_ARGUMENT),
+        ({"forms": None}, BAD_ARGUMENT),
         ({"material": Material(None, 1, address(moduli))}, BAD_ARGUMENT),
         ({"material": Material(b"shell-arap", 1, None)}, BAD_ARGUMENT),
         (material(b"shell-arap", moduli[:STARS]), BAD_ARGUMENT),
@@ -109,7 +112,8 @@ def test_wrong_stars_are_refused(library: ctypes.CDLL, arrays: Arrays) -> None:
         (material(b"shell-arap", unknown), NOT_FINITE),
         (material(b"arap", np.ones((1, 1))), BAD_ARGUMENT),
         (material(b"mud", np.ones((1, 2))), UNKNOWN_MATERIAL),
-    ):
+    )
+    for changes, code in cases:
         assert created(library, stars_of(arrays, **changes)) == (None, code)
     assert created(library, None) == (None, BAD_ARGUMENT)
     assert created(library, stars_of(arrays), dimension=0) == (None, BAD_ARGUMENT)

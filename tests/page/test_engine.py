@@ -27,7 +27,7 @@ from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
 
-from ..shells.strips import shell_model
+from ..shells.strips import blended_strips, shell_model
 from .material_models import material_model
 from .tools import assert_node_tests_pass, tool
 
@@ -91,8 +91,9 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
                 "certain": session.certain,
             }
         )
-    diagonal = model.problem.mesh.diagonal
-    return {"frames": frames, "diagonal": diagonal, **certain_range(model)}
+    session.dimension = 7
+    leading, diagonal = session.solve().value, model.problem.mesh.diagonal
+    return {"frames": frames, "diagonal": diagonal, "leading": leading, **certain_range(model)}
 
 
 def certain_range(model: InterpolationModel) -> dict[str, Any]:
@@ -231,6 +232,7 @@ def expected(
         for name, varied in (("shell", False), ("varied_shell", True))
     }
     models |= materials | shells | {"surface-arap": shell_model(ARAP())}
+    models["blending-arap"] = blended_strips()
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -240,6 +242,7 @@ def expected(
         "cubature": posing_frames(models["cubature"]),
         "blending": blending_frames(models["blending"]),
         "blending-cubature": blending_frames(models["blending-cubature"]),
+        "blending-arap": blending_frames(models["blending-arap"]),
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
         "materials": [*materials, *shells],

@@ -1,4 +1,4 @@
-"""Posing problems of shells that several tests share."""
+"""Problems and models of shells that several tests share."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from snapspace import (
+    ARAP,
     HandleBox,
     Handles,
+    InterpolationModel,
+    InterpolationProblem,
     Material,
     PosingModel,
     PosingProblem,
@@ -53,6 +56,20 @@ def shell_model(material: Material | None = None, *, varied: bool = False) -> Po
     )
     snapshots = solve_snapshots(problem, sample(problem.domain, 40, seed=1), threads=1)
     return reduce(problem, snapshot_pca(snapshots, dimension=12), snapshots=snapshots)
+
+
+def blended_strips() -> InterpolationModel:
+    """A strip that is as rigid as possible: bent, straight and wide, in 10 dimensions."""
+    mesh = strip(12, 3)
+    along, across = _along(mesh), mesh.vertices[:, 1]
+    straight = np.stack([np.zeros_like(along), across, 2 * along], axis=1)
+    shapes = mesh.vertices, straight, mesh.vertices * [1.2, 1.5, 0.9]
+    problem = InterpolationProblem(
+        [ShellMesh(shape, mesh.triangles, thickness=mesh.thickness) for shape in shapes],
+        material=ARAP(),
+    )
+    snapshots = solve_snapshots(problem, sample(problem.domain, 24, seed=1), threads=1)
+    return reduce(problem, snapshot_pca(snapshots, dimension=10), snapshots=snapshots)
 
 
 def _along(mesh: ShellMesh) -> NDArray[np.float64]:

@@ -29,8 +29,11 @@ export function readFile(container: Container, name: string): Model {
   const kind = container.header["kind"] ?? "posing"; // the first files had only one
   if (kind === "posing" || kind === "posing-cubature" || kind === "posing-shell")
     return readPosing(container, name);
-  if (kind === "interpolation-shell")
-    throw new UnreadableModel("This is a model of blended shells. Open it with `snapspace view FILE`.");
+  if (kind === "interpolation-shell") {
+    const { material } = JSON.parse(container.header["problem"]);
+    const what = material.model === "arap" ? "surfaces that are as rigid as possible" : "shells";
+    throw new UnreadableModel(`This is a model of blended ${what}. Open it with \`snapspace view FILE\`.`);
+  }
   if (kind === "interpolation" || kind === "interpolation-cubature")
     return readInterpolation(container, name);
   throw new UnreadableModel(

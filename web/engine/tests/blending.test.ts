@@ -20,26 +20,36 @@ interface Frame {
   certain: boolean | null;
 }
 type Ends = [number, number][];
+interface Blends {
+  frames: Frame[];
+  diagonal: number;
+  leading: number;
+  ends: Ends | null;
+}
 
-for (const [name, ending] of [
-  ["blending", "snapspace"],
-  ["blending", "packed"],
-  ["blending-cubature", "snapspace"],
-  ["blending-cubature", "packed"],
+for (const [name, ending, kind] of [
+  ["blending", "snapspace", "quartics"],
+  ["blending", "packed", "quartics"],
+  ["blending-cubature", "snapspace", "cubature"],
+  ["blending-cubature", "packed", "cubature"],
+  ["blending-arap", "packed", "stars"],
 ])
   test(`blends are those of Session: ${name}.${ending}`, async () => {
-    const { frames, diagonal, ends } = expected<{ frames: Frame[]; diagonal: number; ends: Ends | null }>(
-      `${name}.json`,
-    );
+    const { frames, diagonal, leading, ends } = expected<Blends>(`${name}.json`);
     const model = readModel(bytes(`${name}.${ending}`), "poses") as BlendingModel;
-    assert.equal(model.blends.kind, name === "blending" ? "quartics" : "cubature");
+    assert.equal(model.blends.kind, kind);
     const session = await BlendingSession.create(core, model);
     const { valueScale } = await Core.create(core, model);
+    const isValue = (found: number, value: number) =>
+      assert.ok(
+        Math.abs(found - value) < 1e-4 * Math.abs(value) + 1e-6 * valueScale,
+        `${found}, not ${value}`,
+      );
     const shape = new Float32Array(3 * model.space.vertices);
     for (const frame of frames) {
       const report = session.blend(frame.weights);
       assert.equal(report.status, "converged");
-      assert.ok(Math.abs(report.value - frame.value) < 1e-4 * Math.abs(frame.value) + 1e-6 * valueScale);
+      isValue(report.value, frame.value);
       reconstruct(model.space, session.q, shape);
       assert.ok(distance(shape, frame.surface) < 1e-4 * diagonal);
       reconstruct(model.poseSpace, frame.weights, shape);
@@ -48,6 +58,8 @@ for (const [name, ending] of [
       assert.deepEqual(session.outside, frame.outside);
       assert.equal(session.certain, frame.certain);
     }
+    session.dimension = 7;
+    isValue(session.solve().value, leading);
     areEnds([...session.ends([0, 1, 2]), ...session.ends([0, 1])], ends);
     assert.deepEqual(session.ends([2]), [[0, 1]], "a pose alone has all the weight");
     assert.throws(() => session.blend(model.poses.map(() => 1)), /a sum of one/);
@@ -77,4 +89,9 @@ test("the certain range is that of Python; where none is known weights go as far
   });
   assert.equal(certain.reach(start, [0, 0, 0], 1e3), 1e3, "no way, no end");
   assert.deepEqual(weightEnds({ ...model, lowestWeight: -0.1 }, null, [0, 1, 2])[0], [-0.1, 1.2]);
+});
+
+test("model files of blended shells are left to `snapspace view`", () => {
+  const refusal = /blended surfaces that are as rigid as possible.*`snapspace view FILE`/;
+  assert.throws(() => readModel(bytes("blending-arap.snapspace"), "strip"), refusal);
 });
