@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from snapspace import InterpolationModel
+from snapspace import InterpolationModel, export_html
 
+from ..shells.strips import blended_strips
 from .pages import OpenPage, Page
 
 
@@ -58,6 +59,16 @@ def test_sliders_and_polygon_blend(
     page.page.locator(".corner").nth(2).click()
     page.settle()
     assert page.run("snapspace.session.weights") == [0, 0, 1]
+
+
+def test_surfaces_that_are_as_rigid_as_possible_blend(tmp_path: Path, opened: OpenPage) -> None:
+    model = blended_strips()
+    page = opened(export_html(model, tmp_path / "strips.html").as_uri())
+    assert_shown(model, page)
+    for slider, weight in ((0, "0.1"), (1, "0.6")):
+        page.page.get_by_role("slider", name=model.problem.poses.names[slider]).fill(weight)
+        page.settle()
+        assert_shown(model, page)
 
 
 def test_a_path_plays_beside_the_straight_blend(

@@ -251,7 +251,8 @@ def expected(
             for name in ("posing", "cubature")
             for ending in ("packed", "snapspace")
         },
-        "blending_steps": blending_steps(models["blending-cubature"]),
+        "blending-cubature-steps": blending_steps(models["blending-cubature"]),
+        "blending-arap-steps": blending_steps(models["blending-arap"]),
         "painted": list(regions.values()),
         "values": {kind: values_at(model) for kind, model in (materials | shells).items()},
         **{kind: posing_frames(model) for kind, model in materials.items()},

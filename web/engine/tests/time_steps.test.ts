@@ -30,16 +30,17 @@ for (const [file, { gravity, motions, q }] of Object.entries(expected<Record<str
     });
   });
 
-test("blends swing as those of Session", async () => {
-  const { weights, q } = expected<{ weights: number[][]; q: number[][] }>("blending_steps.json");
-  const model = readModel(bytes("blending-cubature.packed"), "") as BlendingModel;
-  const session = await BlendingSession.create(core, model);
-  weights.forEach((given, k) => {
-    session.step(1 / 60, given);
-    assert.ok(distance(session.q, q[k]) < 1e-3 * model.coordinateScale, `step ${k}`);
+for (const name of ["blending-cubature", "blending-arap"])
+  test(`blends swing as those of Session: ${name}`, async () => {
+    const { weights, q } = expected<{ weights: number[][]; q: number[][] }>(`${name}-steps.json`);
+    const model = readModel(bytes(`${name}.packed`), "") as BlendingModel;
+    const session = await BlendingSession.create(core, model);
+    weights.forEach((given, k) => {
+      session.step(1 / 60, given);
+      assert.ok(distance(session.q, q[k]) < 1e-3 * model.coordinateScale, `step ${k}`);
+    });
+    assert.throws(() => session.step(1 / 60, [1, 1, 1]), RangeError);
   });
-  assert.throws(() => session.step(1 / 60, [1, 1, 1]), RangeError);
-});
 
 test("a body comes to rest, and a static frame stops it", async () => {
   const session = await PosingSession.create(core, readModel(bytes("cubature.packed"), "") as PosingModel);
