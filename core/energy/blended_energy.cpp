@@ -114,27 +114,29 @@ Sum<Real> BlendedEnergy::tet_value_and_stress(int tet, const Real* blend, const 
 template <class Real>
 Sum<Real> BlendedEnergy::add_stars(const Real* blend, const Real* u, Real* gradient, int begin,
                                    int end) const {
-  using Pack = std::conditional_t<std::is_same_v<Real, double>, Lanes<2>, Real>;
-  std::vector<Pack> shape(size()), forces(size());
-  Sum<Real> energy(0.0);
-  for (int k = 0; k < poses(); ++k) {
-    for (int i = 0; i < size(); ++i) shape[i] = Pack(u[i]) + Pack(offsets_[k][i]);
-    std::fill(forces.begin(), forces.end(), Pack(0.0));
-    Sum<Pack> value;
-    if constexpr (std::is_same_v<typename ScalarOf<Pack>::type, float>)
-      value = energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
-    else
-      value = energies_[k].stars->add_value_and_gradient_by_rotations(begin, end, shape.data(),
-                                                                      forces.data());
-    if constexpr (std::is_same_v<Real, double>) {
-      energy += blend[k] * value[0];
-      for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i][0];
-    } else {
-      energy += widened(blend[k]) * value;
+  if constexpr (std::is_same_v<Real, double>) {
+    using Pack = Lanes<2>;
+    const std::vector<Pack> weights(blend, blend + poses()), shape(u, u + size());
+    std::vector<Pack> forces(gradient, gradient + size());
+    const Sum<Pack> energy = add_stars(weights.data(), shape.data(), forces.data(), begin, end);
+    for (int i = 0; i < size(); ++i) gradient[i] = forces[i][0];
+    return energy[0];
+  } else if constexpr (std::is_same_v<typename ScalarOf<Real>::type, double>) {
+    std::vector<const VertexStars*> stars;
+    for (const ElasticEnergy& energy : energies_) stars.push_back(&*energy.stars);
+    return VertexStars::add_blended(stars, offsets_, blend, begin, end, u, gradient);
+  } else {
+    std::vector<Real> shape(size()), forces(size());
+    Sum<Real> energy(0.0);
+    for (int k = 0; k < poses(); ++k) {
+      for (int i = 0; i < size(); ++i) shape[i] = u[i] + Real(offsets_[k][i]);
+      std::fill(forces.begin(), forces.end(), Real(0.0));
+      energy += widened(blend[k]) *
+                energies_[k].add_value_and_gradient(begin, end, shape.data(), forces.data());
       for (int i = 0; i < size(); ++i) gradient[i] += blend[k] * forces[i];
     }
+    return energy;
   }
-  return energy;
 }
 
 template <class Real>

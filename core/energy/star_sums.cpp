@@ -86,57 +86,75 @@ Sum<Real> VertexStars::add_value_and_gradient(int begin, int end, const Real* u,
 
 /// With W = R - I a star's energy is weight |G_t|^2 summed over its triangles, and its weight times
 /// |W L|^2 - 2 (W L) . H. The first parts of all stars are the Dirichlet energy.
+/// The rotations of one pose after the other do not depend on each other, which hides the latency
+/// of their divisions.
 template <class Real>
-Sum<Real> VertexStars::add_value_and_gradient_by_rotations(int begin, int end, const Real* u,
-                                                           Real* gradient) const {
+Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
+                                   const std::vector<std::vector<double>>& offsets,
+                                   const Real* pose_weights, int begin, int end, const Real* u,
+                                   Real* gradient) {
   using T = typename ScalarOf<Real>::type;
-  const Numbers<T>& all = numbers<T>();
+  const std::vector<std::int32_t>&starts = poses[0]->first_corner, &corners = poses[0]->corners;
+  std::vector<Real> edges, forces;
   Sum<Real> energy(0.0);
   for (int star = begin; star < end; ++star) {
-    const int first = first_corner[star], last = first_corner[star + 1];
+    const int first = starts[star] + 1, count = starts[star + 1] - first;
     const std::size_t own = 3 * static_cast<std::size_t>(star);
-    const Real origin[3] = {u[own], u[own + 1], u[own + 2]};
-    Real L[3][3], H[3][3], W[3][3], pull[3];
-    load(&all.frames[9 * static_cast<std::size_t>(star)], L);
-    for (int r = 0; r < 3; ++r) {
-      pull[r] = Real(T(0));
-      for (int c = 0; c < 3; ++c) H[r][c] = Real(T(0));
-    }
-    const T* g = all.gradients.data() + 3 * static_cast<std::size_t>(first + 1);
-    for (int k = first + 1; k < last; ++k, g += 3) {
-      const Real* const uk = u + 3 * static_cast<std::size_t>(corners[k]);
-      const Real coupling(static_cast<T>(couplings_[k]));
+    edges.resize(3 * static_cast<std::size_t>(count));
+    forces.assign(edges.size(), Real(T(0)));
+    for (int j = 0; j < count; ++j)
+      for (int r = 0; r < 3; ++r)
+        edges[3 * j + r] = u[3 * static_cast<std::size_t>(corners[first + j]) + r] - u[own + r];
+    Real total[3] = {Real(T(0)), Real(T(0)), Real(T(0))};
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+      const VertexStars& pose = *poses[k];
+      const double* offset = offsets[k].data();
+      const T* const gradients =
+          pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
+      Real L[3][3], H[3][3], W[3][3], pull[3], sum(T(0));
+      load(&pose.numbers<T>().frames[3 * own], L);
       for (int r = 0; r < 3; ++r) {
-        const Real edge = uk[r] - origin[r];  // couplings of a star sum to zero
-        pull[r] += coupling * edge;
-        for (int c = 0; c < 3; ++c) H[r][c] += edge * Real(g[c]);
+        pull[r] = Real(T(0));
+        for (int c = 0; c < 3; ++c) H[r][c] = Real(T(0));
       }
-    }
-    nearest_turn(L, H, W);
-    const Real weight(static_cast<T>(weights[star]));
-    Real sum(T(0)), stress[3][3], total[3];
-    for (int r = 0; r < 3; ++r) {
-      sum += origin[r] * pull[r];
-      for (int c = 0; c < 3; ++c) {
-        const Real turned = W[r][0] * L[0][c] + W[r][1] * L[1][c] + W[r][2] * L[2][c];
-        stress[r][c] = weight * turned;
-        sum += stress[r][c] * (turned - H[r][c] - H[r][c]);
-        stress[r][c] += stress[r][c];
+      for (int j = 0; j < count; ++j) {
+        const T* const g = gradients + 3 * j;
+        const double* const at = offset + 3 * static_cast<std::size_t>(corners[first + j]);
+        const Real coupling(static_cast<T>(pose.couplings_[first + j]));
+        for (int r = 0; r < 3; ++r) {
+          const Real edge = edges[3 * j + r] + Real(static_cast<T>(at[r] - offset[own + r]));
+          pull[r] += coupling * edge;  // the couplings of a star sum to zero
+          for (int c = 0; c < 3; ++c) H[r][c] += edge * Real(g[c]);
+        }
       }
-      total[r] = pull[r] + pull[r];
-    }
-    g = all.gradients.data() + 3 * static_cast<std::size_t>(first + 1);
-    for (int k = first + 1; k < last; ++k, g += 3) {
-      Real* const at = gradient + 3 * static_cast<std::size_t>(corners[k]);
+      nearest_turn(L, H, W);
+      const Real weight = pose_weights[k] * Real(static_cast<T>(pose.weights[star]));
+      Real stress[3][3];
       for (int r = 0; r < 3; ++r) {
-        const Real force =
-            stress[r][0] * Real(g[0]) + stress[r][1] * Real(g[1]) + stress[r][2] * Real(g[2]);
-        at[r] -= force;
-        total[r] += force;
+        for (int c = 0; c < 3; ++c) {
+          const Real turned = W[r][0] * L[0][c] + W[r][1] * L[1][c] + W[r][2] * L[2][c];
+          stress[r][c] = weight * turned;
+          sum += stress[r][c] * (turned - H[r][c] - H[r][c]);
+          stress[r][c] += stress[r][c];
+        }
+        pull[r] = pose_weights[k] * pull[r];
+        sum += (u[own + r] + Real(static_cast<T>(offset[own + r]))) * pull[r];
+        total[r] += pull[r] + pull[r];
       }
+      for (int j = 0; j < count; ++j) {
+        const T* const g = gradients + 3 * j;
+        for (int r = 0; r < 3; ++r)
+          forces[3 * j + r] +=
+              stress[r][0] * Real(g[0]) + stress[r][1] * Real(g[1]) + stress[r][2] * Real(g[2]);
+      }
+      energy += widened(sum);
     }
+    for (int j = 0; j < count; ++j)
+      for (int r = 0; r < 3; ++r) {
+        gradient[3 * static_cast<std::size_t>(corners[first + j]) + r] -= forces[3 * j + r];
+        total[r] += forces[3 * j + r];
+      }
     for (int r = 0; r < 3; ++r) gradient[own + r] += total[r];
-    energy += widened(sum);
   }
   return energy;
 }
@@ -183,8 +201,9 @@ void VertexStars::add_hessian_product(const double* u, const double* v, double* 
 
 #define SNAPSPACE_DEFINED(Real)                                                               \
   template Sum<Real> VertexStars::add_value_and_gradient(int, int, const Real*, Real*) const; \
-  template Sum<Real> VertexStars::add_value_and_gradient_by_rotations(int, int, const Real*,  \
-                                                                      Real*) const;           \
+  template Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>&,         \
+                                              const std::vector<std::vector<double>>&,        \
+                                              const Real*, int, int, const Real*, Real*);     \
   template void VertexStars::add_rest_product(const Real*, Real*) const;
 SNAPSPACE_LANE_PACKS(SNAPSPACE_DEFINED)
 #undef SNAPSPACE_DEFINED

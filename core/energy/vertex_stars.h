@@ -51,12 +51,15 @@ class VertexStars {
   [[nodiscard]] Sum<Real> add_value_and_gradient(int begin, int end, const Real* u,
                                                  Real* gradient) const;
 
-  /// The same, from a form that takes half as long and loses digits where displacements are large:
-  /// the Dirichlet energy of u, and what the rotations of the stars add to it. For double
-  /// precision.
+  /// The weighted sum of the energies of several poses of one surface, each at u plus its offset
+  /// (3n), in one pass; adds its gradient. It takes a third of the time of single energies, and
+  /// loses digits where displacements are large: it is the Dirichlet energy, and what the rotations
+  /// of the stars add to it. For double precision.
   template <class Real>
-  [[nodiscard]] Sum<Real> add_value_and_gradient_by_rotations(int begin, int end, const Real* u,
-                                                              Real* gradient) const;
+  [[nodiscard]] static Sum<Real> add_blended(const std::vector<const VertexStars*>& poses,
+                                             const std::vector<std::vector<double>>& offsets,
+                                             const Real* weights, int begin, int end, const Real* u,
+                                             Real* gradient);
 
   /// Adds the Hessian at rest times v to `product` (3n).
   template <class Real>

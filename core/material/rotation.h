@@ -15,11 +15,11 @@ namespace snapspace {
 /// upper bound down to it that function is convex and nearly quadratic. One step of Cauchy's
 /// method, to the root of the local quadratic model, leaves less than 3e-7 of |F|^2, and one step
 /// of Newton's method then leaves only rounding. Only inverted elements need more steps; their
-/// number is fixed, so that lanes do not depend on each other. R is then a polynomial of F over
-/// (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton].
-/// Where s_2 + s_3 vanishes R is not unique, and e is a double root, found to a few digits only.
-/// There, at mirror images and collapsed needles, R is shortened, everything stays finite, and |F -
-/// R|^2 follows from f, to 2e-3 (2e-2 in single precision).
+/// number depends on how far each is inverted, so that lanes do not depend on each other. R is then
+/// a polynomial of F over (s_1 + s_2) (s_2 + s_3) (s_3 + s_1) [Cayley and Hamilton]. Where s_2 +
+/// s_3 vanishes R is not unique, and e is a double root, found to a few digits only. There, at
+/// mirror images and collapsed needles, R is shortened, everything stays finite, and |F - R|^2
+/// follows from f, to 2e-3 (2e-2 in single precision).
 template <class Real>
 struct RotationDistance {
   Real difference[3][3];  ///< F - R
@@ -56,6 +56,9 @@ struct RotationDistance {
   static constexpr bool kFloat = sizeof(T) == sizeof(float);
   static constexpr T kTiny = kFloat ? T(1e-30) : T(1e-300);
   static constexpr int kInvertedSteps = kFloat ? 4 : 5;
+  /// The share of |F|^3 beyond which -J needs each of these steps. Nearly flat stars of surfaces
+  /// are inverted a little as often as not.
+  static constexpr T kInvertedFrom[5] = {T(1e-5), T(1e-3), T(1e-2), T(1e-2), T(1e-2)};
   /// Shares of |F|^2 f and |F|^2 below which a product of sums, and a slope, are only rounding.
   static constexpr T kMinProduct = kFloat ? T(5e-4) : T(1e-5);
   static constexpr T kMinSlope = kFloat ? T(1e-3) : T(1e-8);
@@ -97,7 +100,8 @@ struct RotationDistance {
   /// f.
   std::pair<Real, Real> sums(const Real& norm, const Real& square_of_cofactors) const {
     const Real least_slope = Real(kMinSlope) * norm + Real(kTiny);
-    const Real bound = max(Real(T(3)) * J, J) * rough_root(norm) * Real(T(1.1547));
+    const Real length = rough_root(norm);
+    const Real bound = max(Real(T(3)) * J, J) * length * Real(T(1.1547));
     Real e = rough_root(square_of_cofactors + bound) * Real(kAbove);
     const auto cauchy_step = [&] {
       const LocalQuadratic at(e, norm, square_of_cofactors, J);
@@ -105,10 +109,10 @@ struct RotationDistance {
       return at.value * rough_inverse(max(at.slope + root, least_slope));
     };
     e -= cauchy_step();
-    if (any_negative(J)) {
-      const Real inverted = is_less(J, Real(T(0)));
-      for (int step = 0; step < kInvertedSteps; ++step)
-        e -= select(inverted, cauchy_step(), Real(T(0)));
+    for (int step = 0; step < kInvertedSteps; ++step) {
+      const Real left = J + Real(kInvertedFrom[step]) * norm * length;
+      if (!any_negative(left)) break;
+      e -= select(is_less(left, Real(T(0))), cauchy_step(), Real(T(0)));
     }
     const LocalQuadratic at(e, norm, square_of_cofactors, J);
     e -= Real(T(0.5)) * at.value * rough_inverse(max(at.slope, least_slope));
