@@ -2,6 +2,7 @@
 
     python benchmarks/blend_paths.py                       # generated sets, and those of the meshes
     python benchmarks/blend_paths.py --set lizard-4 lion   # some of them
+    python benchmarks/blend_paths.py --shell --material arap --set lizard-4 lion   # as surfaces
 
 A path goes from one pose to another in steps of 1 % of the weight, in a live session. Distances are
 the largest of any vertex, relative to the diagonal of the first pose. Some unseen blends are solved
@@ -41,7 +42,31 @@ GENERATED = {"lizard-4": 4, "lizard-11": 11, "lizard-20": 20}
 SETS = (*GENERATED, *REAL)
 
 
-def read(name: str) -> ss.Poses:
+#: With --shell, a thickness relative to the diagonal, on which ARAP does not depend.
+THICKNESS = 0.02
+
+
+def read_surfaces(name: str) -> ss.ShellPoses:
+    """The poses as surfaces; those of generated bodies are the boundaries of their tets."""
+    if name in GENERATED:
+        meshes = lizard_poses(GENERATED[name], 8_000, seed=GENERATED[name])
+        used, faces = np.unique(meshes[0].surface, return_inverse=True)
+        shapes, triangles = [m.vertices[used] for m in meshes], faces.reshape(-1, 3)
+    else:
+        base, names = REAL[name]
+        reference = common.meshes_folder() / interpolation.SETS[base].reference.replace(
+            "_fixed", ""
+        )
+        files = [reference, *(reference.with_name(f"{k}{reference.suffix}") for k in names)]
+        surfaces = [ss.read_surface(file) for file in files]
+        shapes, triangles = [vertices for vertices, _ in surfaces], surfaces[0][1]
+    diagonal = float(np.linalg.norm(np.ptp(shapes[0], axis=0)))
+    return ss.ShellPoses(shapes, triangles, thickness=THICKNESS * diagonal)
+
+
+def read(name: str, *, shell: bool) -> ss.Poses | ss.ShellPoses:
+    if shell:
+        return read_surfaces(name)
     if name in GENERATED:
         count = GENERATED[name]
         return ss.Poses.of(lizard_poses(count, 8_000, seed=count))
@@ -92,8 +117,10 @@ def built(
     problem: ss.InterpolationProblem, args: argparse.Namespace
 ) -> tuple[ss.InterpolationModel, ss.Snapshots]:
     """A model as the command builds it; for St.Venant-Kirchhoff with the given samples and d."""
-    if problem.material.exact_degree != 4:
-        accurate = ss.accurate_model(problem, tell=lambda line: print(line, file=sys.stderr))
+    if problem.material.exact_degree != 4 or args.shell:
+        accurate = ss.accurate_model(
+            problem, target_error=args.target_error, tell=lambda line: print(line, file=sys.stderr)
+        )
         return accurate.model, accurate.snapshots
     parameters = ss.sample(problem.domain, args.samples, method="sobol")
     snapshots = ss.solve_snapshots(problem, parameters, progress=common.progress)
@@ -102,7 +129,7 @@ def built(
 
 
 def figures(name: str, kind: str, args: argparse.Namespace) -> Iterator[dict[str, Any]]:
-    poses = read(name)
+    poses = read(name, shell=args.shell)
     material = ss.MATERIALS[kind]()
     begin = time.perf_counter()
     problem = ss.InterpolationProblem(poses, material=material)
@@ -152,6 +179,8 @@ def main() -> None:
     )
     parser.add_argument("--set", nargs="+", choices=SETS, default=list(SETS))
     parser.add_argument("--material", nargs="+", default=["stvk", "stable-neo-hookean"])
+    parser.add_argument("--shell", action="store_true", help="blend surfaces, without tets")
+    parser.add_argument("--target-error", type=float, default=0.005, metavar="SHARE")
     parser.add_argument("--samples", type=int, default=40, help="number of samples, for stvk")
     parser.add_argument("--dimension", type=int, default=30, help="d, for stvk")
     parser.add_argument("--pairs", type=int, default=3, help="number of paths per set")
