@@ -84,10 +84,36 @@ Sum<Real> VertexStars::add_value_and_gradient(int begin, int end, const Real* u,
                    });
 }
 
+namespace {
+
+/// A star in one pose: L, H, W = R - I, and the pull of the Dirichlet energy on its vertex.
+template <class Real>
+struct TurnedStar {
+  Real L[3][3], H[3][3], W[3][3], pull[3];
+};
+
+/// Turns two stars at once: the latency of one's divisions hides behind the other's.
+template <class T, int Width>
+void turn_both(TurnedStar<Pack<T, Width>>& first, TurnedStar<Pack<T, Width>>& second) {
+  using Wide = Pack<T, 2 * Width>;
+  Wide L[3][3], H[3][3], W[3][3];
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      L[r][c] = joined(first.L[r][c], second.L[r][c]);
+      H[r][c] = joined(first.H[r][c], second.H[r][c]);
+    }
+  nearest_turn(L, H, W);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      first.W[r][c] = half<false>(W[r][c]);
+      second.W[r][c] = half<true>(W[r][c]);
+    }
+}
+
+}  // namespace
+
 /// With W = R - I a star's energy is weight |G_t|^2 summed over its triangles, and its weight times
 /// |W L|^2 - 2 (W L) . H. The first parts of all stars are the Dirichlet energy.
-/// The rotations of one pose after the other do not depend on each other, which hides the latency
-/// of their divisions.
 template <class Real>
 Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
                                    const std::vector<std::vector<double>>& offsets,
@@ -95,6 +121,7 @@ Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
                                    Real* gradient) {
   using T = typename ScalarOf<Real>::type;
   const std::vector<std::int32_t>&starts = poses[0]->first_corner, &corners = poses[0]->corners;
+  const int pose_count = static_cast<int>(poses.size());
   std::vector<Real> edges, forces;
   Sum<Real> energy(0.0);
   for (int star = begin; star < end; ++star) {
@@ -105,49 +132,61 @@ Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
     for (int j = 0; j < count; ++j)
       for (int r = 0; r < 3; ++r)
         edges[3 * j + r] = u[3 * static_cast<std::size_t>(corners[first + j]) + r] - u[own + r];
-    Real total[3] = {Real(T(0)), Real(T(0)), Real(T(0))};
-    for (std::size_t k = 0; k < poses.size(); ++k) {
+    const auto gather = [&](int k, TurnedStar<Real>& turned) {
       const VertexStars& pose = *poses[k];
       const double* offset = offsets[k].data();
-      const T* const gradients =
-          pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
-      Real L[3][3], H[3][3], W[3][3], pull[3], sum(T(0));
-      load(&pose.numbers<T>().frames[3 * own], L);
+      const T* g = pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
+      load(&pose.numbers<T>().frames[3 * own], turned.L);
       for (int r = 0; r < 3; ++r) {
-        pull[r] = Real(T(0));
-        for (int c = 0; c < 3; ++c) H[r][c] = Real(T(0));
+        turned.pull[r] = Real(T(0));
+        for (int c = 0; c < 3; ++c) turned.H[r][c] = Real(T(0));
       }
-      for (int j = 0; j < count; ++j) {
-        const T* const g = gradients + 3 * j;
+      for (int j = 0; j < count; ++j, g += 3) {
         const double* const at = offset + 3 * static_cast<std::size_t>(corners[first + j]);
         const Real coupling(static_cast<T>(pose.couplings_[first + j]));
         for (int r = 0; r < 3; ++r) {
           const Real edge = edges[3 * j + r] + Real(static_cast<T>(at[r] - offset[own + r]));
-          pull[r] += coupling * edge;  // the couplings of a star sum to zero
-          for (int c = 0; c < 3; ++c) H[r][c] += edge * Real(g[c]);
+          turned.pull[r] += coupling * edge;  // the couplings of a star sum to zero
+          for (int c = 0; c < 3; ++c) turned.H[r][c] += edge * Real(g[c]);
         }
       }
-      nearest_turn(L, H, W);
+    };
+    Real total[3] = {Real(T(0)), Real(T(0)), Real(T(0))};
+    const auto add = [&](int k, const TurnedStar<Real>& turned) {
+      const VertexStars& pose = *poses[k];
       const Real weight = pose_weights[k] * Real(static_cast<T>(pose.weights[star]));
-      Real stress[3][3];
+      Real stress[3][3], sum(T(0));
       for (int r = 0; r < 3; ++r) {
+        const auto& W = turned.W[r];
         for (int c = 0; c < 3; ++c) {
-          const Real turned = W[r][0] * L[0][c] + W[r][1] * L[1][c] + W[r][2] * L[2][c];
-          stress[r][c] = weight * turned;
-          sum += stress[r][c] * (turned - H[r][c] - H[r][c]);
+          const Real moved = W[0] * turned.L[0][c] + W[1] * turned.L[1][c] + W[2] * turned.L[2][c];
+          stress[r][c] = weight * moved;
+          sum += stress[r][c] * (moved - turned.H[r][c] - turned.H[r][c]);
           stress[r][c] += stress[r][c];
         }
-        pull[r] = pose_weights[k] * pull[r];
-        sum += (u[own + r] + Real(static_cast<T>(offset[own + r]))) * pull[r];
-        total[r] += pull[r] + pull[r];
+        const Real pull = pose_weights[k] * turned.pull[r];
+        sum += (u[own + r] + Real(static_cast<T>(offsets[k][own + r]))) * pull;
+        total[r] += pull + pull;
       }
-      for (int j = 0; j < count; ++j) {
-        const T* const g = gradients + 3 * j;
+      const T* g = pose.numbers<T>().gradients.data() + 3 * static_cast<std::size_t>(first);
+      for (int j = 0; j < count; ++j, g += 3)
         for (int r = 0; r < 3; ++r)
           forces[3 * j + r] +=
               stress[r][0] * Real(g[0]) + stress[r][1] * Real(g[1]) + stress[r][2] * Real(g[2]);
-      }
       energy += widened(sum);
+    };
+    TurnedStar<Real> one, other;
+    for (int k = 0; k < pose_count; k += 2) {
+      gather(k, one);
+      if (k + 1 == pose_count) {
+        nearest_turn(one.L, one.H, one.W);
+        add(k, one);
+        break;
+      }
+      gather(k + 1, other);
+      turn_both(one, other);
+      add(k, one);
+      add(k + 1, other);
     }
     for (int j = 0; j < count; ++j)
       for (int r = 0; r < 3; ++r) {
@@ -201,11 +240,14 @@ void VertexStars::add_hessian_product(const double* u, const double* v, double* 
 
 #define SNAPSPACE_DEFINED(Real)                                                               \
   template Sum<Real> VertexStars::add_value_and_gradient(int, int, const Real*, Real*) const; \
-  template Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>&,         \
-                                              const std::vector<std::vector<double>>&,        \
-                                              const Real*, int, int, const Real*, Real*);     \
   template void VertexStars::add_rest_product(const Real*, Real*) const;
 SNAPSPACE_LANE_PACKS(SNAPSPACE_DEFINED)
+#undef SNAPSPACE_DEFINED
+#define SNAPSPACE_DEFINED(Real)                                                        \
+  template Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>&,  \
+                                              const std::vector<std::vector<double>>&, \
+                                              const Real*, int, int, const Real*, Real*);
+SNAPSPACE_DOUBLE_LANE_PACKS(SNAPSPACE_DEFINED)
 #undef SNAPSPACE_DEFINED
 template void VertexStars::gradient_of(int, const double*, double[3][3]) const;
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..animation import usual_suffix, write_animation
 from ..extras import need_extra
+from ..mesh import ShellMesh
 from ..mesh.input_path import writable_path
 from ..pictures import save_png
 from ..reduction import InterpolationModel
@@ -145,7 +146,7 @@ def blend(
     if frames is not None:
         figures["path"] = path_figures(shapes, jumps)
         notice_jumps(jumps)
-    _print_report(figures)
+    _print_report(figures, shell=isinstance(model.problem.mesh, ShellMesh))
     if as_json:
         print_json({"dimension": model.dimension, **figures})
 
@@ -228,7 +229,11 @@ def _figures(shapes: list[BlendedShape], written: list[Path], seconds: float) ->
     }
 
 
-def _print_report(figures: dict[str, Any]) -> None:
+def _inverted(frames: list[dict[str, Any]]) -> tuple[str, str]:
+    return "inverted tets", f"at most {max(frame['inverted_tets'] for frame in frames)}"
+
+
+def _print_report(figures: dict[str, Any], *, shell: bool) -> None:
     frames = figures["frames"]
     solve = np.median([frame["solve_ms"] for frame in frames])
     whole = np.median([frame["frame_ms"] for frame in frames])
@@ -238,7 +243,7 @@ def _print_report(figures: dict[str, Any]) -> None:
     facts = [
         ("shapes", f"{len(frames)}, {converged} converged"),
         *path_facts(figures),
-        ("inverted tets", f"at most {max(frame['inverted_tets'] for frame in frames)}"),
+        *([] if shell else [_inverted(frames)]),
         ("solve", f"{solve:.2f} ms, with all vertices {whole:.2f} ms"),
         (
             "written",

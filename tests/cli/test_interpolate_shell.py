@@ -35,7 +35,8 @@ def test_open_surfaces_are_blended_and_written(run: Run, tmp_path: Path, poses: 
     assert model.problem.mesh.thickness == 0.1
     assert model.problem.material.kind == "arap"
     assert "vertices with their triangles" in run("info", path).err
-    run("blend", path, "--weights", "0,1", "-o", blend)
+    told = run("blend", path, "--weights", "0,1", "-o", blend).err
+    assert "inverted" not in told, "a surface has no inside"
     vertices, faces = read_surface(blend)
     np.testing.assert_array_equal(faces, SHEET.triangles)
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
