@@ -1,7 +1,7 @@
 """Cubature: elastic energies in reduced coordinates, summed over a few tets."""
 
-from .blended_cubature import BlendedCubature, WeightedCubature
-from .blended_stars import BlendedStars, WeightedStars
+from .blended_cubature import BlendedCubature
+from .blended_stars import BlendedStars
 from .blended_sum import BlendedSum, blended_sum
 from .cubature import Cubature
 from .elements import element_count, has_hinges, has_stars
@@ -14,6 +14,7 @@ from .train import (
     train_blended_cubature,
     train_cubature,
 )
+from .weighted_cubature import WeightedCubature
 
 __all__ = [
     "FEWEST_BLENDS",
@@ -24,7 +25,6 @@ __all__ = [
     "Cubature",
     "CubatureErrors",
     "WeightedCubature",
-    "WeightedStars",
     "blended_sum",
     "default_blended_tets",
     "default_tets",

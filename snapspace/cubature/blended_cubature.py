@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
 from .displacement_gradients import displacement_gradients
 from .summed_curvatures import summed_curvatures
+from .weighted_cubature import WeightedCubature
 
 FloatArray = NDArray[np.float64]
 
@@ -136,23 +136,3 @@ class BlendedCubature:
         """The cubature of the same tets for the first `dimension` coordinates."""
         rows = self.rows[:, :, :dimension]
         return BlendedCubature(self.tets, self.weights, rows, self.material, self.corners)
-
-
-@dataclass(frozen=True)
-class WeightedCubature:
-    """A blended cubature for some weights (poses,), as a function of q alone."""
-
-    cubature: BlendedCubature
-    weights: FloatArray
-
-    def value(self, q: ArrayLike) -> float:
-        """Energy at q (d,)."""
-        return self.value_and_gradient(q)[0]
-
-    def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
-        """Energy at q and its gradient (d,)."""
-        return self.cubature.value_and_gradient(q, self.weights)
-
-    def hessian(self, q: ArrayLike) -> FloatArray:
-        """Hessian at q, (d, d)."""
-        return self.cubature.hessian(q, self.weights)

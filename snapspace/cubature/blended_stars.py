@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,6 +14,7 @@ from ..subspace import AffineSubspace
 from .chosen_tets import check_chosen, check_in_mesh
 from .star_poses import StarPoses
 from .summed_curvatures import summed_curvatures
+from .weighted_cubature import WeightedCubature
 
 FloatArray = NDArray[np.float64]
 
@@ -126,9 +126,9 @@ class BlendedStars:
         """Number of weights."""
         return len(self.rows)
 
-    def at(self, weights: ArrayLike) -> WeightedStars:
+    def at(self, weights: ArrayLike) -> WeightedCubature:
         """The blended energy for weights (poses,)."""
-        return WeightedStars(self, np.asarray(weights, np.float64))
+        return WeightedCubature(self, np.asarray(weights, np.float64))
 
     def value_and_gradient(self, q: ArrayLike, weights: FloatArray) -> tuple[float, FloatArray]:
         """Energy at q (d,) for weights (poses,), and its gradient (d,)."""
@@ -166,23 +166,3 @@ class BlendedStars:
         """The sum over stars alone."""
         forms = np.zeros_like(self.forms)
         return BlendedStars(self.tets, self.weights, self.rows, self.material, self.origins, forms)
-
-
-@dataclass(frozen=True)
-class WeightedStars:
-    """Blended stars for some weights (poses,), as a function of q alone."""
-
-    stars: BlendedStars
-    weights: FloatArray
-
-    def value(self, q: ArrayLike) -> float:
-        """Energy at q (d,)."""
-        return self.value_and_gradient(q)[0]
-
-    def value_and_gradient(self, q: ArrayLike) -> tuple[float, FloatArray]:
-        """Energy at q and its gradient (d,)."""
-        return self.stars.value_and_gradient(q, self.weights)
-
-    def hessian(self, q: ArrayLike) -> FloatArray:
-        """Hessian at q, (d, d)."""
-        return self.stars.hessian(q, self.weights)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cubature import BlendedCubature, BlendedSum, WeightedCubature, WeightedStars
+from ..cubature import BlendedCubature, BlendedSum, WeightedCubature
 from ..mesh import ShellMesh
 from ..problem import CertainRange, InterpolationProblem, certain_range
 from .full_energy import FullBlends, FullEnergy
@@ -56,9 +56,7 @@ class InterpolationModel(ReducedModel):
             return None
         return certain_range(self.problem.material, self.cubature.corners[:-1])
 
-    def elastic(
-        self, weights: ArrayLike
-    ) -> Quartic | WeightedCubature | WeightedStars | FullEnergy:
+    def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
         """The reduced energy for weights (poses,)."""
         return self.blends.at(weights)
 
