@@ -1,6 +1,7 @@
 """Cubature: elastic energies in reduced coordinates, summed over a few tets."""
 
 from .blended_cubature import BlendedCubature
+from .blended_elements import WeightedCubature
 from .blended_stars import BlendedStars
 from .blended_sum import BlendedSum, blended_sum
 from .cubature import Cubature
@@ -14,7 +15,6 @@ from .train import (
     train_blended_cubature,
     train_cubature,
 )
-from .weighted_cubature import WeightedCubature
 
 __all__ = [
     "FEWEST_BLENDS",

@@ -12,15 +12,15 @@ from ..energy import ShellMaterial
 from ..material import Material
 from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
+from .blended_elements import BlendedElements
 from .chosen_tets import check_chosen, check_in_mesh
 from .displacement_gradients import displacement_gradients
 from .summed_curvatures import summed_curvatures
-from .weighted_cubature import WeightedCubature
 
 FloatArray = NDArray[np.float64]
 
 
-class BlendedCubature:
+class BlendedCubature(BlendedElements):
     """sum_k w_k E_k(tau + U q) as a sum over the same few tets for all poses.
 
     After An, Kim, James 2008, with positive weights. Where the density collapses (stable
@@ -111,26 +111,9 @@ class BlendedCubature:
         """Number of weights."""
         return len(self.corners) - 1
 
-    def at(self, weights: ArrayLike) -> WeightedCubature:
-        """The blended energy for weights (poses,)."""
-        return WeightedCubature(self, np.asarray(weights, np.float64))
-
-    def value_and_gradient(self, q: ArrayLike, weights: FloatArray) -> tuple[float, FloatArray]:
-        """Energy at q (d,) for weights (poses,), and its gradient (d,)."""
-        self._core.set_weights(weights)
-        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
-        return value, gradient
-
-    def hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
-        """Hessian at q, (d, d)."""
-        self._core.set_weights(weights)
-        hessian: FloatArray = self._core.derivatives(np.asarray(q, np.float64))[2]
-        return hessian
-
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        self._core.set_weights(weights)
-        return summed_curvatures(self.rows, self._core.curvatures(np.asarray(q, np.float64)))
+        return summed_curvatures(self.rows, self._curvatures(q, weights))
 
     def leading(self, dimension: int) -> BlendedCubature:
         """The cubature of the same tets for the first `dimension` coordinates."""

@@ -11,15 +11,15 @@ from .. import _core as core
 from ..energy import ShellMaterial
 from ..problem import InterpolationProblem
 from ..subspace import AffineSubspace
+from .blended_elements import BlendedElements
 from .chosen_tets import check_chosen, check_in_mesh
 from .star_poses import StarPoses
 from .summed_curvatures import summed_curvatures
-from .weighted_cubature import WeightedCubature
 
 FloatArray = NDArray[np.float64]
 
 
-class BlendedStars:
+class BlendedStars(BlendedElements):
     """sum_k w_k E_k(tau + U q) of `ARAP` as a sum over the same few stars in all poses.
 
     What stars leave of the energy is a quadratic form, and exact; see `VertexStars`. The rotations
@@ -126,26 +126,9 @@ class BlendedStars:
         """Number of weights."""
         return len(self.rows)
 
-    def at(self, weights: ArrayLike) -> WeightedCubature:
-        """The blended energy for weights (poses,)."""
-        return WeightedCubature(self, np.asarray(weights, np.float64))
-
-    def value_and_gradient(self, q: ArrayLike, weights: FloatArray) -> tuple[float, FloatArray]:
-        """Energy at q (d,) for weights (poses,), and its gradient (d,)."""
-        self._core.set_weights(weights)
-        value, gradient = self._core.value_and_gradient(np.asarray(q, np.float64))
-        return value, gradient
-
-    def hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
-        """Hessian at q, (d, d)."""
-        self._core.set_weights(weights)
-        hessian: FloatArray = self._core.derivatives(np.asarray(q, np.float64))[2]
-        return hessian
-
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
-        self._core.set_weights(weights)
-        curvatures = self._core.curvatures(np.asarray(q, np.float64))
+        curvatures = self._curvatures(q, weights)
         d = self.dimension
         form: FloatArray = np.einsum("k,kij->ij", weights, self.forms[:, :d, :d])
         return summed_curvatures(self.core_arguments[0], curvatures) + 2.0 * form
