@@ -126,6 +126,20 @@ class BlendedStars(BlendedElements):
         """Number of weights."""
         return len(self.rows)
 
+    @property
+    def dirichlet_forms(self) -> FloatArray:
+        """The Dirichlet energies of the poses, q^T D q: matrices (poses, d, d).
+
+        A pose's energy is its Dirichlet energy less what the rotations leave, which grows only
+        linearly. So a weighted sum of energies has a minimum if that of these matrices is positive
+        definite, and none if it is indefinite.
+        """
+        d, moduli = self.dimension, self.material.moduli[:, 0].reshape(self.poses, -1)
+        scaled = self.rows * np.sqrt(moduli * self.weights)[..., None, None]
+        flat = scaled.reshape(self.poses, -1, d).astype(np.float64)
+        forms: FloatArray = self.forms[:, :d, :d] + flat.swapaxes(1, 2) @ flat
+        return forms
+
     def rough_hessian(self, q: ArrayLike, weights: FloatArray) -> FloatArray:
         """The Hessian summed in single precision, which is faster: see `summed_curvatures`."""
         curvatures = self._curvatures(q, weights)

@@ -40,11 +40,28 @@ class CertainRange:
     """
 
     def __init__(self, corners: ArrayLike) -> None:
-        squares, inverse_volumes = _terms(_checked(corners))
+        self._set(*_terms(_checked(corners)))
+
+    @classmethod
+    def of_forms(cls, forms: FloatArray) -> CertainRange:
+        """The range in which weighted sums of quadratic forms are positive definite.
+
+        For energies that are such a form and less than it far away, as those of `ARAP` are.
+
+        Parameters
+        ----------
+        forms : (poses, m, s, s) float64
+            m symmetric matrices of each pose, whose means over the poses are positive definite.
+        """
+        made = cls.__new__(cls)
+        made._set(forms, np.ones(forms.shape[:2]))
+        return made
+
+    def _set(self, squares: FloatArray, alphas: FloatArray) -> None:
         # relative to equal weights, for which M is the identity and alpha is one
         factors = np.linalg.inv(np.linalg.cholesky(squares.mean(axis=0)))
         self._squares = factors @ squares @ factors.swapaxes(-1, -2)
-        self._alphas = inverse_volumes / inverse_volumes.mean(axis=0)
+        self._alphas = alphas / alphas.mean(axis=0)
         self._domain = Simplex(corners=len(squares))
 
     @property

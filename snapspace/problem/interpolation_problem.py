@@ -25,6 +25,7 @@ from .poses import Poses
 from .shell_poses import ShellPoses
 from .simplex import Simplex
 from .solver_traits import SolverTraits, interpolation_traits
+from .triangle_range import triangle_range
 
 FloatArray = NDArray[np.float64]
 
@@ -73,8 +74,7 @@ class InterpolationProblem:
     ) -> None:
         self.poses = as_poses(poses)
         shell = isinstance(self.mesh, ShellMesh)
-        usual: Material = ARAP() if shell else StableNeoHookean()
-        made_of = usual if material is None else material
+        made_of = material or (ARAP() if shell else StableNeoHookean())
         self.material = checked_material(made_of, len(self.mesh.cells), "InterpolationProblem")
         self.domain = Simplex(corners=len(self.poses), extrapolation=extrapolation)
         if mean_shape is not None:
@@ -150,7 +150,8 @@ class InterpolationProblem:
         A reduced model has its own, larger range: its energy has fewer tets.
         """
         if isinstance(self.mesh, ShellMesh):
-            return None
+            corners = self.poses.shapes[:, self.mesh.cells]
+            return triangle_range(corners) if isinstance(self.material, ARAP) else None
         return certain_range(self.material, self.poses.shapes[:, self.mesh.cells])
 
     @cached_property

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cubature import BlendedCubature, BlendedSum, WeightedCubature
+from ..cubature import BlendedCubature, BlendedStars, BlendedSum, WeightedCubature
 from ..mesh import ShellMesh
 from ..problem import CertainRange, InterpolationProblem, certain_range
 from .full_energy import FullBlends, FullEnergy
@@ -50,11 +50,11 @@ class InterpolationModel(ReducedModel):
         Tested in the cubature's tets, those of the energy that sessions and pages minimise. The
         full energy has more tets, and a smaller range: `InterpolationProblem.certain_range`.
         """
-        if not isinstance(self.cubature, BlendedCubature) or isinstance(
-            self.problem.mesh, ShellMesh
-        ):
+        if isinstance(self.blends, BlendedStars):
+            return CertainRange.of_forms(self.blends.dirichlet_forms[:, None])
+        if not isinstance(self.blends, BlendedCubature) or isinstance(self.problem.mesh, ShellMesh):
             return None
-        return certain_range(self.problem.material, self.cubature.corners[:-1])
+        return certain_range(self.problem.material, self.blends.corners[:-1])
 
     def elastic(self, weights: ArrayLike) -> Quartic | WeightedCubature | FullEnergy:
         """The reduced energy for weights (poses,)."""

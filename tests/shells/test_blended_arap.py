@@ -184,6 +184,28 @@ def test_paths_are_continuous_and_the_same_both_ways(model: InterpolationModel) 
     assert steps.max() < 4 * np.median(steps)
 
 
+@pytest.mark.parametrize("pose", [0, 1, 2])
+def test_the_certain_range_ends_where_the_energy_falls_forever(
+    model: InterpolationModel, pose: int
+) -> None:
+    stars, certain = model.cubature, model.certain_range
+    assert isinstance(stars, BlendedStars) and certain is not None
+    lower, upper = certain.limits()[pose]
+    for end in (lower, upper):
+        for inside in (0.99, 1.01):
+            weights = np.full(3, (1.0 - inside * end) / 2.0)
+            weights[pose] = inside * end
+            form = np.einsum("k,kij->ij", weights, stars.dirichlet_forms)
+            softest = np.linalg.eigh(form)[1][:, 0]
+            far = min(
+                stars.value_and_gradient(sign * 1e9 * softest, weights)[0] for sign in (1, -1)
+            )
+            assert certain.holds(weights) == (inside < 1.0) == (far > 0.0)
+    whole = model.problem.certain_range
+    assert whole is not None
+    assert whole.limits()[pose, 0] >= lower and whole.limits()[pose, 1] <= upper
+
+
 def test_models_are_saved_and_loaded(model: InterpolationModel, tmp_path: Path) -> None:
     calibrated = calibrate(model, samples=12, threads=1)
     again = load(calibrated.save(tmp_path / "sheet.snapspace"))
