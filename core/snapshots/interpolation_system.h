@@ -45,7 +45,7 @@ class InterpolationSystem final : public SampleSystem {
   [[nodiscard]] LaneObjectives lanes() const override;
   [[nodiscard]] std::unique_ptr<LaneObjective<double>> objective() const override;
   [[nodiscard]] BlockHessian hessian_pattern() const override {
-    return BlockHessian(energy->energy(0).rest);
+    return BlockHessian(energy->energy(0));
   }
   void assemble(const double* input, const double* u, const HessianOptions& options,
                 BlockHessian& hessian) const override;

@@ -184,6 +184,20 @@ def test_paths_are_continuous_and_the_same_both_ways(model: InterpolationModel) 
     assert steps.max() < 4 * np.median(steps)
 
 
+def test_newton_finds_the_same_solutions(model: InterpolationModel) -> None:
+    """In a few iterations: its Hessians have all pairs of vertices in a star."""
+    one, weights = model.problem, sample(model.problem.domain, 3, seed=3)
+    fast, newton = (
+        solve_snapshots(
+            one, weights, options=SolverOptions(solver=solver, tolerance=1e-12), threads=1
+        )
+        for solver in ("fast", "newton")
+    )
+    assert newton.converged.all() and max(r.iterations for r in newton.reports) < 30
+    for first, second in zip(fast.reports, newton.reports, strict=True):
+        assert second.value == pytest.approx(first.value, rel=1e-9)
+
+
 @pytest.mark.parametrize("pose", [0, 1, 2])
 def test_the_certain_range_ends_where_the_energy_falls_forever(
     model: InterpolationModel, pose: int
