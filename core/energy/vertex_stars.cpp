@@ -197,18 +197,9 @@ void VertexStars::write_numbers(int star, double* numbers) const {
 
 Eigen::SparseMatrix<double> VertexStars::remainder() const {
   std::vector<Eigen::Triplet<double>> entries;
-  for (const Triangle<double>& triangle : double_.triangles) {
-    const double hats[3][2] = {
-        {-triangle.first[0], -triangle.first[1] - triangle.second},
-        {triangle.first[0], triangle.first[1]},
-        {0.0, triangle.second},
-    };
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k)
-        entries.emplace_back(
-            triangle.vertices[j], triangle.vertices[k],
-            3.0 * triangle.weight * (hats[j][0] * hats[k][0] + hats[j][1] * hats[k][1]));
-  }
+  for (int star = 0; star < count(); ++star)
+    for (int k = first_corner[star]; k < first_corner[star + 1]; ++k)
+      entries.emplace_back(star, corners[k], couplings_[k]);
   for (int star = 0; star < count(); ++star)
     for (int j = first_corner[star]; j < first_corner[star + 1]; ++j)
       for (int k = first_corner[star]; k < first_corner[star + 1]; ++k) {

@@ -31,7 +31,8 @@ TETS_PER_DIMENSION = 8
 #: cubature's part is 0.006, 0.0008 and 0.0004 with 4, 8 and 12.
 ELEMENTS_PER_DIMENSION, MOST_ELEMENTS = 12, 1500
 #: The same for blends. Stars keep an exact form, so they take as many as in posing: with 15 d the
-#: Lion's errors (ten, d = 40 and 60) are smaller by less than a tenth, in twice the time a frame.
+#: Lion's mean errors are 0.015 and 0.009 (d = 40 and 60), with 8 d 0.015 and 0.010, in half the
+#: time a frame.
 TETS_PER_BLENDED_DIMENSION = 15
 #: Most tets by default: the time of an evaluation is proportional to their number.
 MOST_TETS = 1000
