@@ -85,11 +85,13 @@ EXPORTS = {
         "PosingSession",
         "Session",
         "mirror_pose",
+        "predicted_solutions",
     ),
     "snapshots": (
         "Checkpoint",
         "CheckpointNotice",
         "Interrupted",
+        "Predictions",
         "SampleReport",
         "Snapshots",
         "SolveProgress",

@@ -78,6 +78,9 @@ class ElasticEnergy:
         Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each element: a tet, a triangle or a hinge, or the star of a vertex.
         """
 
+    def some_tet_stresses(self, u: NDArray[numpy.float64], which: NDArray[numpy.int32]) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """`tet_stresses` of some elements (c,): (c, 9) and (c,)."""
+
     def stars(self) -> VertexStars:
         """The stars of the vertices of a surface that is as rigid as possible."""
 
@@ -317,10 +320,10 @@ class SampleSystem:
         Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n). Several are computed in one pack.
         """
 
-    def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64]) -> None:
-        """Puts a sample into a queue: input (input_size,), start (3n,)."""
+    def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, coarse: CoarseSpace | None = None) -> None:
+        """Puts a sample into a queue: input as for solve_fast, start (3n,)."""
 
-    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> None:
+    def serve_fast(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None, coarse: CoarseSpace | None = None) -> None:
         """L-BFGS on the samples of a queue until it is closed and empty."""
 
     def serve_newton(self, queue: SampleQueue, expected: int, *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> None:
@@ -328,8 +331,10 @@ class SampleSystem:
         Newton's method on the samples of a queue until it is closed and empty.
         """
 
-    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None) -> Batch:
-        """Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n)."""
+    def solve_fast(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, control: SolveControl, lanes: int = 16, single: bool = False, settling: float = 0.0, modes: SoftModes | None = None, coarse: CoarseSpace | None = None) -> Batch:
+        """
+        Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n). With a coarse space inputs are (samples, input_size + d * d): after the system's come the inverse Hessians (d, d) of the samples on that space.
+        """
 
     def solve_newton(self, inputs: NDArray[numpy.float64], starts: NDArray[numpy.float64], *, tolerance: float, max_iterations: int, threads: int, projection: Projection, threshold: float, control: SolveControl) -> Batch:
         """

@@ -150,6 +150,22 @@ void bind_energy(nb::module_& m) {
           "Volume times first Piola-Kirchhoff stress (m, 9) and energy (m,) of each element: a "
           "tet, a triangle or a hinge, or the star of a vertex.")
       .def(
+          "some_tet_stresses",
+          [](const ElasticEnergy& self, VectorIn u, IndexVectorIn which) {
+            const std::vector<std::int32_t> some(which.data(), which.data() + which.size());
+            for (const std::int32_t element : some)
+              require(element >= 0 && element < self.elements(), "an element is not in the mesh");
+            DoublesOut stresses = new_array<double>({some.size(), 9}),
+                       energies = new_array<double>({some.size()});
+            const double* displacement = checked(self, u);
+            {
+              const nb::gil_scoped_release release;
+              self.tet_stresses(some, displacement, stresses.data(), energies.data());
+            }
+            return std::make_pair(stresses, energies);
+          },
+          nb::arg("u"), nb::arg("which"), "`tet_stresses` of some elements (c,): (c, 9) and (c,).")
+      .def(
           "stars",
           [](const ElasticEnergy& self) {
             require(self.stars.has_value(), "the material has no stars");

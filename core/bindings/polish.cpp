@@ -4,17 +4,6 @@
 
 namespace snapspace {
 
-namespace {
-
-Eigen::MatrixXf checked_inverse(const CoarseSpace& coarse, const MatrixIn& inverse) {
-  const auto d = static_cast<std::size_t>(coarse.dimension());
-  require(inverse.shape(0) == d && inverse.shape(1) == d, "the inverse must be (d, d)");
-  return Eigen::Map<const Eigen::MatrixXd>(inverse.data(), coarse.dimension(), coarse.dimension())
-      .cast<float>();
-}
-
-}  // namespace
-
 void bind_polish(nb::module_& m) {
   nb::class_<CoarseSpace>(m, "CoarseSpace",
                           "Modes (d, 3n) in the numbering of a system, in single precision.")
@@ -37,14 +26,16 @@ void bind_polish(nb::module_& m) {
                 "the input must be (input_size,)");
         require(start.size() == size && coarse.size() == size, "the start must be (3n,)");
         require(threads >= 1, "threads must be positive");
-        const Eigen::MatrixXf B = checked_inverse(coarse, inverse);
-        const Sample sample{0,
-                            {input.data(), input.data() + input.size()},
-                            {start.data(), start.data() + start.size()}};
+        const auto d = static_cast<std::size_t>(coarse.dimension());
+        require(inverse.shape(0) == d && inverse.shape(1) == d, "the inverse must be (d, d)");
+        Sample sample{0,
+                      {input.data(), input.data() + input.size()},
+                      {start.data(), start.data() + start.size()}};
+        sample.input.insert(sample.input.end(), inverse.data(), inverse.data() + d * d);
         const SolveOptions options{
             .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
         const nb::gil_scoped_release release;
-        return polish(system, coarse, B, sample, options, control);
+        return polish(system, coarse, sample, options, control);
       },
       nb::arg("system"), nb::arg("coarse"), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),
       nb::kw_only(), nb::arg("tolerance"), nb::arg("max_iterations"), nb::arg("threads"),

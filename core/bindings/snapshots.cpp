@@ -12,9 +12,16 @@ struct Batch {
   long linear_iterations = 0;
 };
 
-Sample checked_sample(const SampleSystem& system, int id, VectorIn input, VectorIn start) {
-  require(input.size() == static_cast<std::size_t>(system.input_size()),
-          "the input must be (input_size,)");
+/// Numbers of a sample's input, see LowRankSeed.
+std::size_t input_size(const SampleSystem& system, const CoarseSpace* coarse) {
+  const std::size_t d = coarse ? static_cast<std::size_t>(coarse->dimension()) : 0;
+  return static_cast<std::size_t>(system.input_size()) + d * d;
+}
+
+Sample checked_sample(const SampleSystem& system, const CoarseSpace* coarse, int id, VectorIn input,
+                      VectorIn start) {
+  require(input.size() == input_size(system, coarse),
+          "the input must be (input_size,), or with a coarse space (input_size + d * d,)");
   require(start.size() == static_cast<std::size_t>(system.size()), "the start must be (3n,)");
   return {
       id, {input.data(), input.data() + input.size()}, {start.data(), start.data() + start.size()}};
@@ -22,10 +29,11 @@ Sample checked_sample(const SampleSystem& system, int id, VectorIn input, Vector
 
 /// Solves rows of samples together, through a queue.
 template <class Solve>
-Batch solve_batch(const SampleSystem& system, const MatrixIn& inputs, const MatrixIn& starts,
-                  Solve solve) {
-  require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
-          "inputs must be (samples, input_size)");
+Batch solve_batch(const SampleSystem& system, const CoarseSpace* coarse, const MatrixIn& inputs,
+                  const MatrixIn& starts, Solve solve) {
+  require(inputs.shape(1) == input_size(system, coarse),
+          "inputs must be (samples, input_size), or with a coarse space (samples, input_size + d * "
+          "d)");
   require(starts.shape(0) == inputs.shape(0) &&
               starts.shape(1) == static_cast<std::size_t>(system.size()),
           "starts must be (samples, 3n)");
@@ -48,9 +56,13 @@ Batch solve_batch(const SampleSystem& system, const MatrixIn& inputs, const Matr
   return batch;
 }
 
-void require_fitting(const SampleSystem& system, const SoftModes* modes) {
-  require(!modes || modes->size() == static_cast<std::size_t>(system.size()),
+LowRankSeed checked_seed(const SampleSystem& system, const SoftModes* modes,
+                         const CoarseSpace* coarse) {
+  const auto size = static_cast<std::size_t>(system.size());
+  require((!modes || modes->size() == size) && (!coarse || coarse->size() == size),
           "the modes belong to another system");
+  require(!modes || !coarse, "a seed has soft modes or a coarse space, not both");
+  return {modes, coarse};
 }
 
 using System = SampleSystem;
@@ -118,25 +130,27 @@ void bind_system(nb::module_& m) {
           "gradients (k, 3n). Several are computed in one pack.")
       .def(
           "put",
-          [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start) {
-            queue.put(checked_sample(self, id, input, start));
+          [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start,
+             const CoarseSpace* coarse) {
+            queue.put(checked_sample(self, coarse, id, input, start));
           },
-          nb::arg("queue"), nb::arg("id"), nb::arg("input"), nb::arg("start"),
-          "Puts a sample into a queue: input (input_size,), start (3n,).")
+          nb::arg("queue"), nb::arg("id"), nb::arg("input"), nb::arg("start"), nb::kw_only(),
+          nb::arg("coarse").none() = nb::none(),
+          "Puts a sample into a queue: input as for solve_fast, start (3n,).")
       .def(
           "serve_fast",
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
              int max_iterations, int threads, SolveControl& control, int lanes, bool single,
-             double settling, const SoftModes* modes) {
+             double settling, const SoftModes* modes, const CoarseSpace* coarse) {
             const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
-            require_fitting(self, modes);
+            const LowRankSeed seed = checked_seed(self, modes, coarse);
             nb::gil_scoped_release release;
-            solve_fast(self, modes, queue, expected, options, control);
+            solve_fast(self, seed, queue, expected, options, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, nb::arg("settling") = 0.0,
-          nb::arg("modes").none() = nb::none(),
+          nb::arg("modes").none() = nb::none(), nb::arg("coarse").none() = nb::none(),
           "L-BFGS on the samples of a queue until it is closed and empty.")
       .def(
           "serve_newton",
@@ -156,19 +170,22 @@ void bind_system(nb::module_& m) {
           "solve_fast",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
              int max_iterations, int threads, SolveControl& control, int lanes, bool single,
-             double settling, const SoftModes* modes) {
+             double settling, const SoftModes* modes, const CoarseSpace* coarse) {
             const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
-            require_fitting(self, modes);
-            return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
-              solve_fast(self, modes, queue, count, options, control);
+            const LowRankSeed seed = checked_seed(self, modes, coarse);
+            return solve_batch(self, coarse, inputs, starts, [&](SampleQueue& queue, int count) {
+              solve_fast(self, seed, queue, count, options, control);
               return 0L;
             });
           },
           nb::arg("inputs"), nb::arg("starts"), nb::kw_only(), nb::arg("tolerance"),
           nb::arg("max_iterations"), nb::arg("threads"), nb::arg("control"), nb::arg("lanes") = 16,
           nb::arg("single") = false, nb::arg("settling") = 0.0,
-          nb::arg("modes").none() = nb::none(),
-          "Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n).")
+          nb::arg("modes").none() = nb::none(), nb::arg("coarse").none() = nb::none(),
+          "Solves by L-BFGS; inputs (samples, input_size), starts (samples, 3n). With a coarse "
+          "space "
+          "inputs are (samples, input_size + d * d): after the system's come the inverse Hessians "
+          "(d, d) of the samples on that space.")
       .def(
           "solve_newton",
           [](const System& self, MatrixIn inputs, MatrixIn starts, double tolerance,
@@ -176,7 +193,7 @@ void bind_system(nb::module_& m) {
              SolveControl& control) {
             const SolveOptions options{
                 .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
-            return solve_batch(self, inputs, starts, [&](SampleQueue& queue, int count) {
+            return solve_batch(self, nullptr, inputs, starts, [&](SampleQueue& queue, int count) {
               return solve_newton(self, queue, count, options, {projection, threshold}, control);
             });
           },

@@ -12,8 +12,11 @@ namespace snapspace {
 
 namespace {
 
-void star_stresses(const VertexStars& stars, const double* u, double* stresses, double* energies) {
-  for (int star = 0; star < stars.count(); ++star) {
+template <class Place>
+void star_stresses(const VertexStars& stars, int count, const Place& place, const double* u,
+                   double* stresses, double* energies) {
+  for (int k = 0; k < count; ++k) {
+    const int star = place(k);
     double numbers[ShellArap::kModuli], H[3][3], P[3][3];
     stars.write_numbers(star, numbers);
     numbers[0] = stars.weights[star];
@@ -74,19 +77,32 @@ void ElasticEnergy::hessian_product(const double* u, const double* v, double* pr
   }
 }
 
-void ElasticEnergy::tet_stresses(const double* u, double* stresses, double* energies) const {
-  if (stars) return star_stresses(*stars, u, stresses, energies);
+template <class Place>
+void ElasticEnergy::stresses_at(int count, const Place& place, const double* u, double* stresses,
+                                double* energies) const {
+  if (stars) return star_stresses(*stars, count, place, u, stresses, energies);
   const TetMaterial view = material.view();
-  const int count = material_moduli(view.kind);
+  const auto numbers = static_cast<std::size_t>(material_moduli(view.kind));
   Densities::with(view.kind, [&]<class Density>() {
-    for (int t = 0; t < tets(); ++t) {
+    for (int k = 0; k < count; ++k) {
+      const int t = place(k);
       double G[3][3], P[3][3];
       displacement_gradient(rest.tets[t], u, G);
-      *energies++ = Density::value_and_stress(&moduli_[t * std::size_t(count)], G, P);
+      *energies++ = Density::value_and_stress(&moduli_[t * numbers], G, P);
       for (const auto& row : P)
         for (const double entry : row) *stresses++ = entry;
     }
   });
+}
+
+void ElasticEnergy::tet_stresses(const double* u, double* stresses, double* energies) const {
+  stresses_at(elements(), [](int k) { return k; }, u, stresses, energies);
+}
+
+void ElasticEnergy::tet_stresses(const std::vector<std::int32_t>& which, const double* u,
+                                 double* stresses, double* energies) const {
+  stresses_at(
+      static_cast<int>(which.size()), [&](int k) { return which[k]; }, u, stresses, energies);
 }
 
 std::vector<double> ElasticEnergy::stiffnesses() const {

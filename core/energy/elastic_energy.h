@@ -74,6 +74,9 @@ class ElasticEnergy {
   /// Volume times first Piola-Kirchhoff stress (elements x 9, row by row) and energies (elements)
   /// at u. Of stars they are those of the density ShellArap.
   void tet_stresses(const double* u, double* stresses, double* energies) const;
+  /// The same for some elements, in their order.
+  void tet_stresses(const std::vector<std::int32_t>& which, const double* u, double* stresses,
+                    double* energies) const;
 
   /// 2 mu + lam of each tet: the largest stiffness of its small strains.
   [[nodiscard]] std::vector<double> stiffnesses() const;
@@ -102,6 +105,10 @@ class ElasticEnergy {
   [[nodiscard]] int inverted_tets(const double* u) const;
 
  private:
+  template <class Place>
+  void stresses_at(int count, const Place& place, const double* u, double* stresses,
+                   double* energies) const;
+
   template <class T>
   [[nodiscard]] const StreamedVector<T>& weighted_moduli() const;
   template <class Real>

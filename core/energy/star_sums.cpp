@@ -121,7 +121,13 @@ Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
                                    Real* gradient) {
   using T = typename ScalarOf<Real>::type;
   const std::vector<std::int32_t>&starts = poses[0]->first_corner, &corners = poses[0]->corners;
-  const int pose_count = static_cast<int>(poses.size());
+  std::vector<int> used;  // poses that count in any lane
+  for (int k = 0; k < static_cast<int>(poses.size()); ++k)
+    for (int lane = 0; lane < Real::kWidth; ++lane)
+      if (pose_weights[k][lane] != 0.0) {
+        used.push_back(k);
+        break;
+      }
   std::vector<Real> edges, forces;
   Sum<Real> energy(0.0);
   for (int star = begin; star < end; ++star) {
@@ -176,17 +182,17 @@ Sum<Real> VertexStars::add_blended(const std::vector<const VertexStars*>& poses,
       energy += widened(sum);
     };
     TurnedStar<Real> one, other;
-    for (int k = 0; k < pose_count; k += 2) {
-      gather(k, one);
-      if (k + 1 == pose_count) {
+    for (std::size_t k = 0; k < used.size(); k += 2) {
+      gather(used[k], one);
+      if (k + 1 == used.size()) {
         nearest_turn(one.L, one.H, one.W);
-        add(k, one);
+        add(used[k], one);
         break;
       }
-      gather(k + 1, other);
+      gather(used[k + 1], other);
       turn_both(one, other);
-      add(k, one);
-      add(k + 1, other);
+      add(used[k], one);
+      add(used[k + 1], other);
     }
     for (int j = 0; j < count; ++j)
       for (int r = 0; r < 3; ++r) {

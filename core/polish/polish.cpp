@@ -4,8 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "polish/two_level.h"
+#include "polish/lowest_shape.h"
 #include "snapshots/run_lanes.h"
+#include "snapshots/two_level.h"
 #include "threads/flush_denormals.h"
 
 namespace snapspace {
@@ -33,16 +34,16 @@ struct OneSample final : SampleExchange {
 
 }  // namespace
 
-Solution polish(const SampleSystem& system, const CoarseSpace& coarse,
-                const Eigen::MatrixXf& inverse, const Sample& sample, const SolveOptions& options,
-                const SolveControl& control) {
+Solution polish(const SampleSystem& system, const CoarseSpace& coarse, const Sample& sample,
+                const SolveOptions& options, const SolveControl& control) {
   const FlushDenormals flush;
   OneSample exchange(sample);
   system.numbering.to_internal(sample.start.data(), exchange.waiting->start.data());
   LowestShape lowest;
-  // B already has the right scale, so the seed is not scaled.
-  run_lanes(kLongMemory, on_two_levels(system.lanes(), coarse, inverse, lowest), 2, options,
-            options.threads, exchange, control);
+  const LaneObjectives objectives = on_two_levels(system.lanes(), system.input_size(), coarse);
+  // The inverse has the right scale, so the seed is not scaled.
+  run_lanes(kLongMemory, watched(objectives, lowest), 2, options, options.threads, exchange,
+            control);
 
   Solution result{sample.id, {}, sample.start};
   std::vector<double> internal = std::move(lowest.shape);

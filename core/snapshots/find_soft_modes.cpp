@@ -155,7 +155,7 @@ SoftModes soft_modes(const Columns& columns, const std::vector<double>& values) 
   double weights[SoftModes::kCount];
   for (int k = 0; k < SoftModes::kCount; ++k)
     weights[k] = values[k] > 0.0 ? 1.0 / (kStiffening * values[k]) : 0.0;
-  return {std::move(modes), weights};
+  return {EightModes(std::move(modes)), weights};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "snapshots/newton.h"
 #include "snapshots/run_lanes.h"
 #include "snapshots/softened.h"
+#include "snapshots/two_level.h"
 #include "threads/flush_denormals.h"
 #include "threads/parallel.h"
 
@@ -21,6 +22,11 @@ int thread_count(int wanted) {
 
 /// Packs have at least two samples: alone in a pack, a sample would cost nearly as much as two.
 int pack_count(int expected, int threads) { return std::clamp((expected + 1) / 2, 1, threads); }
+
+LaneObjectives seeded(const SampleSystem& system, const LowRankSeed& seed) {
+  if (seed.coarse) return on_two_levels(system.lanes(), system.input_size(), *seed.coarse);
+  return seed.modes ? softened(system.lanes(), *seed.modes) : system.lanes();
+}
 
 /// The queue as one solver sees it, in the numbering of the system. It does not allocate per
 /// sample: that would cost more than the copy.
@@ -61,9 +67,11 @@ class QueueExchange final : public SampleExchange {
 
 }  // namespace
 
-void solve_fast(const SampleSystem& system, const SoftModes* modes, SampleQueue& queue,
+void solve_fast(const SampleSystem& system, const LowRankSeed& seed, SampleQueue& queue,
                 int expected, const SolveOptions& options, SolveControl& control) {
-  const LaneObjectives objectives = modes ? softened(system.lanes(), *modes) : system.lanes();
+  const LaneObjectives objectives = seeded(system, seed);
+  // The inverses of samples have the right scale, so that seed is not scaled.
+  const LbfgsMemory memory = seed.coarse ? kLongMemory : system.memory();
   const int threads = thread_count(options.threads), packs = pack_count(expected, threads);
   // Wide enough for all samples. The width does not change results, and packs get narrower towards
   // the end.
@@ -72,7 +80,7 @@ void solve_fast(const SampleSystem& system, const SoftModes* modes, SampleQueue&
   parallel_for(packs, packs, [&](int) {
     const FlushDenormals flush;
     QueueExchange exchange(system, queue, control);
-    run_lanes(system.memory(), objectives, width, options, threads / packs, exchange, control);
+    run_lanes(memory, objectives, width, options, threads / packs, exchange, control);
   });
 }
 

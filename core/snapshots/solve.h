@@ -1,4 +1,5 @@
 #pragma once
+#include "snapshots/coarse_space.h"
 #include "snapshots/sample_queue.h"
 #include "snapshots/sample_system.h"
 #include "snapshots/soft_modes.h"
@@ -6,13 +7,20 @@
 
 namespace snapspace {
 
+/// What is added to the inverse of the scalar matrix: nothing, soft modes that all samples share,
+/// or the inverse Hessian of each sample on a coarse space. Then the input of a sample is that of
+/// the system and after it this inverse, see `on_two_levels`.
+struct LowRankSeed {
+  const SoftModes* modes = nullptr;
+  const CoarseSpace* coarse = nullptr;
+};
+
 /// Solves the samples of a queue until it is closed and empty, or the control cancels, by L-BFGS on
 /// the scalar factor: one sample per lane, and a pack of lanes per thread. The result of a sample
 /// does not depend on the number of threads or on which samples are solved together.
-/// @param modes     deformations that the factor mistakes for stiff; may be null
 /// @param expected  number of samples that will come in all; with few samples, each pack gets
 ///                  several threads
-void solve_fast(const SampleSystem& system, const SoftModes* modes, SampleQueue& queue,
+void solve_fast(const SampleSystem& system, const LowRankSeed& seed, SampleQueue& queue,
                 int expected, const SolveOptions& options, SolveControl& control);
 
 /// The same by Newton's method, one sample per thread at a time.

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import SnapshotGram
-from ..greedy import batch_checkpoint, reduced_solutions
+from ..greedy import batch_checkpoint
 from ..problem import InterpolationProblem, PosingProblem, solutions_beyond_tau
 from ..reduction import InterpolationModel, PosingModel
 from ..sampling import Method, sample
-from ..snapshots import SampleReport, Snapshots, solve_snapshots
+from ..session import predicted_solutions
+from ..snapshots import Snapshots, solve_snapshots
 from ..subspace import AffineSubspace
 from .solving import Solving
 
 FloatArray = NDArray[np.float64]
+Model = PosingModel | InterpolationModel
 
 
 class GrowingSamples:
@@ -28,6 +32,9 @@ class GrowingSamples:
     method, seed : as for `sample`
     first, held_out : int
         The `first` samples train, the next `held_out` are held out, and all others train again.
+    pilot : int, default 0
+        So many of the first samples are solved before others are predicted, all but the held-out
+        ones.
     """
 
     def __init__(
@@ -39,9 +46,11 @@ class GrowingSamples:
         seed: int,
         first: int,
         held_out: int,
+        pilot: int = 0,
     ) -> None:
         self.problem = problem
         self.parameters = sample(problem.domain, most, method=method, seed=seed)
+        self._pilot = pilot
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start
@@ -60,6 +69,13 @@ class GrowingSamples:
         judges = np.zeros(len(self.snapshots), bool)
         judges[self._judges.start : self._judges.stop] = True
         return judges
+
+    @property
+    def solved(self) -> Snapshots | None:
+        """The usable samples that are not held out; None if there are none."""
+        if self._snapshots is None or not (which := self._snapshots.usable & ~self.held_out).any():
+            return None
+        return self._snapshots.select(which)
 
     @property
     def trained(self) -> Snapshots:
@@ -100,20 +116,22 @@ class GrowingSamples:
         return loose
 
     def solve_up_to(
-        self, count: int, solving: Solving, *, model: PosingModel | InterpolationModel | None
+        self, count: int, solving: Solving, *, predict: Callable[[], Model | None]
     ) -> None:
         """Solves the samples before `count` that are not solved yet.
 
-        The solves start from the reduced solutions of `model`, if there is one, and then take half
-        as many iterations.
+        predict : returns the model that predicts the next samples, see `predicted_solutions`
         """
         usual, judging = solving.usual(self.problem), solving.judging(self.problem)
-        parts = ((self._judges.start, usual), (self._judges.stop, judging), (count, usual))
+        first, judged = self._judges.start, self._judges.stop
+        parts = ((self._pilot, usual), (first, usual), (judged, judging), (count, usual))
         for end, chosen in parts:
             before = 0 if self._snapshots is None else len(self._snapshots)
             if end <= before or end > count:
                 continue
             wanted = self.parameters[before:end]
+            # a model of the pilot is rough: held-out samples stay independent of it
+            model = None if self._pilot and chosen is judging else predict()
             solved = solve_snapshots(
                 self.problem,
                 wanted,
@@ -124,22 +142,11 @@ class GrowingSamples:
                     solving.checkpoint, before, self.problem, wanted, chosen
                 ),
                 executor=solving.executor,
-                known=self._starts(model, wanted),
+                known=self._first_known if self._snapshots is None else self._snapshots,
+                predictions=None if model is None else predicted_solutions(model, wanted),
             )
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=solving.threads or 0)
-
-    def _starts(
-        self, model: PosingModel | InterpolationModel | None, parameters: FloatArray
-    ) -> Snapshots | None:
-        """The solved samples, and the reduced solutions of `model` for samples that are not."""
-        if model is None:
-            return self._first_known if self._snapshots is None else self._snapshots
-        shapes = reduced_solutions(model, parameters) + self.problem.base
-        guess = SampleReport("carried", 0, 0, 0.0, 0.0, 0.0, 0.0, 0)
-        reports = [guess] * len(parameters)
-        guesses = Snapshots.from_shapes(self.problem, parameters, shapes, reports)
-        return guesses if self._snapshots is None else self._snapshots.joined(guesses)
 
     def projection_errors(self) -> FloatArray:
         """Errors of projections onto bases of the others, see `SnapshotGram.held_out_errors`."""

@@ -22,6 +22,7 @@ from .dimension_search import DimensionSearch
 from .growing_samples import GrowingSamples
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, usual_most_samples
+from .predicting import Predicting
 from .solving import Solving
 from .step import Step
 
@@ -108,6 +109,7 @@ class ModelSearch:
             self._near = min(wanted, self._most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made from the old one
+        self._predicting = Predicting(self._model)
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -117,6 +119,7 @@ class ModelSearch:
             method=self._plan.sampling,
             seed=options.seed,
             first=0 if self._old else self._plan.first,  # the old model has trained already
+            pilot=self._plan.pilot,
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -179,9 +182,7 @@ class ModelSearch:
             stages.insert(0, self._plan.held_out)
         for stage, count in enumerate(stages):
             self._begins("snapshots")
-            self.samples.solve_up_to(
-                count, self._solving, model=self.best.model if self.best else self._first
-            )
+            self.samples.solve_up_to(count, self._solving, predict=self._predict)
             last = count == self._most or self._is_too_late(count, stages[stage + 1])
             # the least: where more dimensions do not help, the ratio grows and means nothing
             ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
@@ -200,6 +201,14 @@ class ModelSearch:
             target = f"{100 * self.target:.2g} %"
             self._tell(f"no dimension of {count} samples meets {target}: more samples")
 
+    def _predict(self) -> Model | None:
+        """The model that predicts the next samples, if there is one."""
+        if not self._plan.pilot:
+            return self.best.model if self.best else self._first
+        model = self._predicting.model(self.samples.solved)
+        self._begins("snapshots")
+        return model
+
     def _begin_with(self, old: OldModel) -> Snapshots:
         """Returns shapes near solutions, and makes the first model of these and the old shapes."""
         self._begins("snapshots")
@@ -209,13 +218,14 @@ class ModelSearch:
         basis = near.joined(old.shapes)
         self.samples.begin_with(old.shapes, near)
         most = min(plan.most_dimensions, old.dimension + len(near) // 2, len(basis) - 1)
-        self._first = self._model(basis, most, trained=near)
+        self._first = self._model(basis, most, near)
         return near
 
     def _taken(self, trial: Trial) -> Trial:
         """Reports and records a trial, and returns it."""
         self._tell(str(trial.step))
         self.steps.append(trial.step)
+        self._predicting.take(trial.model, self.samples.trained)
         if self.best is None or trial.step.error < self.best.step.error:
             self.best = trial
         return trial
@@ -250,7 +260,7 @@ class ModelSearch:
         return Trial(step, model, unseen)
 
     def _model(
-        self, snapshots: Snapshots, dimension: int, *, trained: Snapshots | None = None
+        self, snapshots: Snapshots, dimension: int, trained: Snapshots | None = None
     ) -> Model:
         """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")

@@ -29,6 +29,8 @@ class Plan:
     typical_name, unseen_name : names of the statistic and of unseen samples, for the user
     sampling : method of the samples
     first : number of training samples of the first stage
+    pilot : how many of them make a model that predicts the others; then every stage makes a model
+        for the next one. 0: only models that may meet the target are made
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
         measured; too low a ratio costs models that miss the target
@@ -47,6 +49,7 @@ class Plan:
     unseen_name: str
     sampling: Method
     first: int
+    pilot: int
     held_out: int
     first_ratio: float
     most_dimensions: int
@@ -62,7 +65,8 @@ class Plan:
         if most >= together:
             return self
         held_out = max(FEWEST_HELD_OUT, self.held_out * most // together)
-        return replace(self, first=most - held_out, held_out=held_out)
+        first = most - held_out
+        return replace(self, first=first, pilot=min(self.pilot, first // 2), held_out=held_out)
 
     def stages(self, most: int) -> list[int]:
         """Numbers of samples of all stages, including held-out ones, up to `most`."""
@@ -82,6 +86,7 @@ BLENDS = Plan(
     unseen_name="blends",
     sampling="blends",
     first=32,
+    pilot=16,
     held_out=12,
     first_ratio=8.0,
     most_dimensions=200,
@@ -99,6 +104,7 @@ MOTIONS = Plan(
     unseen_name="motions",
     sampling="sobol",
     first=80,
+    pilot=0,
     held_out=16,
     first_ratio=4.0,
     most_dimensions=256,
@@ -114,7 +120,8 @@ def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
     """The plan for a problem; two poses take Sobol points, as `blends` adds only their middle."""
     if isinstance(problem, PosingProblem):
         return MOTIONS
-    return BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")
+    plan = BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")
+    return plan if problem.solving.model_seeds else replace(plan, pilot=0)
 
 
 def is_large(problem: PosingProblem | InterpolationProblem) -> bool:

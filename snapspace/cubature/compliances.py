@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 from concurrent.futures import ThreadPoolExecutor
+from copy import copy
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
+from .blended_sum import BlendedSum
+from .cubature import Cubature
 from .elastic_states import ElasticStates, PosingStates
 from .elements import elements_of
 from .sampled_tets import sampled_tets
@@ -22,34 +25,41 @@ SAMPLED = 2000
 LEAST = 0.3
 
 
+def sampled_energy(states: ElasticStates, ordered: NDArray[np.int32]) -> Cubature | BlendedSum:
+    """The energy summed over a sample of tets: one half has the largest forces.
+
+    ordered : (m,) tets in the order of `tets_by_force`
+    """
+    sample = sampled_tets(ordered, SAMPLED, seed=0)
+    volumes = sample.factors * elements_of(states.problem).measures[sample.tets]
+    return states.sum_over(sample.tets, volumes)
+
+
 @single_threaded_blas
 def compliances(
-    states: ElasticStates, ordered: NDArray[np.int32], *, threads: int | None = None
+    states: ElasticStates, sampled: Cubature | BlendedSum, *, threads: int | None = None
 ) -> FloatArray:
     """Inverse reduced Hessians (s, d, d) of the objective at states.
 
     Soft directions differ from state to state: they turn with a part that bends, and in the Lion's
     tail blends differ by a factor of five along the same direction. With the compliance of the rest
     or the mean shape for all states, cubatures of 500 tets have twice the error on the Dragon
-    (d = 120), and on four poses of the Lion. Hessians are estimated from a sample of tets: one half
-    has the largest forces, the other is random.
+    (d = 120), and on four poses of the Lion.
 
     Parameters
     ----------
     states : ElasticStates
         The s states.
-    ordered : (m,) int32
-        Tets in the order of `tets_by_force`.
+    sampled : Cubature, BlendedCubature or BlendedStars
+        Estimates Hessians: `sampled_energy`.
     threads : int, optional
         Default: all. The result is bitwise the same for any number.
     """
-    sample = sampled_tets(ordered, SAMPLED, seed=0)
-    volumes = sample.factors * elements_of(states.problem).measures[sample.tets]
     result = np.empty((len(states), states.subspace.dimension, states.subspace.dimension))
     workers = min(threads or os.cpu_count() or 1, max(len(states), 1))
 
     def fill(worker: int) -> None:
-        hessian = states.hessians(sample.tets, volumes)
+        hessian = states.hessians(copy(sampled))  # one thread may use it at a time
         least = LEAST * np.linalg.eigvalsh(hessian(None))[0]
         for k in range(worker, len(states), workers):
             values, vectors = np.linalg.eigh(hessian(k))
@@ -61,13 +71,13 @@ def compliances(
 
 
 def judging_compliances(
-    states: ElasticStates, ordered: NDArray[np.int32], *, threads: int | None = None
+    states: ElasticStates, sampled: Cubature | BlendedSum, *, threads: int | None = None
 ) -> FloatArray:
     """Compliances (s, d, d) for error reports: for posing, that of the rest shape for all states.
 
     Near buckling a state's own compliance is huge, and would make its error look huge.
     """
     if not isinstance(states, PosingStates):
-        return compliances(states, ordered, threads=threads)
+        return compliances(states, sampled, threads=threads)
     rest = states.rest
-    return np.repeat(compliances(rest, ordered, threads=threads), len(states), axis=0)
+    return np.repeat(compliances(rest, sampled, threads=threads), len(states), axis=0)

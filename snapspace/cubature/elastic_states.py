@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
-from .blended_cubature import BlendedCubature
-from .blended_sum import BlendedSum
+from .blended_sum import BlendedSum, blended_sum
 from .cubature import Cubature
 
 FloatArray = NDArray[np.float64]
@@ -80,8 +79,12 @@ class ElasticStates(Protocol):
         """Energies and forces at the states from `first`, with displacements (g, 3n)."""
         ...
 
-    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
-        """Estimates the Hessian (d, d) of the objective from some tets and their volumes.
+    def sum_over(self, tets: IntArray, volumes: FloatArray) -> Cubature | BlendedSum:
+        """The energy summed over some tets with these volumes."""
+        ...
+
+    def hessians(self, sampled: Any) -> Callable[[int | None], FloatArray]:
+        """Estimates the Hessian (d, d) of the objective by the energy of `sum_over`.
 
         The returned function takes the index of a state, or None for tau. Only one thread may call
         it at a time.
@@ -130,18 +133,20 @@ class PosingStates:
         if self.problem.energy.stars is not None:
             rest, slopes = self.problem.energy.stars.remainder_at(displacements)
             energies, gradients = energies - rest, gradients - slopes
-        single = [core.tet_stresses(u) for u in displacements] if len(tets) else []
-        stresses = np.array([P[tets] for P, _ in single]).reshape(len(single), len(tets), 9)
-        tet_energies = np.array([psi[tets] for _, psi in single]).reshape(len(single), len(tets))
+        single = [core.some_tet_stresses(u, tets) for u in displacements]
+        stresses, tet_energies = (np.array(part) for part in zip(*single, strict=True))
         return GroupForces(energies, gradients, stresses, tet_energies)
 
-    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
+    def sum_over(self, tets: IntArray, volumes: FloatArray) -> Cubature:
         """See `ElasticStates`."""
-        estimate = Cubature.of_tets(self.problem, self.subspace, tets, volumes)
+        return Cubature.of_tets(self.problem, self.subspace, tets, volumes)
+
+    def hessians(self, sampled: Cubature) -> Callable[[int | None], FloatArray]:
+        """See `ElasticStates`."""
 
         def hessian(state: int | None) -> FloatArray:
-            q = np.zeros(estimate.dimension) if state is None else self.coordinates[state]
-            return estimate.rough_hessian(q) + self.handle_hessian
+            q = np.zeros(sampled.dimension) if state is None else self.coordinates[state]
+            return sampled.rough_hessian(q) + self.handle_hessian
 
         return hessian
 
@@ -200,18 +205,17 @@ class BlendingStates:
         u = self.subspace.tau - self.problem.base + displacement
         return self.problem.system.tet_stresses(u, self.weights[state])
 
-    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
+    def sum_over(self, tets: IntArray, volumes: FloatArray) -> BlendedSum:
         """See `ElasticStates`."""
-        return self._hessians_of(
-            BlendedCubature.of_tets(self.problem, self.subspace, tets, volumes)
-        )
+        return blended_sum(self.problem, self.subspace, tets, volumes)
 
-    def _hessians_of(self, estimate: BlendedSum) -> Callable[[int | None], FloatArray]:
+    def hessians(self, sampled: BlendedSum) -> Callable[[int | None], FloatArray]:
+        """See `ElasticStates`."""
+
         def hessian(state: int | None) -> FloatArray:
             if state is None:
-                return estimate.rough_hessian(
-                    np.zeros(estimate.dimension), self.problem.domain.center
-                )
-            return estimate.rough_hessian(self.coordinates[state], self.weights[state])
+                mean = np.zeros(sampled.dimension)
+                return sampled.rough_hessian(mean, self.problem.domain.center)
+            return sampled.rough_hessian(self.coordinates[state], self.weights[state])
 
         return hessian

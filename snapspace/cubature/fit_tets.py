@@ -9,7 +9,7 @@ from typing import Any, Generic
 import numpy as np
 from numpy.typing import NDArray
 
-from .compliances import compliances, judging_compliances
+from .compliances import compliances, judging_compliances, sampled_energy
 from .elastic_states import States
 from .elements import elements_of
 from .held_out_errors import CubatureErrors
@@ -105,12 +105,13 @@ def fit_tets(
     with_forces, judging = trained.with_forces(), unseen.with_forces()
     ordered = tets_by_force(with_forces, threads=threads)
     several = max(min(budget.candidates * count, MOST_CANDIDATES), count)
+    sampled = sampled_energy(trained, ordered)
     candidates = sampled_tets(ordered, several, seed=seed).tets
     rows = training_rows(
         with_forces,
         state_forces(with_forces, candidates, threads=threads),
         candidates,
-        _repeated(compliances(trained, ordered, threads=threads), len(with_forces)),
+        _repeated(compliances(trained, sampled, threads=threads), len(with_forces)),
         directions=min(dimension, -(-ROWS * count // len(with_forces))),
         seed=seed,
         threads=threads,
@@ -127,7 +128,7 @@ def fit_tets(
         volumes=factors * measures[picked],
         unseen=judging,
         exact=state_forces(judging, np.zeros(0, np.int32), threads=threads),
-        compliances=_repeated(judging_compliances(unseen, ordered, threads=threads), len(judging)),
+        compliances=_repeated(judging_compliances(unseen, sampled, threads=threads), len(judging)),
         trained=len(with_forces),
         rows=len(rows.target),
         seed=seed,

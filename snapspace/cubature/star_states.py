@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
-from .blended_stars import BlendedStars
 from .elastic_states import BlendingStates, GroupForces
 
 FloatArray = NDArray[np.float64]
@@ -33,15 +31,18 @@ class BlendedStarStates(BlendingStates):
         stars = self.problem.pose_energies.stars or []
         for pose, (energy, one) in enumerate(zip(self._energies, stars, strict=True)):
             weights = self.weights[first : first + count, pose]
+            if not weights.any():
+                stresses[:, :, 9 * pose : 9 * pose + 9] = 0.0
+                continue
             moved = displacements + (self.subspace.tau - self.problem.pose_shapes[pose])
             values, slopes = energy.lane_values_and_gradients(moved)
             rest, rest_slopes = one.remainder_at(moved)
             energies += weights * (values - rest)
             gradients += weights[:, None] * (slopes - rest_slopes)
             for k, u in enumerate(moved if len(tets) else ()):
-                P, psi = energy.tet_stresses(u)
-                stresses[k, :, 9 * pose : 9 * pose + 9] = weights[k] * P[tets]
-                tet_energies[k] += weights[k] * psi[tets]
+                P, psi = energy.some_tet_stresses(u, tets)
+                stresses[k, :, 9 * pose : 9 * pose + 9] = weights[k] * P
+                tet_energies[k] += weights[k] * psi
         return GroupForces(energies, gradients, stresses, tet_energies)
 
     def stresses(self, state: int, displacement: FloatArray) -> FloatArray:
@@ -53,10 +54,6 @@ class BlendedStarStates(BlendingStates):
             )
         ]
         return np.hstack(parts)
-
-    def hessians(self, tets: IntArray, volumes: FloatArray) -> Callable[[int | None], FloatArray]:
-        """See `ElasticStates`."""
-        return self._hessians_of(BlendedStars.of_tets(self.problem, self.subspace, tets, volumes))
 
     @property
     def _energies(self) -> list[core.ElasticEnergy]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
-from ..material import Material, StVK
+from ..material import ARAP, Material, StVK
 
 FloatArray = NDArray[np.float64]
 Projection = Literal["stretches", "clamp", "absolute"]
@@ -31,6 +31,8 @@ class SolverTraits:
     soft_modes : returns the modes that the system's scalar factor mistakes for stiff, or None if
         unknown; the first call computes them, and the problem keeps them
     system_near : returns the compiled problem for solutions near a displacement (3n,)
+    model_seeds : whether the Hessians of a reduced model improve the seed of a solve that starts
+        from its solution, see `Predictions`
     """
 
     tolerance: float
@@ -41,6 +43,7 @@ class SolverTraits:
     far_apart: bool
     soft_modes: Callable[[], core.SoftModes | None]
     system_near: Callable[[FloatArray], Any]
+    model_seeds: bool
 
 
 #: Iterations on the shared factor after which an interpolated sample gets its own factor. Most take
@@ -103,6 +106,7 @@ def posing_traits(
         far_apart=material.barrier,
         soft_modes=soft_modes,
         system_near=system_near,
+        model_seeds=False,
     )
 
 
@@ -124,6 +128,10 @@ def interpolation_traits(
     Nothing holds the shape, and poses differ in what is soft. So no soft modes are known, and
     shapes move along them in steps too short for settling to be recognised: the tolerance must be
     tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
+
+    Surfaces as rigid as possible take 130 to 200 evaluations, from starts of a model 40 to 140, and
+    with its Hessians in the seed 20 to 90. Four Lions of tets take 35 with a model's starts and 33
+    with its Hessians, and motions of a creature 23 with either.
     """
     return SolverTraits(
         tolerance=1e-9,
@@ -134,4 +142,5 @@ def interpolation_traits(
         far_apart=True,
         soft_modes=lambda: None,
         system_near=system_near,
+        model_seeds=shell and isinstance(material, ARAP),
     )

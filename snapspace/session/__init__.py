@@ -6,6 +6,7 @@ from .frame_report import FrameReport
 from .mirror_pose import mirror_pose
 from .polish import Polished
 from .posing_session import PosingSession
+from .predictions import predicted_solutions
 from .session import Session
 
 __all__ = [
@@ -16,4 +17,5 @@ __all__ = [
     "PosingSession",
     "Session",
     "mirror_pose",
+    "predicted_solutions",
 ]

@@ -15,16 +15,12 @@ from .. import _core as core
 from ..interruptible import run_abandonable, run_interruptible
 from ..mesh import mass_norm
 from ..problem import Problem
-from ..snapshots import SampleReport
+from ..snapshots import SampleReport, positive_inverse
 from ..snapshots.fast_solve import as_sample_report
 from ..subspace import AffineSubspace
 
 FloatArray = NDArray[np.float64]
 Place = Callable[[FloatArray], FloatArray]
-
-#: Curvatures are raised to at least this share of the largest: away from a minimum a reduced
-#: Hessian may have negative ones, and a seed must be positive definite.
-LEAST_CURVATURE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +100,7 @@ class Polisher:
         begin = time.perf_counter()
         start = self._subspace.shape(q) - self._problem.base
         how = {"tolerance": tolerance, "max_iterations": iterations}
-        solution = self._solve(start, inputs, _positive_inverse(hessian), how, should_stop)
+        solution = self._solve(start, inputs, positive_inverse(hessian), how, should_stop)
         after = self._problem.registered(solution.shape[None])[0]
         before = self._problem.registered(start[None])[0]
         moved = mass_norm(self._subspace.mass, after - before)
@@ -152,11 +148,3 @@ def relative(distance: float, size: float) -> float:
     if size > 0:
         return distance / size
     return math.inf if distance > 0 else 0.0
-
-
-def _positive_inverse(hessian: FloatArray) -> FloatArray:
-    """Inverse of |H|, with eigenvalues raised to a share of the largest [Nocedal & Wright, 3.4]."""
-    values, vectors = np.linalg.eigh(hessian)
-    sizes = np.abs(values)
-    sizes = np.maximum(sizes, LEAST_CURVATURE * sizes.max())
-    return np.ascontiguousarray((vectors / sizes) @ vectors.T)

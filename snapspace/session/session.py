@@ -114,6 +114,11 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         q: FloatArray = self._loop.q
         return q
 
+    def hessian(self) -> FloatArray:
+        """Hessian (d, d) of the reduced objective at the current shape, for its parameters."""
+        hessian: FloatArray = self._loop.hessian(self.q)
+        return hessian
+
     @property
     def vertices(self) -> FloatArray:
         """Vertices tau + U q of the current shape, (n, 3), in the mesh's length unit."""
@@ -193,7 +198,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         return self._polisher.polish(
             q,
             self._inputs(),
-            self._loop.hessian(q),
+            self.hessian(),
             self._placed,
             iterations=iterations,
             tolerance=tolerance,

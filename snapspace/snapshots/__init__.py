@@ -2,6 +2,7 @@
 
 from .carry import carry_over
 from .checkpoint import Checkpoint, CheckpointNotice, UnsavedSamplesError, run_key
+from .predictions import Predictions, positive_inverse
 from .run import Interrupted
 from .snapshot_file import SAMPLES_SUFFIX, load_snapshots, save_snapshots
 from .snapshots import SampleReport, Snapshots
@@ -18,6 +19,7 @@ __all__ = [
     "Checkpoint",
     "CheckpointNotice",
     "Interrupted",
+    "Predictions",
     "Progress",
     "SampleReport",
     "Snapshots",
@@ -27,6 +29,7 @@ __all__ = [
     "carry_over",
     "load_snapshots",
     "lowest_start",
+    "positive_inverse",
     "run_key",
     "save_snapshots",
     "solve_snapshots",

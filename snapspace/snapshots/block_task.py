@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..interruptible import run_interruptible
-from ..problem import Problem
 from .fast_solve import as_sample_report, solve_fast
-from .held_problems import HELD_PROBLEMS
+from .held_problems import HELD_PROBLEMS, HeldProblem
 from .solved import Solved
 from .solver_options import ResolvedOptions
 from .worker_names import worker_name
@@ -62,24 +61,25 @@ def solve_block(task: BlockTask) -> BlockAnswer:
     worker = worker_name()
     context = HELD_PROBLEMS.run_context(task.run, task.options)
     if context is not None:
-        return BlockAnswer(worker, _solved(task, context.problem, context.control))
-    problem = HELD_PROBLEMS.received(task.problem, task.payload, task.options)
-    if problem is None:
+        return BlockAnswer(worker, _solved(task, context.held, context.control))
+    held = HELD_PROBLEMS.received(task.problem, task.payload, task.options)
+    if held is None:
         return BlockAnswer(worker, None)
     solved, _ = run_interruptible(
-        lambda control: _solved(task, problem, control), lambda finished: None
+        lambda control: _solved(task, held, control), lambda finished: None
     )
     return BlockAnswer(worker, solved)
 
 
-def _solved(task: BlockTask, problem: Problem, control: core.SolveControl) -> list[Solved]:
-    options = task.options
+def _solved(task: BlockTask, held: HeldProblem, control: core.SolveControl) -> list[Solved]:
+    problem, options, arrays = held.problem, task.options, (task.inputs, task.starts)
     if options.solver == "fast":
-        shapes, reports = solve_fast(problem, task.inputs, task.starts, control, options, threads=1)
+        shapes, reports = solve_fast(
+            problem, *arrays, control, options, threads=1, coarse=held.coarse
+        )
     else:
         batch = problem.system.solve_newton(
-            task.inputs,
-            task.starts,
+            *arrays,
             tolerance=options.tolerance,
             max_iterations=options.max_iterations,
             projection=core.Projection[options.projection],

@@ -19,7 +19,8 @@ from .. import _core as core
 from ..problem import Problem
 from .block_task import BlockAnswer, BlockTask, solve_block
 from .executor_faults import cancelled_fault, refused_fault, task_fault
-from .held_problems import HELD_PROBLEMS, RunContext
+from .held_problems import HELD_PROBLEMS, HeldProblem, RunContext
+from .predictions import coarse_space
 from .solved import Solved
 from .solver_options import ResolvedOptions
 from .worker_names import for_worker
@@ -42,6 +43,8 @@ class ExecutorBackend:
         A problem that can be pickled. If its mean shape is not known, it is solved for here.
     options : ResolvedOptions
         A sample has the same bits as in a local run with the same options, whatever its block.
+    basis : (3n, d), optional
+        That of predictions, see `Predictions`; it is sent with the problem.
 
     Raises
     ------
@@ -53,16 +56,25 @@ class ExecutorBackend:
     For use by one thread. `payloads_sent` counts the problems sent: about one per worker process.
     """
 
-    def __init__(self, executor: Executor, problem: Problem, options: ResolvedOptions) -> None:
+    def __init__(
+        self,
+        executor: Executor,
+        problem: Problem,
+        options: ResolvedOptions,
+        *,
+        basis: FloatArray | None = None,
+    ) -> None:
         _ = problem.tau  # found once here, and not by every worker
         self.payloads_sent = 0
         self._executor = executor
         self._options = options
-        self._payload = _pickled(problem)
+        self._payload = _pickled(problem, basis)
         # not the fingerprint: that does not depend on a given mean shape
         self._key = hashlib.sha256(self._payload).hexdigest()
         self._run = uuid.uuid4().hex
-        self._context = RunContext(problem, core.SolveControl())
+        self._context = RunContext(
+            HeldProblem(problem, coarse_space(problem, basis)), core.SolveControl()
+        )
         HELD_PROBLEMS.share(self._run, self._context)
         self._numbers = count()
         self._in_flight: dict[Future[BlockAnswer], BlockTask] = {}
@@ -218,9 +230,11 @@ def _has_failed(future: Future[BlockAnswer]) -> bool:
     return future.cancelled() or future.exception() is not None
 
 
-def _pickled(problem: Problem) -> bytes:
+def _pickled(problem: Problem, basis: FloatArray | None) -> bytes:
     try:
-        return pickle.dumps(problem, protocol=pickle.HIGHEST_PROTOCOL)
+        # the core keeps a basis in single precision
+        single = None if basis is None else basis.astype(np.float32)
+        return pickle.dumps((problem, single), protocol=pickle.HIGHEST_PROTOCOL)
     except (pickle.PicklingError, TypeError, AttributeError) as error:
         raise ValueError(
             f"executor: the problem cannot be sent to workers ({error}); give its class a "

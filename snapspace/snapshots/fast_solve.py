@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ def solve_fast(
     options: ResolvedOptions,
     *,
     threads: int,
+    coarse: core.CoarseSpace | None = None,
 ) -> tuple[FloatArray, list[SampleReport]]:
     """Displacements (k, 3n) and reports of L-BFGS solves, with samples in lanes.
 
@@ -31,12 +33,14 @@ def solve_fast(
     Parameters
     ----------
     problem : Problem
-    inputs : (k, input_size); starts : (k, 3n) displacements
+    inputs : (k, input_size), of predictions with their inverses; starts : (k, 3n) displacements
     control : SolveControl
         Cancelled samples have the status cancelled.
     options : ResolvedOptions
     threads : int
         Number of threads, 0 for all.
+    coarse : CoarseSpace, optional
+        That of predictions; then there are no soft modes.
     """
     batch = problem.system.solve_fast(
         inputs,
@@ -47,7 +51,7 @@ def solve_fast(
         control=control,
         single=options.single,
         settling=options.settling,
-        modes=options.modes_of(problem),
+        **seed_of(problem, options, coarse),
     )
     shapes, reports = batch.shapes, [as_sample_report(report) for report in batch.reports]
     for k, report in enumerate(reports):
@@ -56,6 +60,13 @@ def solve_fast(
                 problem, inputs[k], shapes[k], report, control, options, threads=threads
             )
     return shapes, reports
+
+
+def seed_of(
+    problem: Problem, options: ResolvedOptions, coarse: core.CoarseSpace | None
+) -> dict[str, Any]:
+    """The low-rank part of the seed, as arguments of the core's solves."""
+    return {"coarse": coarse} if coarse is not None else {"modes": options.modes_of(problem)}
 
 
 def first_iterations(problem: Problem, options: ResolvedOptions) -> int:
@@ -80,7 +91,8 @@ def continue_solving(
 ) -> tuple[FloatArray, SampleReport]:
     """Continues one sample alone, on factors made for the shapes that it reaches.
 
-    inputs (input_size,); shape (3n,) and report are those reached so far. Returns the final ones.
+    inputs (input_size,), of which only the system's count; shape (3n,) and report are those reached
+    so far. Returns the final ones.
     """
     traits = problem.solving
     while needs_another_try(report, options):
@@ -88,7 +100,7 @@ def continue_solving(
             return shape, replace(report, status="cancelled")
         left = options.max_iterations - report.iterations
         again = traits.system_near(shape).solve_fast(
-            inputs[None],
+            inputs[None, : problem.system.input_size],
             shape[None],
             tolerance=options.tolerance,
             max_iterations=min(traits.patience or left, left),

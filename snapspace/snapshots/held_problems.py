@@ -11,6 +11,8 @@ from weakref import WeakValueDictionary
 
 from .. import _core as core
 from ..problem import Problem
+from .fast_solve import seed_of
+from .predictions import coarse_space
 from .solver_options import ResolvedOptions
 
 #: Enough for a cluster that serves two runs in turn; a problem with its factor can take GBs.
@@ -18,10 +20,23 @@ _MOST_RECEIVED = 2
 
 
 @dataclass(frozen=True, eq=False)
+class HeldProblem:
+    """A problem, and the coarse space of predictions of its samples, if there are any."""
+
+    problem: Problem
+    coarse: core.CoarseSpace | None
+
+    def prepare(self, options: ResolvedOptions) -> HeldProblem:
+        """Makes what all tasks share, unless it is made; returns this."""
+        _ = self.problem.system, seed_of(self.problem, options, self.coarse)
+        return self
+
+
+@dataclass(frozen=True, eq=False)
 class RunContext:
     """A run's problem and the control that ends its tasks, shared with those in its own process."""
 
-    problem: Problem
+    held: HeldProblem
     control: core.SolveControl
 
 
@@ -42,7 +57,7 @@ class HeldProblems:
         # building a factor under the lock makes one per process, not one per thread
         self._lock = threading.Lock()
         self._runs: WeakValueDictionary[str, RunContext] = WeakValueDictionary()
-        self._received: OrderedDict[str, Problem] = OrderedDict()
+        self._received: OrderedDict[str, HeldProblem] = OrderedDict()
 
     def share(self, run: str, context: RunContext) -> None:
         """Lets tasks in this process find a run's context for as long as it is referenced."""
@@ -54,27 +69,29 @@ class HeldProblems:
         with self._lock:
             context = self._runs.get(run)
             if context is not None:
-                _ = context.problem.system, options.modes_of(context.problem)
+                context.held.prepare(options)
             return context
 
-    def received(self, key: str, payload: bytes | None, options: ResolvedOptions) -> Problem | None:
+    def received(
+        self, key: str, payload: bytes | None, options: ResolvedOptions
+    ) -> HeldProblem | None:
         """The problem of this key, with system and modes made; from the payload if it is new.
 
         None if it is not held and there is no payload.
         """
         with self._lock:
-            problem = self._received.get(key)
-            if problem is None:
+            held = self._received.get(key)
+            if held is None:
                 if payload is None:
                     return None
-                problem = pickle.loads(payload)
-                assert problem is not None
-                self._received[key] = problem
-            _ = problem.system, options.modes_of(problem)
+                problem, basis = pickle.loads(payload)
+                held = HeldProblem(problem, coarse_space(problem, basis))
+                self._received[key] = held
+            held.prepare(options)
             self._received.move_to_end(key)
             while len(self._received) > _MOST_RECEIVED:
                 self._received.popitem(last=False)
-            return problem
+            return held
 
 
 HELD_PROBLEMS = HeldProblems()

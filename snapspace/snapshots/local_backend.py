@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 
 from .. import _core as core
 from ..problem import Problem
-from .fast_solve import as_sample_report, continue_solving, first_iterations, needs_another_try
+from .fast_solve import (
+    as_sample_report,
+    continue_solving,
+    first_iterations,
+    needs_another_try,
+    seed_of,
+)
+from .predictions import coarse_space
 from .solved import Solved
 from .solver_options import ResolvedOptions
 
@@ -30,13 +37,23 @@ class LocalBackend:
         Total number of samples that will be submitted.
     threads : int
         Number of threads, 0 for all.
+    basis : (3n, d), optional
+        That of predictions, see `Predictions`.
     """
 
     def __init__(
-        self, problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
+        self,
+        problem: Problem,
+        options: ResolvedOptions,
+        *,
+        expected: int,
+        threads: int,
+        basis: FloatArray | None = None,
     ) -> None:
         # made once, before threads ask for them, and where Ctrl-C can interrupt it
-        _ = problem.system, options.modes_of(problem)
+        _ = problem.system
+        self._coarse = coarse_space(problem, basis)
+        self._seed = seed_of(problem, options, self._coarse)
         self._problem = problem
         self._options = options
         self._threads = threads
@@ -52,7 +69,7 @@ class LocalBackend:
         """Adds samples: numbers, inputs (k, input_size), starts (k, 3n)."""
         for sample, w, start in zip(samples, inputs, starts, strict=True):
             self._inputs[sample] = w
-            self._problem.system.put(self._queue, sample, w, start)
+            self._problem.system.put(self._queue, sample, w, start, coarse=self._coarse)
 
     def wait(self, timeout: float) -> list[Solved]:
         """Newly finished samples, after at most `timeout` seconds; raises errors of the solvers."""
@@ -119,7 +136,7 @@ class LocalBackend:
             control=self._control,
             single=options.single,
             settling=options.settling,
-            modes=options.modes_of(self._problem),
+            **self._seed,
         )
 
     def _continue_solving(self, slow: Solved) -> Solved:

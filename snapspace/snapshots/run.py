@@ -22,6 +22,7 @@ from .executor_backend import ExecutorBackend
 from .guesses import Guesses
 from .held_out import HeldOutError
 from .local_backend import LocalBackend
+from .predictions import Predictions
 from .schedule import Schedule
 from .snapshots import SampleReport, Snapshots
 from .solve_progress import Progress, SolveProgress
@@ -53,7 +54,8 @@ class Run:
 
     Parameters
     ----------
-    problem, samples, options, progress, checkpoint, known, threads : as for `solve_snapshots`
+    problem, samples, options, progress, checkpoint, known, predictions, threads : as for
+        `solve_snapshots`
     """
 
     def __init__(
@@ -65,10 +67,14 @@ class Run:
         progress: Progress | None,
         checkpoint: Checkpoint | None,
         known: Snapshots | None,
+        predictions: Predictions | None,
         threads: int,
     ) -> None:
         self.problem = problem
         self.threads = threads
+        self.predictions = predictions
+        predicted = predictions if options.solver == "fast" else None
+        self.basis = None if predicted is None else predicted.basis
         self.samples = samples
         self.options = options
         self.checkpoint = checkpoint
@@ -121,10 +127,10 @@ class Run:
         backend: Backend
         if executor is None:
             backend = LocalBackend(
-                self.problem, self.options, expected=missing, threads=self.threads
+                self.problem, self.options, expected=missing, threads=self.threads, basis=self.basis
             )
         else:
-            backend = ExecutorBackend(executor, self.problem, self.options)
+            backend = ExecutorBackend(executor, self.problem, self.options, basis=self.basis)
         try:
             finish_guesses()
             self._solve_with(backend)
@@ -137,7 +143,7 @@ class Run:
 
     def _begin_guesses(self) -> Callable[[], None]:
         """Begins to make guesses for the first block; the returned function waits for them."""
-        if self.found or self.options.solver == "newton":
+        if self.found or self.options.solver == "newton" or self.predictions is not None:
             return lambda: None
         _ = self.problem.system  # otherwise two threads could both make it
         given = len(self.known_parameters)
@@ -212,6 +218,8 @@ class Run:
         # depend on where an earlier run was interrupted
         inputs = self.problem.inputs(self.samples[block])
         starts = self._starts(index, inputs)
+        if self.predictions is not None and self.options.solver == "fast":
+            inputs = self.predictions.with_inverses(inputs, slice(block.start, block.stop))
         if len(missing) < len(block):
             which = np.subtract(missing, block.start)
             inputs, starts = inputs[which], starts[which]
@@ -226,20 +234,33 @@ class Run:
         parameters = scaled(np.vstack([self.known_parameters, self.samples[before]]))
         rows = self.known_rows.followed_by([self.rows[i] for i in before])
         wanted = scaled(self.samples[block])
-        if self.options.solver == "newton":
-            return nearest_start(parameters, rows, wanted)
-        given = len(self.known_parameters)
-        corrected = self.guesses.corrected(
-            [given + i for i in block], [*range(given), *(given + i for i in before)], rows
-        )
-        if corrected is None:
-            corrected = interpolated_start(parameters, rows, wanted)
-        if not self.problem.solving.far_apart:
-            return corrected
+        newton = self.options.solver == "newton"
+        if self.predictions is not None:
+            guessed = self.predictions.displacements[block.start : block.stop]
+        elif newton:
+            guessed = nearest_start(parameters, rows, wanted)
+        else:
+            guessed = self._guessed(block, before, rows, parameters)
+        if newton or not self.problem.solving.far_apart:
+            return guessed
         nearest = nearest_start(parameters, rows, wanted)
         tau = np.broadcast_to(self.problem.tau - self.problem.base, nearest.shape)
-        guesses = [corrected, nearest, tau]
+        guesses = [guessed, nearest, tau]
         return lowest_start(self.problem.system, inputs, guesses, threads=self.threads)
+
+    def _guessed(
+        self, block: range, before: Sequence[int], rows: DisplacementRows, scaled: FloatArray
+    ) -> FloatArray:
+        """The problem's guesses for a block, or shapes interpolated from finished samples.
+
+        scaled : parameters of the rows, which are the known samples and those before the block
+        """
+        given = len(self.known_parameters)
+        finished = [*range(given), *(given + i for i in before)]
+        corrected = self.guesses.corrected([given + i for i in block], finished, rows)
+        if corrected is not None:
+            return corrected
+        return interpolated_start(scaled, rows, self.problem.domain.scaled(self.samples[block]))
 
     def _record(self, solved: Sequence[Solved]) -> None:
         for one in solved:

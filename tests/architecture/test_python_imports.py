@@ -153,6 +153,7 @@ ALLOWED: dict[str, set[str]] = {
         "problem",
         "reduction",
         "sampling",
+        "session",
         "snapshots",
         "subspace",
         "validation",

@@ -10,6 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from snapspace import ARAP, ElasticEnergy, PosingProblem, ShellMesh, SolverOptions, solve_snapshots
 
+from ..shapes import irregular_bar
 from ..taylor import gradient_order, value_order
 from .libigl_arap import libigl_energy, libigl_shape
 from .sheets import bumpy, equilateral, irregular, rolled, sphere
@@ -185,3 +186,18 @@ def test_the_solution_is_the_minimiser_of_libigl(mesh: ShellMesh) -> None:
     assert energy.value(ours) == pytest.approx(energy.value(theirs), rel=1e-4)
     moved = np.abs(ours - problem.base).max()
     np.testing.assert_allclose(ours.reshape(-1, 3), theirs, atol=3e-3 * moved)
+
+
+@pytest.mark.parametrize("kind", ["tets", "stars"])
+def test_stresses_of_some_elements_are_theirs_among_all(kind: str) -> None:
+    rng = np.random.default_rng(4)
+    tets = irregular_bar()
+    energy = (ElasticEnergy(tets, ARAP()) if kind == "tets" else energy_of(BALL)).core
+    u = 0.1 * rng.normal(size=3 * len(tets.vertices if kind == "tets" else BALL.vertices))
+    P, psi = energy.tet_stresses(u)
+    which = np.array([3, 0, 3], np.int32)
+    some, energies = energy.some_tet_stresses(u, which)
+    np.testing.assert_array_equal(some, P[which])
+    np.testing.assert_array_equal(energies, psi[which])
+    with pytest.raises(ValueError, match="an element is not in the mesh"):
+        energy.some_tet_stresses(u, np.array([len(P)], np.int32))

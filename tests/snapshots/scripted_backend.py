@@ -46,7 +46,12 @@ class Script:
         """Inside, a `ScriptedBackend` solves runs that have no executor."""
 
         def backend(
-            problem: Problem, options: ResolvedOptions, *, expected: int, threads: int
+            problem: Problem,
+            options: ResolvedOptions,
+            *,
+            expected: int,
+            threads: int,
+            basis: FloatArray | None,
         ) -> ScriptedBackend:
             return ScriptedBackend(problem, options, self)
 

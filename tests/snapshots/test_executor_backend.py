@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from snapspace.problem import Problem, solver_traits
+from snapspace.problem import solver_traits
 from snapspace.snapshots import SOLVERS
-from snapspace.snapshots.held_problems import HeldProblems
+from snapspace.snapshots.held_problems import HeldProblem, HeldProblems
 from snapspace.snapshots.solver_options import Solver
 
 from ..shapes import interpolation_problem
@@ -175,9 +175,9 @@ def test_a_problem_lives_no_longer_than_its_run() -> None:
 
 def test_a_worker_holds_only_a_few_problems() -> None:
     held = HeldProblems()
-    payloads = {str(k): pickle.dumps(posing_bar(stiffness=k)) for k in (1.0, 2.0, 3.0)}
+    payloads = {str(k): pickle.dumps((posing_bar(stiffness=k), None)) for k in (1.0, 2.0, 3.0)}
 
-    def received(key: str, payload: bytes | None = None) -> Problem | None:
+    def received(key: str, payload: bytes | None = None) -> HeldProblem | None:
         return held.received(key, payload, OPTIONS)
 
     assert received("1.0") is None
@@ -192,8 +192,8 @@ def test_a_worker_holds_only_a_few_problems() -> None:
 @pytest.mark.parametrize("soft_modes", [True, False])
 def test_a_worker_computes_soft_modes_only_on_request(soft_modes: bool) -> None:
     """They take as long as a few samples."""
-    problem = HeldProblems().received(
-        "key", pickle.dumps(posing_bar()), replace(OPTIONS, soft_modes=soft_modes)
+    held = HeldProblems().received(
+        "key", pickle.dumps((posing_bar(), None)), replace(OPTIONS, soft_modes=soft_modes)
     )
-    assert problem is not None
-    assert ("_soft_modes" in vars(problem)) == soft_modes
+    assert held is not None
+    assert ("_soft_modes" in vars(held.problem)) == soft_modes

@@ -1,0 +1,50 @@
+"""Predicting: models that only predict the next samples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..reduction import InterpolationModel, PosingModel
+from ..snapshots import Snapshots
+from .dimension_search import MODES_PER_SOLUTION
+
+Model = PosingModel | InterpolationModel
+#: Makes a model of snapshots, with a dimension, and with the snapshots that train its energy.
+Make = Callable[[Snapshots, int, Snapshots], Model]
+
+#: A model that only predicts samples has at most so many dimensions, its energy is trained by so
+#: many snapshots, and it is made anew once there are so many times as many samples.
+MOST_DIMENSIONS = 64
+TRAINED = 24
+ENOUGH = 1.4
+
+
+class Predicting:
+    """The models that predict samples, where solves gain much by that: `SolverTraits.model_seeds`.
+
+    Parameters
+    ----------
+    make : callable
+        Makes them.
+    """
+
+    def __init__(self, make: Make) -> None:
+        self._make = make
+        self._model: Model | None = None
+        self._count = 0  # of the samples that it is made of
+
+    def take(self, model: Model, solved: Snapshots) -> None:
+        """Takes a model that was made of these samples for another purpose."""
+        self._model, self._count = model, len(solved)
+
+    def model(self, solved: Snapshots | None) -> Model | None:
+        """The model that predicts the samples after these; None if there is none yet."""
+        count = 0 if solved is None else len(solved)
+        if solved is not None and count >= ENOUGH * self._count:
+            dimension = max(1, min(int(MODES_PER_SOLUTION * count), MOST_DIMENSIONS))
+            spread = np.linspace(0, count - 1, TRAINED).round().astype(int)
+            trained = solved.select(np.isin(np.arange(count), spread))
+            self.take(self._make(solved, dimension, trained), solved)
+        return self._model

@@ -1,0 +1,65 @@
+"""Predicting: when models that only predict samples are made, and of what."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+import pytest
+
+from snapspace import InterpolationModel, Snapshots, sample, solve_snapshots
+from snapspace.accurate.predicting import ENOUGH, MOST_DIMENSIONS, TRAINED, Predicting
+
+from ..shapes import interpolation_problem
+
+
+@pytest.fixture(scope="module")
+def solved() -> Snapshots:
+    problem = interpolation_problem()
+    few = solve_snapshots(problem, sample(problem.domain, 7, seed=0))
+    many = few
+    while len(many) < 100:  # only their number counts
+        many = many.joined(few)
+    return many
+
+
+def first(snapshots: Snapshots, count: int) -> Snapshots:
+    return snapshots.select(np.arange(len(snapshots)) < count)
+
+
+class Makes:
+    """Makes nothing, and records what of."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[int, int, int]] = []
+        self.predicting = Predicting(self.make)
+
+    def make(self, every: Snapshots, dimension: int, trained: Snapshots) -> InterpolationModel:
+        self.calls.append((len(every), dimension, len(trained)))
+        return cast("InterpolationModel", object())
+
+
+def test_before_any_sample_there_is_no_model() -> None:
+    assert Makes().predicting.model(None) is None
+
+
+def test_a_model_is_made_anew_once_there_are_enough_more_samples(solved: Snapshots) -> None:
+    makes = Makes()
+    model = makes.predicting.model(first(solved, 10))
+    assert model is not None and makes.calls == [(10, 8, 10)]
+    assert makes.predicting.model(first(solved, 13)) is model
+    assert makes.predicting.model(first(solved, round(10 * ENOUGH))) is not model
+    assert len(makes.calls) == 2
+
+
+def test_dimension_and_training_are_bounded(solved: Snapshots) -> None:
+    makes = Makes()
+    makes.predicting.model(solved)
+    assert makes.calls == [(len(solved), MOST_DIMENSIONS, TRAINED)]
+
+
+def test_a_model_made_for_another_purpose_serves_as_well(solved: Snapshots) -> None:
+    makes, model = Makes(), cast("InterpolationModel", object())
+    makes.predicting.take(model, first(solved, 50))
+    assert makes.predicting.model(first(solved, 60)) is model
+    assert not makes.calls

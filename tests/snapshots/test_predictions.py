@@ -1,0 +1,192 @@
+"""Predictions: a model's solutions as starts, and its Hessians in the seed of later solves."""
+
+from __future__ import annotations
+
+from concurrent.futures import Executor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from snapspace import (
+    InterpolationProblem,
+    Predictions,
+    ShellMesh,
+    Snapshots,
+    SolverOptions,
+    predicted_solutions,
+    reduce,
+    sample,
+    snapshot_pca,
+    solve_snapshots,
+)
+from snapspace import _core as core
+from snapspace.mesh import mass_norm
+from snapspace.snapshots import positive_inverse
+
+from ..shells.sheets import rolled, sheet
+from .bars import assert_same_bits, parameters, posing_bar
+
+FloatArray = NDArray[np.float64]
+TIGHT = SolverOptions(tolerance=1e-12, max_iterations=5000)
+
+
+@pytest.fixture(scope="module")
+def problem() -> InterpolationProblem:
+    """A strip, flat and rolled up in two directions."""
+    flat = sheet(24, 8, thickness=0.1)
+    shapes = [flat.vertices, rolled(flat.vertices, 1.5, 0.2), rolled(flat.vertices, -1.4, 1.2)]
+    meshes = [ShellMesh(x.reshape(-1, 3), flat.triangles, thickness=flat.thickness) for x in shapes]
+    return InterpolationProblem(meshes)
+
+
+@pytest.fixture(scope="module")
+def solved(problem: InterpolationProblem) -> Snapshots:
+    return solve_snapshots(problem, sample(problem.domain, 24, method="blends"), options=TIGHT)
+
+
+@pytest.fixture(scope="module")
+def wanted(problem: InterpolationProblem) -> FloatArray:
+    return sample(problem.domain, 11, seed=5)
+
+
+@pytest.fixture(scope="module")
+def predictions(
+    problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
+) -> Predictions:
+    subspace = snapshot_pca(solved, dimension=14)
+    return predicted_solutions(reduce(problem, subspace, snapshots=solved), wanted)
+
+
+def mean_evaluations(snapshots: Snapshots) -> float:
+    return float(np.mean([report.evaluations for report in snapshots.reports]))
+
+
+def test_solves_end_at_the_same_minima_in_fewer_evaluations(
+    problem: InterpolationProblem, wanted: FloatArray, predictions: Predictions
+) -> None:
+    plain = solve_snapshots(problem, wanted, options=TIGHT)
+    started = solve_snapshots(
+        problem, wanted, options=TIGHT, predictions=Predictions(predictions.displacements)
+    )
+    seeded = solve_snapshots(problem, wanted, options=TIGHT, predictions=predictions)
+    assert seeded.converged.all()
+    mass, tau = problem.mass(), problem.tau
+    for shape, expected in zip(seeded.shapes, plain.shapes, strict=True):
+        assert mass_norm(mass, shape - expected) < 1e-3 * mass_norm(mass, expected - tau)
+    assert mean_evaluations(seeded) < 0.8 * mean_evaluations(started) < mean_evaluations(plain)
+
+
+def test_neither_threads_nor_blocks_change_a_bit(
+    problem: InterpolationProblem, wanted: FloatArray, predictions: Predictions
+) -> None:
+    one, two = (
+        solve_snapshots(
+            problem,
+            wanted,
+            options=SolverOptions(block=block),
+            threads=threads,
+            predictions=predictions,
+        )
+        for block, threads in ((16, 1), (11, 2))
+    )
+    assert_same_bits(two, one)
+
+
+def test_an_executor_gives_the_same_bits(
+    processes: Executor,
+    problem: InterpolationProblem,
+    wanted: FloatArray,
+    predictions: Predictions,
+) -> None:
+    here = solve_snapshots(problem, wanted, predictions=predictions)
+    there = solve_snapshots(problem, wanted, predictions=predictions, executor=processes)
+    assert_same_bits(there, here)
+
+
+def test_newtons_method_starts_from_predictions(
+    problem: InterpolationProblem, wanted: FloatArray, predictions: Predictions
+) -> None:
+    newton = SolverOptions(solver="newton", tolerance=1e-10)
+    plain = solve_snapshots(problem, wanted[:3], options=newton)
+    few = Predictions(predictions.displacements[:3])
+    started = solve_snapshots(problem, wanted[:3], options=newton, predictions=few)
+    assert started.converged.all()
+    assert mean_evaluations(started) < mean_evaluations(plain)
+
+
+def test_the_seed_is_the_scalar_inverse_and_that_of_the_subspace(
+    problem: InterpolationProblem, predictions: Predictions
+) -> None:
+    """The first step goes along -(A^-1 + U B U^T) g: compared with that from the parts."""
+    basis, inverses = predictions.basis, predictions.inverses
+    assert basis is not None and inverses is not None
+    system, w = problem.system, np.array([0.3, 0.4, 0.3])
+    start = np.zeros(problem.base.size)
+    gradient = system.value_and_gradient(start, w)[1]
+    coarse = core.CoarseSpace(system, np.ascontiguousarray(basis.T))
+    small = 1e-3  # so that the first step is accepted as it is
+
+    def moved(*, scale: float) -> FloatArray:
+        inputs = np.concatenate([w, scale * inverses[0].ravel()])[None]
+        batch = system.solve_fast(
+            inputs,
+            start[None],
+            tolerance=1e-300,
+            max_iterations=1,
+            threads=1,
+            control=core.SolveControl(),
+            coarse=coarse,
+        )
+        shape: FloatArray = batch.shapes[0]
+        return shape
+
+    expected = -small * basis @ (inverses[0] @ (basis.T @ gradient))
+    difference = moved(scale=small) - moved(scale=0.0)
+    assert np.linalg.norm(difference - expected) < 1e-3 * np.linalg.norm(expected)
+
+
+def test_only_problems_that_gain_get_inverses() -> None:
+    bar = posing_bar(bound=0.3)
+    solved = solve_snapshots(bar, parameters(bar, 12))
+    model = reduce(bar, snapshot_pca(solved, dimension=6), snapshots=solved)
+    predictions = predicted_solutions(model, parameters(bar, 2))
+    assert predictions.basis is None and predictions.inverses is None
+
+
+def test_inverses_are_positive_definite_whatever_the_hessian_is() -> None:
+    rng = np.random.default_rng(0)
+    symmetric = rng.normal(size=(7, 7))
+    symmetric += symmetric.T
+    assert np.linalg.eigvalsh(positive_inverse(symmetric))[0] > 0
+    positive = symmetric @ symmetric + np.eye(7)
+    np.testing.assert_allclose(positive_inverse(positive), np.linalg.inv(positive), atol=1e-12)
+
+
+@pytest.mark.parametrize("part", ["basis", "inverses"])
+def test_a_basis_needs_inverses(predictions: Predictions, part: str) -> None:
+    with pytest.raises(ValueError, match="a basis needs inverses"):
+        replace(predictions, **{part: None})
+
+
+def test_shapes_must_match(
+    problem: InterpolationProblem, wanted: FloatArray, predictions: Predictions
+) -> None:
+    inverses = predictions.inverses
+    assert inverses is not None
+    with pytest.raises(ValueError, match=r"need a basis \(675, d\) and inverses \(11, d, d\)"):
+        replace(predictions, inverses=inverses[:, :3])
+    with pytest.raises(ValueError, match=r"predictions are for \(11, 675\) .* \(4, 675\)"):
+        solve_snapshots(problem, wanted[:4], predictions=predictions)
+
+
+def test_the_core_refuses_inputs_without_inverses(
+    problem: InterpolationProblem, predictions: Predictions
+) -> None:
+    basis = predictions.basis
+    assert basis is not None
+    coarse = core.CoarseSpace(problem.system, np.ascontiguousarray(basis.T))
+    start, w = np.zeros(problem.base.size), np.full(3, 1 / 3)
+    with pytest.raises(ValueError, match=r"with a coarse space \(input_size \+ d"):
+        problem.system.put(core.SampleQueue(), 0, w, start, coarse=coarse)
