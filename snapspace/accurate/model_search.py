@@ -109,7 +109,7 @@ class ModelSearch:
             self._near = min(wanted, self._most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made from the old one
-        self._predicting = Predicting(self._model)
+        self._predicting = Predicting()
         self._solving, self._surface = solving, surface
         self._tell = tell or (lambda line: None)
         self._begins = begins or (lambda part: None)
@@ -119,7 +119,7 @@ class ModelSearch:
             method=self._plan.sampling,
             seed=options.seed,
             first=0 if self._old else self._plan.first,  # the old model has trained already
-            pilot=self._plan.pilot,
+            pilot=0 if self._old else self._plan.pilot,
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -203,9 +203,9 @@ class ModelSearch:
 
     def _predict(self) -> Model | None:
         """The model that predicts the next samples, if there is one."""
-        if not self._plan.pilot:
+        if self._old or not self._plan.pilot:
             return self.best.model if self.best else self._first
-        model = self._predicting.model(self.samples.solved)
+        model = self._predicting.model(self.samples.solved, self._model)
         self._begins("snapshots")
         return model
 

@@ -22,16 +22,9 @@ ENOUGH = 1.4
 
 
 class Predicting:
-    """The models that predict samples, where solves gain much by that: `SolverTraits.model_seeds`.
+    """The models that predict samples where that helps much: `SolverTraits.model_seeds`."""
 
-    Parameters
-    ----------
-    make : callable
-        Makes them.
-    """
-
-    def __init__(self, make: Make) -> None:
-        self._make = make
+    def __init__(self) -> None:
         self._model: Model | None = None
         self._count = 0  # of the samples that it is made of
 
@@ -39,12 +32,15 @@ class Predicting:
         """Takes a model that was made of these samples for another purpose."""
         self._model, self._count = model, len(solved)
 
-    def model(self, solved: Snapshots | None) -> Model | None:
-        """The model that predicts the samples after these; None if there is none yet."""
+    def model(self, solved: Snapshots | None, make: Make) -> Model | None:
+        """The model that predicts the samples after these; None if there is none yet.
+
+        make : makes it, if there are enough more samples; not kept, for it may refer to this object
+        """
         count = 0 if solved is None else len(solved)
         if solved is not None and count >= ENOUGH * self._count:
             dimension = max(1, min(int(MODES_PER_SOLUTION * count), MOST_DIMENSIONS))
             spread = np.linspace(0, count - 1, TRAINED).round().astype(int)
             trained = solved.select(np.isin(np.arange(count), spread))
-            self.take(self._make(solved, dimension, trained), solved)
+            self.take(make(solved, dimension, trained), solved)
         return self._model

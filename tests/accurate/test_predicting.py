@@ -32,7 +32,11 @@ class Makes:
 
     def __init__(self) -> None:
         self.calls: list[tuple[int, int, int]] = []
-        self.predicting = Predicting(self.make)
+        self.predicting = Predicting()
+
+    def model(self, solved: Snapshots | None) -> InterpolationModel | None:
+        model = self.predicting.model(solved, self.make)
+        return cast("InterpolationModel | None", model)
 
     def make(self, every: Snapshots, dimension: int, trained: Snapshots) -> InterpolationModel:
         self.calls.append((len(every), dimension, len(trained)))
@@ -40,26 +44,26 @@ class Makes:
 
 
 def test_before_any_sample_there_is_no_model() -> None:
-    assert Makes().predicting.model(None) is None
+    assert Makes().model(None) is None
 
 
 def test_a_model_is_made_anew_once_there_are_enough_more_samples(solved: Snapshots) -> None:
     makes = Makes()
-    model = makes.predicting.model(first(solved, 10))
+    model = makes.model(first(solved, 10))
     assert model is not None and makes.calls == [(10, 8, 10)]
-    assert makes.predicting.model(first(solved, 13)) is model
-    assert makes.predicting.model(first(solved, round(10 * ENOUGH))) is not model
+    assert makes.model(first(solved, 13)) is model
+    assert makes.model(first(solved, round(10 * ENOUGH))) is not model
     assert len(makes.calls) == 2
 
 
 def test_dimension_and_training_are_bounded(solved: Snapshots) -> None:
     makes = Makes()
-    makes.predicting.model(solved)
+    makes.model(solved)
     assert makes.calls == [(len(solved), MOST_DIMENSIONS, TRAINED)]
 
 
 def test_a_model_made_for_another_purpose_serves_as_well(solved: Snapshots) -> None:
     makes, model = Makes(), cast("InterpolationModel", object())
     makes.predicting.take(model, first(solved, 50))
-    assert makes.predicting.model(first(solved, 60)) is model
+    assert makes.model(first(solved, 60)) is model
     assert not makes.calls
