@@ -10,6 +10,7 @@ import pytest
 from numpy.typing import NDArray
 
 from snapspace import (
+    InterpolationModel,
     InterpolationProblem,
     Predictions,
     ShellMesh,
@@ -23,6 +24,7 @@ from snapspace import (
 )
 from snapspace import _core as core
 from snapspace.mesh import mass_norm
+from snapspace.session.predictions import STIFFER
 from snapspace.snapshots import positive_inverse
 
 from ..shells.sheets import rolled, sheet
@@ -52,15 +54,33 @@ def wanted(problem: InterpolationProblem) -> FloatArray:
 
 
 @pytest.fixture(scope="module")
-def predictions(
-    problem: InterpolationProblem, solved: Snapshots, wanted: FloatArray
-) -> Predictions:
-    subspace = snapshot_pca(solved, dimension=14)
-    return predicted_solutions(reduce(problem, subspace, snapshots=solved), wanted)
+def model(problem: InterpolationProblem, solved: Snapshots) -> InterpolationModel:
+    return reduce(problem, snapshot_pca(solved, dimension=14), snapshots=solved)
+
+
+@pytest.fixture(scope="module")
+def predictions(model: InterpolationModel, wanted: FloatArray) -> Predictions:
+    return predicted_solutions(model, wanted)
 
 
 def mean_evaluations(snapshots: Snapshots) -> float:
     return float(np.mean([report.evaluations for report in snapshots.reports]))
+
+
+def test_predictions_are_the_models_solutions_and_stiffer_hessians(
+    model: InterpolationModel, wanted: FloatArray, predictions: Predictions
+) -> None:
+    session, inverses = model.session(), predictions.inverses
+    assert inverses is not None
+    for w, displacement, inverse in zip(wanted, predictions.displacements, inverses, strict=True):
+        session.reset()
+        session.blend(w)
+        shape = session.vertices.reshape(-1)
+        np.testing.assert_allclose(displacement + model.problem.base, shape, atol=1e-9)
+        hessian = model.blends.at(w).hessian(session.q)
+        np.testing.assert_allclose(session.hessian(), hessian, atol=1e-9 * np.abs(hessian).max())
+        identity = STIFFER * inverse @ hessian
+        np.testing.assert_allclose(identity, np.eye(len(hessian)), atol=1e-6)
 
 
 def test_solves_end_at_the_same_minima_in_fewer_evaluations(
