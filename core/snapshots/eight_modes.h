@@ -21,9 +21,12 @@ class EightModes {
   [[nodiscard]] std::size_t size() const { return entries_.size() / kCount; }
   [[nodiscard]] double entry(std::size_t i, int k) const { return entries_[i * kCount + k]; }
 
+  // Not inlined: soft modes and coarse spaces share the loops, which every level of the processor
+  // and every width has once.
+
   /// V^T vector.
   template <class Real>
-  [[nodiscard]] Coordinates<Real> products(const Real* vector) const {
+  [[nodiscard, gnu::noinline]] Coordinates<Real> products(const Real* vector) const {
     Coordinates<Real> result;
     result.fill(Sum<Real>(0.0));
     for (std::size_t begin = 0; begin < size(); begin += kChunk) {
@@ -38,7 +41,7 @@ class EightModes {
 
   /// vector += V coordinates.
   template <class Real>
-  void add(const Coordinates<Real>& coordinates, Real* vector) const {
+  [[gnu::noinline]] void add(const Coordinates<Real>& coordinates, Real* vector) const {
     Real along[kCount];
     for (int k = 0; k < kCount; ++k) along[k] = cast<typename Real::Scalar>(coordinates[k]);
     for (std::size_t i = 0; i < size(); ++i) {
