@@ -12,11 +12,10 @@ namespace snapspace {
 
 namespace {
 
-template <class Place>
-void star_stresses(const VertexStars& stars, int count, const Place& place, const double* u,
+void star_stresses(const VertexStars& stars, int count, const std::int32_t* which, const double* u,
                    double* stresses, double* energies) {
   for (int k = 0; k < count; ++k) {
-    const int star = place(k);
+    const int star = which ? which[k] : k;
     double numbers[ShellArap::kModuli], H[3][3], P[3][3];
     stars.write_numbers(star, numbers);
     numbers[0] = stars.weights[star];
@@ -77,15 +76,14 @@ void ElasticEnergy::hessian_product(const double* u, const double* v, double* pr
   }
 }
 
-template <class Place>
-void ElasticEnergy::stresses_at(int count, const Place& place, const double* u, double* stresses,
-                                double* energies) const {
-  if (stars) return star_stresses(*stars, count, place, u, stresses, energies);
+void ElasticEnergy::stresses_at(int count, const std::int32_t* which, const double* u,
+                                double* stresses, double* energies) const {
+  if (stars) return star_stresses(*stars, count, which, u, stresses, energies);
   const TetMaterial view = material.view();
   const auto numbers = static_cast<std::size_t>(material_moduli(view.kind));
   Densities::with(view.kind, [&]<class Density>() {
     for (int k = 0; k < count; ++k) {
-      const int t = place(k);
+      const int t = which ? which[k] : k;
       double G[3][3], P[3][3];
       displacement_gradient(rest.tets[t], u, G);
       *energies++ = Density::value_and_stress(&moduli_[t * numbers], G, P);
@@ -96,13 +94,12 @@ void ElasticEnergy::stresses_at(int count, const Place& place, const double* u, 
 }
 
 void ElasticEnergy::tet_stresses(const double* u, double* stresses, double* energies) const {
-  stresses_at(elements(), [](int k) { return k; }, u, stresses, energies);
+  stresses_at(elements(), nullptr, u, stresses, energies);
 }
 
 void ElasticEnergy::tet_stresses(const std::vector<std::int32_t>& which, const double* u,
                                  double* stresses, double* energies) const {
-  stresses_at(
-      static_cast<int>(which.size()), [&](int k) { return which[k]; }, u, stresses, energies);
+  stresses_at(static_cast<int>(which.size()), which.data(), u, stresses, energies);
 }
 
 std::vector<double> ElasticEnergy::stiffnesses() const {

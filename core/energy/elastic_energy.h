@@ -105,8 +105,8 @@ class ElasticEnergy {
   [[nodiscard]] int inverted_tets(const double* u) const;
 
  private:
-  template <class Place>
-  void stresses_at(int count, const Place& place, const double* u, double* stresses,
+  /// @param which  count elements; null: the first ones
+  void stresses_at(int count, const std::int32_t* which, const double* u, double* stresses,
                    double* energies) const;
 
   template <class T>
