@@ -19,9 +19,9 @@ from typing import Any
 import cloth
 import common
 import numpy as np
+import shells
 
 import snapspace as ss
-from snapspace.mesh import shell_of_file
 
 SURFACES = {"spot": "spot_11k.obj", "armadillo": "armadillo_15k.obj", "cloth": None}
 #: Share of the vertices in each handle.
@@ -32,11 +32,7 @@ CLOTH_TRIANGLES = 20_000
 def shell(name: str, thickness: float) -> ss.ShellMesh:
     """A surface as a shell, its thickness a share of the diagonal."""
     path = SURFACES[name]
-    if path is None:
-        return cloth.cloth(CLOTH_TRIANGLES, thickness)
-    file = ss.open_surface(common.meshes_folder() / "surfaces" / path)
-    diagonal = float(np.linalg.norm(np.ptp(file.vertices, axis=0)))
-    return shell_of_file(file, thickness=thickness * diagonal)[0]
+    return shells.read_shell(path, thickness) if path else cloth.cloth(CLOTH_TRIANGLES, thickness)
 
 
 def posed(mesh: ss.ShellMesh) -> ss.PosingProblem:

@@ -22,16 +22,21 @@ from snapspace.mesh import shell_of_file
 HELD = 0.1
 
 
-def posed_surface(name: str, thickness: float) -> ss.PosingProblem:
+def read_shell(name: str, thickness: float) -> ss.ShellMesh:
     """A surface of the meshes' folder as a shell, its thickness a share of the diagonal."""
     file = ss.open_surface(common.meshes_folder() / "surfaces" / name)
     diagonal = float(np.linalg.norm(np.ptp(file.vertices, axis=0)))
-    mesh = shell_of_file(file, thickness=thickness * diagonal)[0]
+    return shell_of_file(file, thickness=thickness * diagonal)[0]
+
+
+def posed_surface(name: str, thickness: float) -> ss.PosingProblem:
+    """`read_shell` with two handles."""
+    mesh = read_shell(name, thickness)
     low = mesh.vertices[:, 1]
     along = mesh.vertices[:, np.argmax(np.ptp(mesh.vertices, axis=0) * [1, 0, 1])]
     feet = low < np.quantile(low, HELD)
     head = (along < np.quantile(along, HELD)) & ~feet
-    domain = ss.HandleBox(translation=0.1 * diagonal, angle=np.pi / 6)
+    domain = ss.HandleBox(translation=0.1 * mesh.diagonal, angle=np.pi / 6)
     return ss.PosingProblem(mesh, ss.Handles([feet, head], names=["feet", "head"]), domain=domain)
 
 

@@ -130,7 +130,7 @@ def interpolation_traits(
     tight. Halfway between distant poses a blend of solutions shrinks and turns inside out.
 
     Surfaces as rigid as possible take 130 to 200 evaluations, from starts of a model 40 to 140, and
-    with its Hessians in the seed 20 to 90. Four Lions of tets take 35 with a model's starts and 33
+    with its Hessians in the seed 20 to 145. Four Lions of tets take 35 with a model's starts and 33
     with its Hessians, and motions of a creature 23 with either.
     """
     return SolverTraits(
