@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .. import _core as core
 from ..interruptible import run_interruptible
 from ..problem import Problem
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, solved_sessions
 
 FloatArray = NDArray[np.float64]
 
@@ -110,10 +110,8 @@ def after_steps(
 
 def reduced_solutions(model: ReducedModel, parameters: FloatArray) -> FloatArray:
     """Displacements (k, 3n) from the problem's base; each solve starts from tau."""
-    session, offset = model.session(), model.problem.base
+    offset = model.problem.base
     shapes = np.empty((len(parameters), offset.size))
-    for row, w in zip(shapes, parameters, strict=True):
-        session.reset()
-        session.set_parameters(w)
+    for row, session in zip(shapes, solved_sessions(model, parameters), strict=True):
         row[:] = model.subspace.shape(session.q) - offset
     return shapes

@@ -35,6 +35,7 @@ from .quartic import (
 from .quartic_cost import LongWorkNotice, exact_seconds
 from .reduce import reduce
 from .reduced_model import ReducedModel
+from .solved_sessions import solved_sessions
 from .with_handles import with_handles
 
 __all__ = [
@@ -70,6 +71,7 @@ __all__ = [
     "pose_quartics",
     "reduce",
     "reduced_quartic",
+    "solved_sessions",
     "training_tolerance",
     "with_handles",
 ]

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..blas import single_threaded_blas
-from ..reduction import InterpolationModel, PosingModel
+from ..reduction import InterpolationModel, PosingModel, solved_sessions
 from ..snapshots import Predictions, positive_inverse
 
 FloatArray = NDArray[np.float64]
@@ -25,17 +25,15 @@ def predicted_solutions(
 ) -> Predictions:
     """The model's solutions for parameters (k, p), for `solve_snapshots`.
 
-    With its Hessians there, if the problem's solves gain by them. Each solve starts from tau, so
-    that a prediction does not depend on the others.
+    With its Hessians there, if the problem's solves gain by them. A prediction does not depend on
+    the others.
     """
-    session, basis, offset = model.session(), model.subspace.basis, model.problem.base
+    basis, offset = model.subspace.basis, model.problem.base
     size, d = basis.shape
     seeded = model.problem.solving.model_seeds
     displacements = np.empty((len(parameters), size))
     inverses = np.empty((len(parameters), d, d) if seeded else (0, d, d))
-    for k, w in enumerate(parameters):
-        session.reset()
-        session.set_parameters(w)
+    for k, session in enumerate(solved_sessions(model, parameters)):
         displacements[k] = model.subspace.shape(session.q) - offset
         if seeded:
             inverses[k] = positive_inverse(session.hessian()) / STIFFER

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..displacements import DisplacementRows
-from ..reduction import ReducedModel
+from ..reduction import ReducedModel, solved_sessions
 from ..snapshots import SampleReport, Snapshots, SolverOptions, solve_snapshots
 from .frame_errors import unseen_errors
 from .unseen import reference_options
@@ -95,11 +95,8 @@ def _lower_minima(
 
 def _frames(model: ReducedModel, parameters: FloatArray) -> FloatArray:
     """Shapes (k, 3n) of reduced solves from tau."""
-    session = model.session()
     shapes = np.empty((len(parameters), model.problem.base.size))
-    for shape, w in zip(shapes, parameters, strict=True):
-        session.reset()
-        session.set_parameters(w)
+    for shape, session in zip(shapes, solved_sessions(model, parameters), strict=True):
         shape[:] = model.subspace.shape(session.q)
     return shapes
 
