@@ -23,14 +23,17 @@ inline constexpr std::int32_t kTriangleCorners[4] = {0, 1, 2, 2};
 }
 
 /// Rows of a ShellDensity: the moduli, and the numbers of the rest shapes.
-/// @param rows  elements x moduli of the density at `kind`, overwritten
+/// @param area_products  of hinges, at which bending has its whole stiffness; null for those at
+/// rest
+/// @param rows           elements x moduli of the density at `kind`, overwritten
 inline void shell_moduli(int kind, int elements, const double* points, const double* moduli,
-                         double* rows) {
+                         const double* area_products, double* rows) {
   const int count = material_moduli(kind), scaled = scaled_moduli(kind);
   std::fill_n(rows, static_cast<std::size_t>(count) * static_cast<std::size_t>(elements), 0.0);
   for (int e = 0; e < elements; ++e, points += 12, moduli += scaled, rows += count) {
     std::copy_n(moduli, scaled, rows);
-    const double product = shell_element(moduli, points).area_product();
+    const double product =
+        area_products ? area_products[e] : shell_element(moduli, points).area_product();
     set_rest_shape(kind, points, corners_of(moduli), product, rows);
   }
 }

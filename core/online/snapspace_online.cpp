@@ -128,12 +128,13 @@ int snapspace_displacement_rows(int tets, int dimension, const double* points, c
 }
 
 int snapspace_shell_moduli(const char* kind, int elements, const double* points,
-                           const double* shell_moduli, double* moduli) {
+                           const double* shell_moduli, const double* area_products,
+                           double* moduli) {
   if (!kind || elements < 1 || !points || !shell_moduli || !moduli) return SNAPSPACE_BAD_ARGUMENT;
   const int index = snapspace::material_index(kind);
   if (index < 0) return SNAPSPACE_UNKNOWN_MATERIAL;
   if (!snapspace::is_of_shells(index)) return SNAPSPACE_BAD_ARGUMENT;
-  snapspace::online::shell_moduli(index, elements, points, shell_moduli, moduli);
+  snapspace::online::shell_moduli(index, elements, points, shell_moduli, area_products, moduli);
   return SNAPSPACE_OK;
 }
 

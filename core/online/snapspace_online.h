@@ -108,9 +108,11 @@ int snapspace_displacement_rows(int tets, int dimension, const double* points, c
  * elements x number of the density's moduli. points (elements x 4 x 3) are the corners at rest,
  * those of a triangle with the last one twice, and of a hinge the ends of its edge and the other
  * corners of the triangles to its left and right. shell_moduli (elements x 3): of a triangle mu > 0
- * and lam of the plane, times thickness, and 0; of a hinge 0, 0, and its bending stiffness. */
+ * and lam of the plane, times thickness, and 0; of a hinge 0, 0, and its bending stiffness.
+ * area_products is null; or, for a blend, it has for each hinge the geometric mean over all poses
+ * of four times the product of both triangles' areas (elements), and points are those of pose 0. */
 int snapspace_shell_moduli(const char* kind, int elements, const double* points,
-                           const double* shell_moduli, double* moduli);
+                           const double* shell_moduli, const double* area_products, double* moduli);
 
 /* A posing session with a cubature instead of a quartic; copies its arrays too. Its solves are
  * fastest with SNAPSPACE_BFGS, which continues with the inverse Hessian of the last frame. */

@@ -82,10 +82,13 @@ class BlendedStars(BlendedElements):
         subspace: AffineSubspace,
         tets: NDArray[np.int32],
         weights: FloatArray,
+        *,
+        forms: FloatArray | None = None,
     ) -> BlendedStars:
         """Makes the cubature of the stars of some vertices, for a subspace at the mean shape.
 
-        With all stars, weighted by their areas in the first pose, it is the exact energy.
+        With all stars, weighted by their areas in the first pose, it is the exact energy. `forms`
+        are computed if they are not given.
 
         Raises
         ------
@@ -100,7 +103,7 @@ class BlendedStars(BlendedElements):
             poses.rows(subspace.basis, tets),
             poses.material_of(tets),
             poses.origins(subspace.tau, tets),
-            poses.forms(subspace),
+            poses.forms(subspace) if forms is None else forms,
         )
 
     def __reduce__(self) -> tuple[type[BlendedStars], tuple[Any, ...]]:

@@ -70,10 +70,13 @@ class Cubature:
         subspace: AffineSubspace,
         tets: NDArray[np.int32],
         weights: FloatArray,
+        *,
+        remainder: FloatArray | None = None,
     ) -> Cubature:
         """Makes the cubature of some tets for a subspace attached to the rest shape.
 
-        With all tets, weighted by their volumes, it is the exact energy.
+        With all tets, weighted by their volumes, it is the exact energy. What they leave of the
+        energy, see `Elements`, is computed if it is not given.
 
         Raises
         ------
@@ -83,7 +86,8 @@ class Cubature:
         elements = posed_elements_of(problem)
         check_in_mesh(tets, len(elements.measures), who="Cubature")
         rows = elements.gradients(subspace.basis, tets)
-        remainder = elements.remainder(subspace.basis)
+        if remainder is None:
+            remainder = elements.remainder(subspace.basis)
         return cls(tets, weights, rows, elements.material.of_tets(tets), remainder)
 
     def __reduce__(self) -> tuple[type[Cubature], tuple[Any, ...]]:

@@ -8,16 +8,18 @@ import numpy as np
 
 from ..problem import InterpolationProblem, Poses, ShellPoses
 from ..reduction import (
+    BlendedCubature,
+    BlendedStars,
     BlendedSum,
     FullBlends,
     InterpolationModel,
     PoseQuartics,
-    blended_sum,
     coefficient_count,
+    has_stars,
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, cells, shown_surface, snapshot_energies
+from . import basis, cells, shown_surface, snapshot_energies, star_forms
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -122,7 +124,8 @@ def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
     if isinstance(blends, FullBlends):
         raise not_stored("save_model")
     if isinstance(blends, BlendedSum):
-        return {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
+        chosen: Arrays = {"cubature_tets": blends.tets, "cubature_weights": blends.weights}
+        return chosen | star_forms.form_arrays(blends)
     return {"quartics": blends.coefficients}
 
 
@@ -135,4 +138,8 @@ def _blends(
         return PoseQuartics(d, arrays["quartics"])
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
-    return blended_sum(problem, subspace, tets, weights)
+    if has_stars(problem):
+        check_shapes(arrays, {star_forms.FORMS: (len(problem.poses), d + 1, d + 1)})
+        forms = arrays[star_forms.FORMS]
+        return BlendedStars.of_tets(problem, subspace, tets, weights, forms=forms)
+    return BlendedCubature.of_tets(problem, subspace, tets, weights)

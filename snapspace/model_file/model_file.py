@@ -16,6 +16,7 @@ from . import (
     posing,
     shown_surface,
     snapshot_energies,
+    star_forms,
     timings,
 )
 from .container import (
@@ -117,7 +118,7 @@ def load(path: str | Path) -> PosingModel | InterpolationModel:
             f"{path}: the kind is {kind[:40]!r}, but this snapspace knows {', '.join(_DTYPES)}; "
             "install the snapspace that wrote it"
         )
-    for part in (error_estimator, shown_surface, material, snapshot_energies):
+    for part in (error_estimator, shown_surface, material, snapshot_energies, star_forms):
         check_dtypes(path, arrays, part.dtypes(arrays))
     check_dtypes(path, arrays, _DTYPES[kind])
     if header.get("checksum") != checksum(arrays, header) or not timings.is_unaltered(header):

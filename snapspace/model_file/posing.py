@@ -15,10 +15,11 @@ from ..reduction import (
     PosingModel,
     Quartic,
     coefficient_count,
+    has_stars,
     not_stored,
 )
 from ..subspace import AffineSubspace
-from . import basis, cells, shown_surface, snapshot_energies
+from . import basis, cells, shown_surface, snapshot_energies, star_forms
 from . import material as material_file
 from .container import Arrays, Types, check_shapes
 
@@ -128,7 +129,8 @@ def _elastic_arrays(elastic: Quartic | Cubature | FullEnergy) -> Arrays:
     if isinstance(elastic, FullEnergy):
         raise not_stored("save_model")
     if isinstance(elastic, Cubature):
-        return {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
+        chosen: Arrays = {"cubature_tets": elastic.tets, "cubature_weights": elastic.weights}
+        return chosen | star_forms.remainder_arrays(elastic)
     return {"quartic": elastic.coefficients}
 
 
@@ -140,7 +142,11 @@ def _elastic(
         return Quartic(subspace.dimension, arrays["quartic"])
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
-    return Cubature.of_tets(problem, subspace, tets, weights)
+    remainder = None
+    if has_stars(problem):
+        remainder = arrays[star_forms.REMAINDER]
+        check_shapes(arrays, {star_forms.REMAINDER: (subspace.dimension, subspace.dimension)})
+    return Cubature.of_tets(problem, subspace, tets, weights, remainder=remainder)
 
 
 def _problem(arrays: Arrays, content: dict[str, Any]) -> PosingProblem:

@@ -19,6 +19,7 @@ from snapspace import (
     InterpolationModel,
     PosingModel,
     PosingSession,
+    StableNeoHookean,
     TetMesh,
     calibrate,
 )
@@ -237,8 +238,9 @@ def expected(
         name: calibrate(shell_model(varied=varied), samples=12, threads=1)
         for name, varied in (("shell", False), ("varied_shell", True))
     }
-    models |= materials | shells | {"surface-arap": shell_model(ARAP())}
+    models |= materials | shells | {"surface-arap": shell_model(ARAP(), varied=True)}
     models["blending-arap"] = blended_strips()
+    models["blending-shell"] = calibrate(blended_strips(StableNeoHookean()), samples=12, threads=1)
     for name, model in models.items():
         model.save(folder / f"{name}.snapspace")
         (folder / f"{name}.packed").write_bytes(packed(model, name=name))
@@ -249,6 +251,7 @@ def expected(
         "blending": blending_frames(models["blending"]),
         "blending-cubature": blending_frames(models["blending-cubature"]),
         "blending-arap": blending_frames(models["blending-arap"]),
+        "blending-shell": blending_frames(models["blending-shell"]),
         "own_boxes": box_frames(own_boxes),
         "strains": surface_strains(posing_model),
         "materials": [*materials, *shells],

@@ -40,13 +40,14 @@ def shell_model(material: Material | None = None, *, varied: bool = False) -> Po
     """A strip with handles at its ends and in the middle, of thick triangles, in 12 dimensions.
 
     material : default StableNeoHookean()
-    varied : whether thickness and moduli differ from triangle to triangle
+    varied : whether thickness and moduli differ from triangle to triangle; of the default or ARAP()
     """
     mesh = strip(thickness=0.1)
     if varied:
         count = len(mesh.triangles)
         mesh = strip(thickness=np.linspace(0.08, 0.12, count))
-        material = StableNeoHookean(lam=np.linspace(2, 1, count), mu=np.linspace(1, 2, count))
+        lam, mu = np.linspace(2, 1, count), np.linspace(1, 2, count)
+        material = ARAP(mu=mu) if material else StableNeoHookean(lam=lam, mu=mu)
     along = _along(mesh)
     problem = PosingProblem(
         mesh,
@@ -58,15 +59,15 @@ def shell_model(material: Material | None = None, *, varied: bool = False) -> Po
     return reduce(problem, snapshot_pca(snapshots, dimension=12), snapshots=snapshots)
 
 
-def blended_strips() -> InterpolationModel:
-    """A strip that is as rigid as possible: bent, straight and wide, in 10 dimensions."""
+def blended_strips(material: Material | None = None) -> InterpolationModel:
+    """A strip, by default as rigid as possible: bent, straight and wide, in 10 dimensions."""
     mesh = strip(12, 3)
     along, across = _along(mesh), mesh.vertices[:, 1]
     straight = np.stack([np.zeros_like(along), across, 2 * along], axis=1)
     shapes = mesh.vertices, straight, mesh.vertices * [1.2, 1.5, 0.9]
     problem = InterpolationProblem(
         [ShellMesh(shape, mesh.triangles, thickness=mesh.thickness) for shape in shapes],
-        material=ARAP(),
+        material=material or ARAP(),
     )
     snapshots = solve_snapshots(problem, sample(problem.domain, 24, seed=1), threads=1)
     return reduce(problem, snapshot_pca(snapshots, dimension=10), snapshots=snapshots)

@@ -100,7 +100,7 @@ function rowsOf(exports: CoreExports, memory: CoreMemory, elastic: Cubature, dim
   const tets = rows.points.length / 12;
   const made = memory.take(4 * 9 * tets * dimension);
   const [points, modes] = [memory.numbers(rows.points), memory.numbers(rows.modes)];
-  const shell = material.shellPoints ? memory.numbers(material.moduli as Float64Array) : 0;
+  const shell = material.shell ? memory.numbers(material.moduli as Float64Array) : 0;
   exports.snapspace_displacement_rows(tets, dimension, points, modes, shell, made);
   return made;
 }
@@ -154,13 +154,14 @@ export function valueScaleOf(exports: CoreExports, given: number | Body): number
 
 /** The fields of a snapspace_material. */
 function materialOf(exports: CoreExports, memory: CoreMemory, material: Material) {
-  const { kind, rows, moduli, shellPoints } = material;
+  const { kind, rows, moduli, shell } = material;
   const name = memory.text(kind);
   const count = exports.snapspace_moduli(name);
-  if (shellPoints) {
+  if (shell) {
     const made = memory.take(8 * Math.max(count, 0) * rows);
-    const [points, given] = [memory.numbers(shellPoints), memory.numbers(moduli as Float64Array)];
-    if (exports.snapspace_shell_moduli(name, rows, points, given, made) !== ERROR.OK)
+    const given = memory.numbers(moduli as Float64Array);
+    const [points, products] = [memory.numbers(shell.points), memory.numbers(shell.products)];
+    if (exports.snapspace_shell_moduli(name, rows, points, given, products, made) !== ERROR.OK)
       throw unknownMaterial(kind);
     return { materialKind: name, materialCount: rows, materialModuli: made };
   }

@@ -32,6 +32,7 @@ export interface CoreExports {
     elements: number,
     points: number,
     shellModuli: number,
+    areaProducts: number,
     moduli: number,
   ): number;
   snapspace_create_posing_cubature(

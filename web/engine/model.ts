@@ -40,9 +40,16 @@ export interface Material {
   readonly rows: number;
   /** In the density's order; or by name, where there is one row. */
   readonly moduli: Float64Array<ArrayBuffer> | Readonly<Record<string, unknown>>;
-  /** Of the elements of a shell, their corners at rest, rows x 4 x 3: there are three moduli per row, and the core makes the
-   * other numbers. */
-  readonly shellPoints?: Float64Array<ArrayBuffer>;
+  /** Of the elements of a shell: there are three moduli per row, and the core makes the other numbers of these. */
+  readonly shell?: ShellElements;
+}
+
+/** Triangles and hinges of a shell at rest. */
+export interface ShellElements {
+  /** Their corners, elements x 4 x 3; of a blend those of the first pose. */
+  readonly points: Float64Array<ArrayBuffer>;
+  /** Four times the product of both areas at which a hinge has its whole stiffness: of a blend the geometric mean of all poses. */
+  readonly products: Float64Array<ArrayBuffer>;
 }
 
 /** All tets at rest: their volumes, and what they are made of. */

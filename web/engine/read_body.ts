@@ -1,19 +1,28 @@
 import type { Container } from "./container.ts";
+import { vertexMasses, type Mass } from "./mass.ts";
 import type { Body, Material } from "./model.ts";
-import { fileMaterial } from "./read_material.ts";
+import { fileMaterial, moduliOf } from "./read_material.ts";
 import { boundary, everywhere, type FileSurface } from "./read_surface.ts";
 import { shellOf } from "./shell.ts";
-import { diagonalOf, tetVolumes, vertexMasses } from "./tets.ts";
+import { diagonalOf, tetVolumes } from "./tets.ts";
+import { triangleAreas } from "./triangles.ts";
+import type { RigidSurface } from "./vertex_stars.ts";
 
-/** The body of a posing model's file: tets, or a shell. */
+/** The body of a model file: tets, or a shell. */
 export interface FileBody {
-  readonly rest: Float64Array;
-  /** Tets; of a shell, triangles and hinges. */
+  /** The shape at rest, or all poses. */
+  readonly shapes: readonly Float64Array[];
+  /** Tets; of a shell, triangles and hinges. None where the elements are stars. */
   readonly elements: Int32Array;
-  readonly masses: Float64Array;
   /** Of the elements. */
   readonly material: Material;
+  /** A surface that is as rigid as possible, whose elements are the stars of its vertices; null for others. */
+  readonly rigid: RigidSurface | null;
   readonly scales: Scales;
+  /** Masses of the vertices at rest, or in the first pose. */
+  readonly masses: Float64Array;
+  /** Volumes at another shape. */
+  massAt(shape: Float64Array): Mass;
   /** Its surface, where the file has no other. */
   surface(): FileSurface;
 }
@@ -25,45 +34,81 @@ interface Scales {
   readonly diagonal: number;
 }
 
-/** Reads the body; `material` is that of the file's problem. */
-export function fileBody(container: Container, material: { readonly model: string }): FileBody {
-  const [vertices] = container.shape("vertices", 2);
-  const rest = container.doubles("vertices", vertices, 3);
-  if (container.has("triangles")) return shellBody(container, rest, material);
+interface FileMaterial {
+  readonly model: string;
+}
+
+/** Reads the body with these shapes at rest; `material` is that of the file's problem. */
+export function fileBody(
+  container: Container,
+  shapes: readonly Float64Array[],
+  material: FileMaterial,
+): FileBody {
+  return container.has("triangles")
+    ? shellBody(container, shapes, material)
+    : tetBody(container, shapes, material);
+}
+
+function tetBody(container: Container, shapes: readonly Float64Array[], material: FileMaterial): FileBody {
+  const [[rest], vertices] = [shapes, shapes[0].length / 3];
   const [count] = container.shape("tets", 2);
-  const elements = container.indices("tets", vertices, [count, 4]);
-  const volumes = tetVolumes(rest, elements);
-  const ofTets = fileMaterial(container, material, count);
+  const tets = container.indices("tets", vertices, [count, 4]);
+  const massAt = (shape: Float64Array): Mass => ({
+    cells: tets,
+    corners: 4,
+    volumes: tetVolumes(shape, tets),
+  });
+  const [mass, ofTets] = [massAt(rest), fileMaterial(container, material, count)];
   return {
-    rest,
-    elements,
-    masses: vertexMasses(volumes, elements, vertices),
+    shapes,
+    elements: tets,
     material: ofTets,
-    scales: scalesOfTets(ofTets, volumes, rest),
-    surface: () => boundary(elements, vertices),
+    rigid: null,
+    // the unit of energy is that of a strain of 10 %
+    scales: scales({ volumes: mass.volumes, material: ofTets }, mass.volumes, diagonalOf(rest)),
+    masses: vertexMasses(mass, vertices),
+    massAt,
+    surface: () => boundary(tets, vertices),
   };
 }
 
-function shellBody(container: Container, rest: Float64Array, material: { readonly model: string }): FileBody {
+function shellBody(container: Container, shapes: readonly Float64Array[], material: FileMaterial): FileBody {
+  const [[rest], vertices] = [shapes, shapes[0].length / 3];
   const [count] = container.shape("triangles", 2);
   const [numbers] = container.shape("thickness", 1);
-  const triangles = container.indices("triangles", rest.length / 3, [count, 3]);
-  const thickness = container.doubles("thickness", numbers === 1 ? 1 : count);
-  const shell = shellOf(rest, triangles, thickness, fileMaterial(container, material, count));
+  const triangles = container.indices("triangles", vertices, [count, 3]);
+  const given = container.doubles("thickness", numbers === 1 ? 1 : count);
+  const thickness = numbers === 1 ? new Float64Array(count).fill(given[0]) : given;
+  const massAt = (shape: Float64Array): Mass => ({
+    cells: triangles,
+    corners: 3,
+    volumes: triangleAreas(shape, triangles).map((area, t) => area * thickness[t]),
+  });
+  const [mass, ofTriangles] = [massAt(rest), fileMaterial(container, material, count)];
+  const { bendingScale, ...body } =
+    ofTriangles.kind === "arap"
+      ? rigidBody(rest, triangles, thickness, ofTriangles)
+      : { ...shellOf(shapes, triangles, thickness, ofTriangles), rigid: null };
   const diagonal = diagonalOf(rest);
   return {
-    rest,
-    elements: shell.elements,
-    masses: shell.masses,
-    material: shell.material,
-    scales: scales(shell.bendingScale / diagonal ** 2, shell.volumes, diagonal),
-    surface: () => everywhere(triangles, rest.length / 3),
+    shapes,
+    ...body,
+    scales: scales(bendingScale / diagonal ** 2, mass.volumes, diagonal),
+    masses: vertexMasses(mass, vertices),
+    massAt,
+    surface: () => everywhere(triangles, vertices),
   };
 }
 
-/** The unit of energy is that of a strain of 10 %. */
-export function scalesOfTets(material: Material, volumes: Float64Array, rest: Float64Array): Scales {
-  return scales({ volumes, material }, volumes, diagonalOf(rest));
+function rigidBody(rest: Float64Array, triangles: Int32Array, thickness: Float64Array, material: Material) {
+  const stiffness = thickness.map((thick, t) => thick * moduliOf(material, ["mu"], t)[0]);
+  // equilateral triangles bend as a plate of stiffness sqrt(3/4) stiffness * area
+  const bendingScale = triangleAreas(rest, triangles).reduce(
+    (sum, area, t) => sum + Math.sqrt(0.75) * stiffness[t] * area ** 2,
+    0,
+  );
+  const ofStars = { kind: "shell-arap", rows: 0, moduli: new Float64Array() };
+  return { elements: new Int32Array(), material: ofStars, rigid: { triangles, stiffness }, bendingScale };
 }
 
 /** The unit of coordinates is a displacement by a tenth of the diagonal. */

@@ -1,16 +1,14 @@
 import type { Container } from "./container.ts";
 import { armsOf, type Estimator, type Pins } from "./estimator.ts";
-import type { Handle, Material } from "./model.ts";
+import type { Handle } from "./model.ts";
+import type { FileBody } from "./read_body.ts";
 import { materialOfTets } from "./read_material.ts";
 
-interface Body {
-  readonly tets: Int32Array;
+interface Shapes {
   /** Modes, rows of 3 * vertices numbers. */
   readonly basis: Float64Array;
   readonly tau: Float64Array;
   readonly rests: readonly Float64Array[];
-  /** The material of all tets. */
-  readonly material: Material;
 }
 
 interface HandleData {
@@ -21,13 +19,15 @@ interface HandleData {
   readonly stiffness: number;
 }
 
-/** The estimator of a model file: takes the tets around the sampled vertices out of the mesh; null without one. */
+/** The estimator of a model file: takes the tets around the sampled vertices out of the mesh; null without one, and where the
+ * elements are stars. */
 export function estimatorOf(
   container: Container,
-  { tets, basis, tau, rests, material }: Body,
+  { elements: tets, material, rigid }: FileBody,
+  { basis, tau, rests }: Shapes,
   pins: (corners: number[], isSampled: boolean[]) => Pins,
 ): Estimator | null {
-  if (!container.has("estimator_vertices")) return null;
+  if (rigid || !container.has("estimator_vertices")) return null;
   const [count] = container.shape("estimator_vertices", 1);
   const [frames, dimension] = container.shape("estimator_coordinates", 2);
   const vertices = container.indices("estimator_vertices", tau.length / 3, [count]);

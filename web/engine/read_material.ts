@@ -19,9 +19,16 @@ export function readMaterial(container: Container, name: string, kind: string, t
   return { kind, rows, moduli: container.doubles(name, rows, count) };
 }
 
+/** The moduli of a triangle. `names` has all moduli of the density, in its order. */
+export function moduliOf({ moduli, rows }: Material, names: readonly string[], triangle: number): number[] {
+  if (!(moduli instanceof Float64Array)) return names.map((name) => Number(moduli[name]));
+  const start = rows === 1 ? 0 : names.length * triangle;
+  return [...moduli.subarray(start, start + names.length)];
+}
+
 /** The material of some tets, in their order. */
 export function materialOfTets(material: Material, tets: Int32Array): Material {
-  const { kind, rows, moduli, shellPoints } = material;
+  const { kind, rows, moduli, shell } = material;
   if (!(moduli instanceof Float64Array) || rows === 1) return material;
   const taken = (numbers: Float64Array) => {
     const count = numbers.length / rows;
@@ -30,5 +37,6 @@ export function materialOfTets(material: Material, tets: Int32Array): Material {
     return chosen;
   };
   const ofTets = { kind, rows: tets.length, moduli: taken(moduli) };
-  return shellPoints ? { ...ofTets, shellPoints: taken(shellPoints) } : ofTets;
+  if (!shell) return ofTets;
+  return { ...ofTets, shell: { points: taken(shell.points), products: taken(shell.products) } };
 }

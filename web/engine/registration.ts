@@ -1,15 +1,17 @@
-/** Rigid registration in the M-norm, M the consistent mass matrix of linear tets (Horn 1987, Closed-form
+/** Rigid registration in the M-norm, M the consistent mass matrix of linear tets or triangles (Horn 1987, Closed-form
  * solution of absolute orientation using unit quaternions). */
 
+import type { Mass } from "./mass.ts";
 import { applied, minus, type RigidMap, type Vector } from "./motion.ts";
+import { symmetricEigen } from "./symmetric_eigen.ts";
 
 type Rows = Float64Array; // x0 y0 z0 x1 ...
 
 /** The shape after the proper rigid motion that brings it closest to `onto`. */
-export function registered(shape: Rows, onto: Rows, tets: Int32Array, volumes: Float64Array): Rows {
-  const massOnto = massTimes(onto, tets, volumes);
-  const total = volumes.reduce((sum, volume) => sum + Math.abs(volume), 0);
-  const from = centroid(massTimes(shape, tets, volumes), total);
+export function registered(shape: Rows, onto: Rows, mass: Mass): Rows {
+  const massOnto = massTimes(onto, mass);
+  const total = mass.volumes.reduce((sum, volume) => sum + Math.abs(volume), 0);
+  const from = centroid(massTimes(shape, mass), total);
   const to = centroid(massOnto, total);
   const covariance = new Float64Array(9); // sum over rows of shape_a (M onto)_b, about the centroids
   for (let i = 0; i < shape.length; i += 3)
@@ -45,16 +47,17 @@ function mean(points: readonly Vector[]): Vector {
   return [at(0), at(1), at(2)];
 }
 
-function massTimes(shape: Rows, tets: Int32Array, volumes: Float64Array): Rows {
+function massTimes(shape: Rows, { cells, corners, volumes }: Mass): Rows {
   const product = new Float64Array(shape.length);
-  for (let tet = 0; tet < volumes.length; tet++) {
-    const twentieth = Math.abs(volumes[tet]) / 20;
+  for (let cell = 0; cell < volumes.length; cell++) {
+    const share = Math.abs(volumes[cell]) / (corners * (corners + 1));
     for (let axis = 0; axis < 3; axis++) {
       let sum = 0;
-      for (let corner = 0; corner < 4; corner++) sum += shape[3 * tets[4 * tet + corner] + axis];
-      for (let corner = 0; corner < 4; corner++) {
-        const i = 3 * tets[4 * tet + corner] + axis;
-        product[i] += twentieth * (sum + shape[i]);
+      for (let corner = 0; corner < corners; corner++)
+        sum += shape[3 * cells[corners * cell + corner] + axis];
+      for (let corner = 0; corner < corners; corner++) {
+        const i = 3 * cells[corners * cell + corner] + axis;
+        product[i] += share * (sum + shape[i]);
       }
     }
   }
@@ -76,7 +79,8 @@ function bestRotation(C: Float64Array): number[] {
     [zx - xz, xy + yx, yy - xx - zz, yz + zy],
     [xy - yx, zx + xz, yz + zy, zz - xx - yy],
   ];
-  const [w, x, y, z] = largestEigenvector(N);
+  const { values, vectors } = symmetricEigen(N);
+  const [w, x, y, z] = vectors[values.indexOf(Math.max(...values))];
   return [
     1 - 2 * (y * y + z * z),
     2 * (x * y - w * z),
@@ -88,26 +92,4 @@ function bestRotation(C: Float64Array): number[] {
     2 * (y * z + w * x),
     1 - 2 * (x * x + y * y),
   ];
-}
-
-/** Unit eigenvector to the largest eigenvalue of a symmetric matrix, by cyclic Jacobi rotations. */
-function largestEigenvector(N: number[][]): number[] {
-  const n = N.length;
-  const A = N.map((row) => [...row]);
-  const V = A.map((_, i) => A.map((_, j) => (i === j ? 1 : 0)));
-  for (let sweep = 0; sweep < 30; sweep++)
-    for (let p = 0; p < n; p++)
-      for (let q = p + 1; q < n; q++) {
-        if (A[p][q] === 0) continue;
-        const theta = 0.5 * Math.atan2(2 * A[p][q], A[q][q] - A[p][p]);
-        const [c, s] = [Math.cos(theta), Math.sin(theta)];
-        const turn = (row: number[]) =>
-          ([row[p], row[q]] = [c * row[p] - s * row[q], s * row[p] + c * row[q]]);
-        A.forEach(turn);
-        for (let k = 0; k < n; k++)
-          [A[p][k], A[q][k]] = [c * A[p][k] - s * A[q][k], s * A[p][k] + c * A[q][k]];
-        V.forEach(turn);
-      }
-  const best = A.reduce((most, row, i) => (row[i] > A[most][most] ? i : most), 0);
-  return V.map((row) => row[best]);
 }

@@ -1,6 +1,6 @@
 import { UnreadableModel } from "./errors.ts";
 
-/** Volumes, masses and size of a tet mesh at rest. Shapes are x0 y0 z0 x1 ..., tets 4 indices each. */
+/** Volumes and size of a tet mesh at rest. Shapes are x0 y0 z0 x1 ..., tets 4 indices each. */
 
 /** Signed volumes. */
 export function tetVolumes(shape: ArrayLike<number>, tets: Int32Array): Float64Array {
@@ -14,13 +14,6 @@ export function tetVolumes(shape: ArrayLike<number>, tets: Int32Array): Float64A
     volumes[tet] = (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6;
   }
   return volumes;
-}
-
-/** A quarter of the volume of the tets at each vertex. */
-export function vertexMasses(volumes: Float64Array, tets: Int32Array, vertices: number): Float64Array {
-  const masses = new Float64Array(vertices);
-  tets.forEach((vertex, corner) => (masses[vertex] += volumes[corner >> 2] / 4));
-  return masses;
 }
 
 /** Length of the diagonal of the bounding box. */

@@ -57,14 +57,20 @@ test("a file that is not a model is refused", () => {
   refused(container({ a: { dtype: "BF16", shape: [1], data_offsets: [0, 2] } }, 2), /unknown type/);
 });
 
-for (const file of ["posing.snapspace", "posing.packed", "blending.snapspace", "blending.packed"])
+for (const [file, name] of [
+  ["posing.snapspace", "handle_K"],
+  ["posing.packed", "handle_K"],
+  ["blending.snapspace", "quartics"],
+  ["blending.packed", "quartics"],
+  ["surface-arap.snapspace", "stars_remainder"],
+  ["blending-arap.snapspace", "stars_forms"],
+])
   test(`a file that is cut off or altered is refused: ${file}`, () => {
     const whole = bytes(file);
     for (const share of [0.001, 0.1, 0.5, 0.999])
       refused(whole.slice(0, Math.floor(share * whole.byteLength)), /not a complete/);
     const size = Number(new DataView(whole).getBigUint64(0, true));
     const header = new TextDecoder().decode(new Uint8Array(whole, 8, size));
-    const name = file.startsWith("posing") ? "handle_K" : "quartics";
     const renamed = header.replace(`"${name}"`, `"${"x".repeat(name.length)}"`);
     const altered = whole.slice(0);
     new Uint8Array(altered).set(new TextEncoder().encode(renamed), 8);

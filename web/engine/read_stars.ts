@@ -1,0 +1,75 @@
+import type { Container } from "./container.ts";
+import type { BlendedStars, Cubature } from "./model.ts";
+import { STAR_MODULI, VertexStars, type RigidSurface } from "./vertex_stars.ts";
+
+const KIND = "shell-arap";
+
+/** The cubature of a surface that is as rigid as possible. For what its stars leave of the energy see `withRemainder`. */
+export function starCubature(
+  container: Container,
+  rest: Float64Array,
+  surface: RigidSurface,
+  basis: Float64Array,
+): Cubature {
+  const vertices = chosenVertices(container, rest.length / 3);
+  const stars = new VertexStars(rest, surface, vertices);
+  return {
+    kind: "cubature",
+    rows: rowsOf([stars], basis, basis.length / rest.length),
+    weights: container.doubles("cubature_weights", vertices.length),
+    material: { kind: KIND, rows: vertices.length, moduli: stars.moduli },
+  };
+}
+
+/** K of the handles, with what the stars of a posing model leave of the elastic energy. */
+export function withRemainder(container: Container, K: Float64Array<ArrayBuffer>, dimension: number) {
+  const remainder = container.doubles("stars_remainder", dimension, dimension);
+  return K.map((x, i) => x + remainder[i]);
+}
+
+/** The blended energy of a surface that is as rigid as possible; `poses` are registered to the mean shape. */
+export function blendedStars(
+  container: Container,
+  poses: readonly Float64Array[],
+  surface: RigidSurface,
+  basis: Float64Array,
+  mean: Float64Array,
+): BlendedStars {
+  const dimension = basis.length / mean.length;
+  const vertices = chosenVertices(container, mean.length / 3);
+  const stars = poses.map((pose) => new VertexStars(pose, surface, vertices));
+  const moduli = new Float64Array(STAR_MODULI * vertices.length * poses.length);
+  const origins = new Float64Array(9 * vertices.length * poses.length);
+  stars.forEach((ofPose, k) => {
+    const perFirstArea = ofPose.moduli.slice();
+    vertices.forEach((_, i) => (perFirstArea[STAR_MODULI * i] *= ofPose.areas[i] / stars[0].areas[i]));
+    moduli.set(perFirstArea, k * perFirstArea.length);
+    const displaced = mean.map((x, i) => x - poses[k][i]);
+    origins.set(ofPose.numbers(displaced), 9 * vertices.length * k);
+  });
+  return {
+    kind: "stars",
+    rows: rowsOf(stars, basis, dimension),
+    weights: container.doubles("cubature_weights", vertices.length),
+    material: { kind: KIND, rows: moduli.length / STAR_MODULI, moduli },
+    origins,
+    forms: container.doubles("stars_forms", poses.length, dimension + 1, dimension + 1),
+  };
+}
+
+/** The nine numbers of the modes, poses x stars x 9 x dimension. */
+function rowsOf(poses: readonly VertexStars[], basis: Float64Array, dimension: number) {
+  const size = 9 * poses[0].areas.length;
+  const rows = new Float32Array(poses.length * size * dimension);
+  for (let mode = 0; mode < dimension; mode++) {
+    const shape = basis.subarray((mode * basis.length) / dimension, ((mode + 1) * basis.length) / dimension);
+    poses.forEach((stars, k) =>
+      stars.numbers(shape).forEach((x, i) => (rows[(k * size + i) * dimension + mode] = x)),
+    );
+  }
+  return rows;
+}
+
+function chosenVertices(container: Container, vertices: number): Int32Array {
+  return container.indices("cubature_tets", vertices, container.shape("cubature_tets", 1));
+}
