@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from snapspace import InterpolationModel, export_html
+from snapspace import InterpolationModel, StableNeoHookean, export_html
 
 from ..shells.strips import blended_strips
 from .pages import OpenPage, Page
@@ -61,14 +61,20 @@ def test_sliders_and_polygon_blend(
     assert page.run("snapspace.session.weights") == [0, 0, 1]
 
 
-def test_surfaces_that_are_as_rigid_as_possible_blend(tmp_path: Path, opened: OpenPage) -> None:
-    model = blended_strips()
-    page = opened(export_html(model, tmp_path / "strips.html").as_uri())
-    assert_shown(model, page)
-    for slider, weight in ((0, "0.1"), (1, "0.6")):
-        page.page.get_by_role("slider", name=model.problem.poses.names[slider]).fill(weight)
-        page.settle()
+def test_surfaces_blend_also_from_files_that_are_dropped(tmp_path: Path, opened: OpenPage) -> None:
+    rigid, hinged = blended_strips(), blended_strips(StableNeoHookean())
+    page = opened(export_html(rigid, tmp_path / "strips.html").as_uri())
+    for name, model in (("page", rigid), ("rigid", rigid), ("hinged", hinged)):
+        if name != "page":
+            file = model.save(tmp_path / f"{name}.snapspace")
+            page.page.locator("footer input[type=file]").set_input_files(file)
+            page.wait(f"document.title.includes({name!r})")
+        page.rest()
         assert_shown(model, page)
+        for slider, weight in ((0, "0.1"), (1, "0.6")):
+            page.page.get_by_role("slider", name=model.problem.poses.names[slider]).fill(weight)
+            page.rest()
+            assert_shown(model, page)
 
 
 def test_a_path_plays_beside_the_straight_blend(

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 
 import pytest
 
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh.surface import compact_surface
+from snapspace.server.body import Body
+from snapspace.server.opening import Opening
+from snapspace.server.shared_body import SharedBody
+from snapspace.stopping import check_stop
 
 from ..server.held_filling import HeldFilling
 from ..server.in_process import started
@@ -92,3 +97,16 @@ def test_filling_can_be_cancelled(
     cancel(page)
     wait_for_text(page, "#message", "Drop a mesh here")
     page.wait("snapspace.stage.root.children.length === 0")
+
+
+def test_what_waits_while_a_surface_is_read_is_said_once(opened: OpenPage, chromium: object) -> None:
+    def read(opening: Opening) -> Body:
+        opening.stage("reading")
+        while True:  # until the page is closed
+            check_stop()
+            time.sleep(0.01)
+
+    page: Page = opened(started(body=SharedBody(read)))
+    wait_for_text(page, "#message", "Reading the mesh")
+    text = page.text("#message")
+    assert text.startswith("Opening bar") and text.count("Reading the mesh") == 1

@@ -79,7 +79,7 @@ export class ReadingBox {
   wait(given: Given): void {
     this.#given = given;
     this.#isBelow = false;
-    this.#show("Reading the mesh");
+    this.#show(`Opening ${given.name}`);
   }
 
   /** Shows, below its surface, that the server fills it. */
