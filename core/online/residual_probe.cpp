@@ -8,6 +8,7 @@
 #include "element/tet.h"
 #include "material/shell_rest.h"
 #include "online/reconstruct.h"
+#include "online/tet_density.h"
 
 namespace snapspace::online {
 
@@ -23,7 +24,8 @@ ResidualProbe::ResidualProbe(const ProbeBody& body, const ProbeSample& sample,
       handles_(pins.handles, pins.handles + pins.count),
       sample_weights_(sample.weights, sample.weights + sample.count),
       pulls_(pins.pulls, pins.pulls + pins.count),
-      arms_(pins.arms, pins.arms + 3 * static_cast<std::size_t>(pins.count)) {
+      arms_(pins.arms, pins.arms + 3 * static_cast<std::size_t>(pins.count)),
+      stars_(kind_, is_of_stars(kind_) ? corners_ : 0) {
   const std::size_t size = 3 * static_cast<std::size_t>(corners_);
   tau_.assign(body.tau, body.tau + size);
   modes_.assign(body.modes, body.modes + dimension_ * size);
@@ -74,17 +76,30 @@ double ResidualProbe::norm(const double* q, int dimension, const double* offsets
 void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, const double* moduli,
                                 double weight) {
   for (std::size_t i = 0; i < shape_.size(); ++i) displacement_[i] = shape_[i] - rest_shape[i];
-  Densities::with(kind_, [&]<class Density>() {
-    if constexpr (kOfStars<Density>) return;  // it has no probe
-    const RestTet* const end = tets + tets_.size() / rests_;
-    for (const RestTet* tet = tets; tet != end; ++tet, moduli += moduli_per_tet_) {
-      double weighted[Density::kModuli], G[3][3], P[3][3];
-      scale_moduli(kind_, moduli, weight * tet->volume, weighted);
-      displacement_gradient(*tet, displacement_.data(), G);
-      Density::value_and_stress(weighted, G, P);
-      scatter_stress(*tet, P, gradient_.data());
+  const int count = static_cast<int>(tets_.size()) / rests_;
+  if (is_of_stars(kind_))
+    return stars_.add(tets, count, moduli, displacement_.data(), weight, gradient_.data());
+  using Tets = TetRows::Tets;
+  for (int begin = 0; begin < count; begin += TetRows::kWidth) {
+    const int lanes = std::min(TetRows::kWidth, count - begin);
+    Tets numbers[kMaxModuli], G[3][3], P[3][3];
+    std::fill_n(numbers, kMaxModuli, Tets(0.0));
+    std::fill_n(G[0], 9, Tets(0.0));
+    for (int lane = 0; lane < lanes; ++lane, moduli += moduli_per_tet_) {
+      const RestTet& tet = tets[begin + lane];
+      double weighted[kMaxModuli], own[3][3];
+      scale_moduli(kind_, moduli, weight * tet.volume, weighted);
+      for (int i = 0; i < material_moduli(kind_); ++i) numbers[i].set(lane, weighted[i]);
+      displacement_gradient(tet, displacement_.data(), own);
+      for (int e = 0; e < 9; ++e) G[e / 3][e % 3].set(lane, own[e / 3][e % 3]);
     }
-  });
+    (void)value_and_stress(kind_, numbers, G, P);
+    for (int lane = 0; lane < lanes; ++lane) {
+      double stress[3][3];
+      for (int e = 0; e < 9; ++e) stress[e / 3][e % 3] = P[e / 3][e % 3][lane];
+      scatter_stress(tets[begin + lane], stress, gradient_.data());
+    }
+  }
 }
 
 void ResidualProbe::add_pins(const double* offsets) {

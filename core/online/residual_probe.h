@@ -4,11 +4,13 @@
 
 #include "element/rest_tet.h"
 #include "material/tet_material.h"
+#include "online/star_gradient.h"
 
 namespace snapspace::online {
 
 /// The tets around some vertices of a body, and the shapes tau + sum_i q_i modes_i of their
-/// corners.
+/// corners. Of a surface that is as rigid as possible they are the triangles around these vertices
+/// and their neighbours, whose rotations the residual depends on.
 struct ProbeBody {
   int dimension, corners, tets;
   int rests;                        ///< 1, or the number of poses that are blended
@@ -65,6 +67,7 @@ class ResidualProbe {
   std::vector<std::int32_t> sampled_, pinned_, handles_;
   std::vector<double> sample_weights_, pulls_, arms_;
   std::vector<double> shape_, displacement_, gradient_;  // corners x 3
+  StarGradient stars_;
 };
 
 }  // namespace snapspace::online

@@ -199,7 +199,9 @@ int snapspace_set_q(snapspace_session* session, const double* q);
 int snapspace_get_vertices(const snapspace_session* session, double* vertices);
 
 /* The tets around some sampled vertices of the body. Their corners are numbered from 0; all arrays
- * of corners are in that order. */
+ * of corners are in that order. Of a surface that is as rigid as possible they are the triangles
+ * around these vertices and their neighbours, with the last corner twice, and the material is
+ * "shell-arap". */
 typedef struct snapspace_probe {
   int corners;
   int tets;

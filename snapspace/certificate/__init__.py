@@ -10,22 +10,17 @@ from .residual_sample import (
     residual_sample,
     scalar_diagonal,
 )
-from .star_probe import BlendingStarProbe, StarProbe, blending_probe, posing_probe
 
 __all__ = [
     "BlendingProbe",
-    "BlendingStarProbe",
     "Certificate",
     "ErrorEstimator",
     "LocalRatios",
     "PosingProbe",
     "ResidualProbe",
     "ResidualSample",
-    "StarProbe",
-    "blending_probe",
     "grown",
     "growth_exponent",
-    "posing_probe",
     "residual_sample",
     "rest_size",
     "scalar_diagonal",

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core as core
-from ..energy import ShellMaterial
+from ..energy import ShellMaterial, is_of_stars
 from ..material import Material
 from ..problem import InterpolationProblem, PosingProblem
 from ..subspace import AffineSubspace
@@ -23,6 +23,9 @@ class ResidualProbe(ABC):
     It extracts the tets, or the elements of a shell, around these vertices from the mesh, with the
     modes at their corners, so the gradient at the vertices is exact, for every material. Takes
     about 1 ms on any mesh; the page has the same loop (core/online/residual_probe.h).
+
+    Of a surface that is as rigid as possible it takes the triangles around these vertices and their
+    neighbours: the rotations of all of them move the gradient.
 
     Parameters
     ----------
@@ -73,7 +76,7 @@ class ResidualProbe(ABC):
             )
         sampled = np.zeros(n, np.bool_)
         sampled[sample.vertices] = True
-        chosen = np.flatnonzero(sampled[tets].any(axis=1))
+        chosen = _elements_around(problem, sampled)
         self.corners, local = np.unique(tets[chosen], return_inverse=True)
         self.tets = local.reshape(-1, 4).astype(np.int32)
         self.rests = np.ascontiguousarray(rests.reshape(len(rests), n, 3)[:, self.corners])
@@ -124,6 +127,19 @@ class ResidualProbe(ABC):
         self.pinned = np.searchsorted(self.corners, vertices).astype(np.int32)
         self.pulls = 2.0 * problem.pin_weights[seen]
         self.arms = problem.mesh.vertices[vertices] - problem.centroids[self.handles]
+
+
+def _elements_around(
+    problem: PosingProblem | InterpolationProblem, sampled: NDArray[np.bool_]
+) -> NDArray[np.intp]:
+    """The elements that the gradient at sampled vertices, (n,) bool, depends on."""
+    mesh = problem.mesh
+    if not is_of_stars(mesh, problem.material):
+        return np.flatnonzero(sampled[mesh.elements].any(axis=1))
+    near = sampled.copy()
+    near[mesh.cells[sampled[mesh.cells].any(axis=1)]] = True
+    # the elements of the mesh begin with its triangles
+    return np.flatnonzero(near[mesh.cells].any(axis=1))
 
 
 class PosingProbe(ResidualProbe):

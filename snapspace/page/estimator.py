@@ -6,18 +6,17 @@ import numpy as np
 
 from ..certificate import BlendingProbe, PosingProbe, ResidualProbe
 from ..model_file.container import Arrays
-from ..reduction import InterpolationModel, PosingModel, has_stars
+from ..reduction import InterpolationModel, PosingModel
 
 
 def estimator_arrays(model: PosingModel | InterpolationModel) -> Arrays:
     """The tets around the sampled vertices with their modes, and the calibration.
 
-    Empty if the model is not calibrated, or a surface that is as rigid as possible, whose probe the
-    page does not have. Modes are in single precision: the rounding of 16-bit
+    Empty if the model is not calibrated. Modes are in single precision: the rounding of 16-bit
     integers would hide small residuals.
     """
     estimator = model.error_estimator
-    if estimator is None or has_stars(model.problem):
+    if estimator is None:
         return {}
     subspace, sample = model.subspace, estimator.sample
     arrays: Arrays = {}

@@ -10,13 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..certificate import (
-    BlendingStarProbe,
-    Certificate,
-    ResidualProbe,
-    ResidualSample,
-    StarProbe,
-)
+from ..certificate import Certificate, ResidualProbe, ResidualSample
 from .certify import certify
 from .display_shapes import DisplayShapes, Vertices
 from .frame_report import FrameReport
@@ -83,9 +77,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         self._loop: Any = self._make_loop(single=precision == "single")
         self._display = DisplayShapes(model.subspace)
         self._polisher: Polisher | None = None
-        self._probe: tuple[ResidualSample, ResidualProbe | StarProbe | BlendingStarProbe] | None = (
-            None
-        )
+        self._probe: tuple[ResidualSample, ResidualProbe] | None = None
         self.reset()
 
     @property
@@ -288,7 +280,7 @@ class Session(TimeSteps[Model], NotPickled, ABC):
         """The vertices (n, 3) of a shape, moved to where the session shows it."""
 
     @abstractmethod
-    def _make_probe(self, sample: ResidualSample) -> ResidualProbe | StarProbe | BlendingStarProbe:
+    def _make_probe(self, sample: ResidualSample) -> ResidualProbe:
         """The probe of a sample; it takes `_state`."""
 
     @abstractmethod

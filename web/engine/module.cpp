@@ -11,6 +11,7 @@
 #include "online/quartic.cpp"
 #include "online/residual_probe.cpp"
 #include "online/snapspace_online.cpp"
+#include "online/star_gradient.cpp"
 #include "online/tet_density.cpp"
 #include "online/tet_rows.cpp"
 

@@ -3,7 +3,7 @@ import { vertexMasses, type Mass } from "./mass.ts";
 import type { Body, Material } from "./model.ts";
 import { fileMaterial, moduliOf } from "./read_material.ts";
 import { boundary, everywhere, type FileSurface } from "./read_surface.ts";
-import { shellOf } from "./shell.ts";
+import { pointsOf, shellOf, withLastTwice } from "./shell.ts";
 import { diagonalOf, tetVolumes } from "./tets.ts";
 import { triangleAreas } from "./triangles.ts";
 import type { RigidSurface } from "./vertex_stars.ts";
@@ -12,11 +12,11 @@ import type { RigidSurface } from "./vertex_stars.ts";
 export interface FileBody {
   /** The shape at rest, or all poses. */
   readonly shapes: readonly Float64Array[];
-  /** Tets; of a shell, triangles and hinges. None where the elements are stars. */
+  /** Tets; of a shell, triangles and hinges. Triangles alone where a surface is as rigid as possible. */
   readonly elements: Int32Array;
   /** Of the elements. */
   readonly material: Material;
-  /** A surface that is as rigid as possible, whose elements are the stars of its vertices; null for others. */
+  /** A surface that is as rigid as possible, whose cubature has stars of its vertices; null for others. */
   readonly rigid: RigidSurface | null;
   readonly scales: Scales;
   /** Masses of the vertices at rest, or in the first pose. */
@@ -107,8 +107,13 @@ function rigidBody(rest: Float64Array, triangles: Int32Array, thickness: Float64
     (sum, area, t) => sum + Math.sqrt(0.75) * stiffness[t] * area ** 2,
     0,
   );
-  const ofStars = { kind: "shell-arap", rows: 0, moduli: new Float64Array() };
-  return { elements: new Int32Array(), material: ofStars, rigid: { triangles, stiffness }, bendingScale };
+  const elements = withLastTwice(triangles);
+  const moduli = Float64Array.from({ length: 3 * stiffness.length }, (_, i) =>
+    i % 3 ? 0 : stiffness[i / 3],
+  );
+  const shell = { points: pointsOf(rest, elements), products: new Float64Array(stiffness.length) };
+  const ofTriangles = { kind: "shell-arap", rows: stiffness.length, moduli, shell };
+  return { elements, material: ofTriangles, rigid: { triangles, stiffness }, bendingScale };
 }
 
 /** The unit of coordinates is a displacement by a tenth of the diagonal. */

@@ -19,23 +19,21 @@ interface HandleData {
   readonly stiffness: number;
 }
 
-/** The estimator of a model file: takes the tets around the sampled vertices out of the mesh; null without one, and where the
- * elements are stars. */
+/** The estimator of a model file: takes the elements around the sampled vertices out of the mesh; null without one. */
 export function estimatorOf(
   container: Container,
   { elements: tets, material, rigid }: FileBody,
   { basis, tau, rests }: Shapes,
   pins: (corners: number[], isSampled: boolean[]) => Pins,
 ): Estimator | null {
-  if (rigid || !container.has("estimator_vertices")) return null;
+  if (!container.has("estimator_vertices")) return null;
   const [count] = container.shape("estimator_vertices", 1);
   const [frames, dimension] = container.shape("estimator_coordinates", 2);
   const vertices = container.indices("estimator_vertices", tau.length / 3, [count]);
   const sampled = new Set(vertices);
-  const chosen = Int32Array.from({ length: tets.length / 4 }, (_, tet) => tet).filter((tet) =>
-    tets.subarray(4 * tet, 4 * tet + 4).some((vertex) => sampled.has(vertex)),
-  );
-  const around = Int32Array.from({ length: 4 * chosen.length }, (_, i) => tets[4 * chosen[i >> 2] + (i & 3)]);
+  // the rotations of neighbours count too where a surface is as rigid as possible
+  const chosen = elementsAt(tets, rigid ? new Set(cornersOf(tets, elementsAt(tets, sampled))) : sampled);
+  const around = cornersOf(tets, chosen);
   const corners = [...new Set(around)].sort((a, b) => a - b);
   const place = new Map(corners.map((vertex, i) => [vertex, i]));
   const taken = (rows: Float64Array, row = 0) =>
@@ -62,6 +60,18 @@ export function estimatorOf(
     ratios: container.doubles("estimator_residual_ratios", frames),
     exponent: exponentOf(container),
   };
+}
+
+/** The elements with a corner in a set. */
+function elementsAt(elements: Int32Array, vertices: Set<number>): Int32Array {
+  const all = Int32Array.from({ length: elements.length / 4 }, (_, element) => element);
+  return all.filter((element) =>
+    elements.subarray(4 * element, 4 * element + 4).some((vertex) => vertices.has(vertex)),
+  );
+}
+
+function cornersOf(elements: Int32Array, chosen: Int32Array): Int32Array<ArrayBuffer> {
+  return Int32Array.from({ length: 4 * chosen.length }, (_, i) => elements[4 * chosen[i >> 2] + (i & 3)]);
 }
 
 /** The exponent of residuals; files of earlier calibrations have none, and it is 1. */

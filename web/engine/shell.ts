@@ -28,15 +28,14 @@ export function shellOf(
   const moduli = new Float64Array((3 * elements.length) / 4);
   let bendingScale = 0;
   for (let t = 0; t < count; t++) {
-    const corners = triangles.subarray(3 * t, 3 * t + 3);
     const thick = thickness[t];
     const [lam, mu] = moduliOf(material, ["lam", "mu"], t);
     const plane = (2 * lam * mu) / (lam + 2 * mu); // plane stress
     rigidities[t] = ((2 * mu + plane) * thick ** 3) / 12;
     bendingScale += rigidities[t] * areas[0][t];
-    elements.set([...corners, corners[2]], 4 * t);
     moduli.set([mu * thick, plane * thick, 0], 3 * t);
   }
+  elements.set(withLastTwice(triangles));
   elements.set(hinges, 4 * count);
   const products = new Float64Array(elements.length / 4);
   for (let hinge = 0; hinge < hinges.length / 4; hinge++) {
@@ -46,10 +45,23 @@ export function shellOf(
     const logarithms = areas.reduce((sum, ofPose) => sum + Math.log(4 * ofPose[a] * ofPose[b]), 0);
     products[count + hinge] = Math.exp(logarithms / areas.length);
   }
-  const points = Float64Array.from(
-    { length: 3 * elements.length },
-    (_, i) => shapes[0][3 * elements[Math.floor(i / 3)] + (i % 3)],
-  );
+  const points = pointsOf(shapes[0], elements);
   const ofElements = { kind: `shell-${material.kind}`, rows: elements.length / 4, moduli };
   return { elements, material: { ...ofElements, shell: { points, products } }, bendingScale };
+}
+
+/** Triangles as elements of four corners: their last one twice. */
+export function withLastTwice(triangles: Int32Array): Int32Array {
+  return Int32Array.from(
+    { length: (4 * triangles.length) / 3 },
+    (_, i) => triangles[3 * (i >> 2) + Math.min(i & 3, 2)],
+  );
+}
+
+/** Where the corners of elements are, elements x 4 x 3. */
+export function pointsOf(shape: Float64Array, elements: Int32Array): Float64Array<ArrayBuffer> {
+  return Float64Array.from(
+    { length: 3 * elements.length },
+    (_, i) => shape[3 * elements[Math.floor(i / 3)] + (i % 3)],
+  );
 }

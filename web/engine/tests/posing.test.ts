@@ -42,7 +42,7 @@ function surface(session: PosingSession): Float32Array {
 const materials = expected<string[]>("materials.json");
 const models = ["posing", "own_surface", "cubature", ...materials];
 const files = models.flatMap((name) => [`${name}.snapspace`, `${name}.packed`]);
-for (const file of [...files, "surface-arap.snapspace", "surface-arap.packed"])
+for (const file of files)
   test(`a drag is that of Session: ${file}`, async () => {
     const [name, ending] = file.split(".");
     const { frames, leading } = expected<Drag>(`${name}.json`);
