@@ -139,7 +139,8 @@ def _blends(
     tets, weights = arrays["cubature_tets"], arrays["cubature_weights"]
     check_shapes(arrays, {"cubature_tets": (tets.size,), "cubature_weights": (tets.size,)})
     if has_stars(problem):
-        check_shapes(arrays, {star_forms.FORMS: (len(problem.poses), d + 1, d + 1)})
-        forms = arrays[star_forms.FORMS]
+        count, forms = len(problem.poses), arrays[star_forms.FORMS]
+        shapes = {star_forms.FORMS: (count, d + 1, d + 1), star_forms.DIRICHLET: (count, d, d)}
+        check_shapes(arrays, shapes)
         return BlendedStars.of_tets(problem, subspace, tets, weights, forms=forms)
     return BlendedCubature.of_tets(problem, subspace, tets, weights)

@@ -12,6 +12,8 @@ from .container import Arrays
 
 #: Of a posing model, (d, d); of an interpolation, (poses, d + 1, d + 1).
 REMAINDER, FORMS = "stars_remainder", "stars_forms"
+#: `BlendedStars.dirichlet_forms`, for readers that have no time for them: (poses, d, d).
+DIRICHLET = "stars_dirichlet"
 
 
 def remainder_arrays(elastic: Cubature) -> Arrays:
@@ -20,10 +22,12 @@ def remainder_arrays(elastic: Cubature) -> Arrays:
 
 
 def form_arrays(blends: BlendedSum) -> Arrays:
-    """The array of an interpolation whose elements are stars; none for others."""
-    return {FORMS: blends.forms} if isinstance(blends, BlendedStars) else {}
+    """The arrays of an interpolation whose elements are stars; none for others."""
+    if not isinstance(blends, BlendedStars):
+        return {}
+    return {FORMS: blends.forms, DIRICHLET: blends.dirichlet_forms}
 
 
 def dtypes(arrays: Arrays) -> dict[str, type]:
     """Types of these arrays, if there are any."""
-    return {name: np.float64 for name in (REMAINDER, FORMS) if name in arrays}
+    return {name: np.float64 for name in (REMAINDER, FORMS, DIRICHLET) if name in arrays}

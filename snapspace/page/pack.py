@@ -218,6 +218,7 @@ def _blend_arrays(blends: PoseQuartics | BlendedSum | FullBlends) -> Arrays:
             "stars_moduli": blends.material.moduli,
             "stars_origins": blends.origins,
             "stars_forms": blends.forms,
+            "stars_dirichlet": blends.dirichlet_forms,
         }
     if isinstance(blends, BlendedSum):
         return {

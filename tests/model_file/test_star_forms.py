@@ -37,19 +37,24 @@ def test_they_are_those_of_the_mesh(
 
     again = load(blended.save(tmp_path / "blended.snapspace"))
     assert isinstance(again, InterpolationModel) and isinstance(again.blends, BlendedStars)
+    assert isinstance(blended.blends, BlendedStars)
     blends = again.blends
     anew = BlendedStars.of_tets(again.problem, again.subspace, blends.tets, blends.weights)
     np.testing.assert_allclose(blends.forms, anew.forms, atol=1e-9 * np.abs(anew.forms).max())
+    np.testing.assert_array_equal(
+        load_file(tmp_path / "blended.snapspace")["stars_dirichlet"], blended.blends.dirichlet_forms
+    )
 
 
 @pytest.mark.parametrize("change", ["missing", "size", "type"])
-@pytest.mark.parametrize("kind", ["posed", "blended"])
+@pytest.mark.parametrize("kind", ["posed", "blended", "range"])
 def test_a_file_without_them_or_with_others_is_refused(
     posed: PosingModel, blended: InterpolationModel, tmp_path: Path, kind: str, change: str
 ) -> None:
     models: dict[str, tuple[ReducedModel, str]] = {
         "posed": (posed, "stars_remainder"),
         "blended": (blended, "stars_forms"),
+        "range": (blended, "stars_dirichlet"),
     }
     model, name = models[kind]
     path = model.save(tmp_path / "strip.snapspace")

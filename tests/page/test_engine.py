@@ -24,7 +24,6 @@ from snapspace import (
     calibrate,
 )
 from snapspace.certificate import PosingProbe
-from snapspace.cubature import BlendedStars
 from snapspace.generators import bar
 from snapspace.material import MATERIALS
 from snapspace.page import packed
@@ -90,7 +89,7 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
                 "certificate": certificate(session),
                 "linear": model.surface.vertices(linear).ravel().tolist(),
                 "outside": list(session.outside),
-                "certain": session.certain if knows_range(model) else min(weights) >= 0 or None,
+                "certain": session.certain,
             }
         )
     session.dimension = 7
@@ -98,15 +97,10 @@ def blending_frames(model: InterpolationModel) -> dict[str, Any]:
     return {"frames": frames, "diagonal": diagonal, "leading": leading, **certain_range(model)}
 
 
-def knows_range(model: InterpolationModel) -> bool:
-    """Whether the page knows the certain range of a model: not where the elements are stars."""
-    return not isinstance(model.blends, BlendedStars)
-
-
 def certain_range(model: InterpolationModel) -> dict[str, Any]:
     """How far it goes from equal weights in some directions, and where sliders end."""
     certain = model.certain_range
-    if certain is None or not knows_range(model):
+    if certain is None:
         return {"ends": None}
     ways = np.array([[1, -1, 0], [-1, 0.5, 0.5], [0.2, 0.3, -0.5]])
     alone = np.eye(3)[:2]  # two poses take part

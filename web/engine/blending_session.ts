@@ -1,4 +1,4 @@
-import { CertainRange } from "./certain_range.ts";
+import { certainRange, type CertainRange } from "./certain_range.ts";
 import { Certifier, type Certificate } from "./certificate.ts";
 import { Core, type FrameReport, type Termination } from "./core.ts";
 import type { BlendingModel } from "./model.ts";
@@ -28,7 +28,7 @@ export class BlendingSession {
     this.model = model;
     this.#core = core;
     this.#certifier = Certifier.of(model, core);
-    this.#certain = CertainRange.of(model);
+    this.#certain = certainRange(model);
     this.time = new TimeSteps(core, null, model.dimension);
     const { valueScale } = core;
     const { coordinateScale } = model;
@@ -127,9 +127,9 @@ export class BlendingSession {
     return this.#weights.every((w) => w >= 0) || null;
   }
 
-  /** The least and the greatest weight of each of some poses, see `weightEnds`. */
-  ends(poses: readonly number[]): WeightEnds[] {
-    return weightEnds(this.model, this.#certain, poses);
+  /** The least and the greatest weight of one of some poses, see `weightEnds`. Many coordinates take milliseconds. */
+  ends(poses: readonly number[], pose: number): WeightEnds {
+    return weightEnds(this.model, this.#certain, poses, pose);
   }
 
   #check(weights: readonly number[]): void {

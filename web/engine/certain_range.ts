@@ -1,21 +1,48 @@
 import type { BlendingModel } from "./model.ts";
 
-/** Densities whose blends collapse (Material.collapses of the Python package); the others have no cheap test. */
+/** Weights for which the blended energy certainly has a minimum, a convex set; as CertainRange of the Python package. */
+export interface CertainRange {
+  /** Whether weights are in the range, without its bound. */
+  holds(weights: readonly number[]): boolean;
+}
+
+/** Densities whose blends collapse (Material.collapses of the Python package); others have no cheap test. */
 const COLLAPSING = ["stable-neo-hookean"];
 const TERMS = 7; // per tet and pose: v A A^T (xx, yy, zz, yz, xz, xy) and 1 / v
-const HALVINGS = 24;
 
-/** Weights for which the blended energy certainly has a minimum: in all tets of the cubature M is positive definite, and
- * alpha is. As CertainRange of the Python package. */
-export class CertainRange {
+/** Null where no test is known. */
+export function certainRange({ blends, material, poses }: BlendingModel): CertainRange | null {
+  if (blends.kind === "stars") return new FormRange(blends.dirichlet, poses.length);
+  if (blends.kind !== "cubature" || !COLLAPSING.includes(material)) return null;
+  return new TetRange(blends.corners, blends.weights.length, poses.length);
+}
+
+/** Where the weighted sum of quadratic forms is positive definite. */
+export class FormRange implements CertainRange {
+  readonly #forms: Float64Array;
+  readonly #size: number;
+
+  /** `forms` are symmetric matrices, one per pose, definite each. */
+  constructor(forms: Float64Array, poses: number) {
+    this.#forms = forms;
+    this.#size = forms.length / poses;
+  }
+
+  holds(weights: readonly number[]): boolean {
+    if (weights.every((w) => w >= 0)) return true;
+    const sum = new Float64Array(this.#size);
+    weights.forEach((w, pose) => {
+      const form = this.#forms.subarray(this.#size * pose, this.#size * (pose + 1));
+      for (let i = 0; i < sum.length; i++) sum[i] += w * form[i];
+    });
+    return isDefinite(sum);
+  }
+}
+
+/** Where in all tets of the cubature M is positive definite, and alpha is. */
+export class TetRange implements CertainRange {
   readonly #poses: number;
   readonly #terms: Float64Array;
-
-  /** Null where no test is known. */
-  static of({ blends, material, poses }: BlendingModel): CertainRange | null {
-    if (blends.kind !== "cubature" || !COLLAPSING.includes(material)) return null;
-    return new CertainRange(blends.corners, blends.weights.length, poses.length);
-  }
 
   /** `corners` of the tets in every pose: poses x tets x 4 x 3; what follows is not read. */
   constructor(corners: Float64Array, tets: number, poses: number) {
@@ -28,7 +55,6 @@ export class CertainRange {
     }
   }
 
-  /** Whether these weights are in the range, without its bound. */
   holds(weights: readonly number[]): boolean {
     const terms = this.#terms;
     const sum = new Float64Array(TERMS);
@@ -39,19 +65,6 @@ export class CertainRange {
       if (!isPositive(sum)) return false;
     }
     return true;
-  }
-
-  /** The largest t <= `most` up to which start + t step is in the range. */
-  reach(start: readonly number[], step: readonly number[], most: number): number {
-    const at = (t: number) => start.map((w, pose) => w + t * step[pose]);
-    if (this.holds(at(most))) return most;
-    let [within, beyond] = [0, most];
-    for (let i = 0; i < HALVINGS; i++) {
-      const middle = (within + beyond) / 2;
-      if (this.holds(at(middle))) within = middle;
-      else beyond = middle;
-    }
-    return within;
   }
 }
 
@@ -90,4 +103,19 @@ function isPositive([xx, yy, zz, yz, xz, xy, alpha]: Float64Array): boolean {
   const minor = xx * yy - xy * xy;
   const det = zz * minor - xx * yz * yz - yy * xz * xz + 2 * yz * xz * xy;
   return alpha > 0 && xx > 0 && minor > 0 && det > 0;
+}
+
+/** Tested by Cholesky's factor, which overwrites the matrix. */
+function isDefinite(A: Float64Array): boolean {
+  const n = Math.sqrt(A.length);
+  for (let i = 0; i < n; i++) {
+    for (let j = 0; j <= i; j++) {
+      let left = A[n * i + j];
+      for (let k = 0; k < j; k++) left -= A[n * i + k] * A[n * j + k];
+      if (j < i) A[n * i + j] = left / A[n * j + j];
+      else if (left > 0) A[n * i + i] = Math.sqrt(left);
+      else return false;
+    }
+  }
+  return true;
 }

@@ -121,6 +121,8 @@ export interface BlendedStars {
   readonly origins: Float64Array<ArrayBuffer>;
   /** What the stars leave of each pose's energy, poses x (dimension + 1) x (dimension + 1). */
   readonly forms: Float64Array<ArrayBuffer>;
+  /** The Dirichlet energies of the poses, q^T D q: poses x dimension x dimension. */
+  readonly dirichlet: Float64Array<ArrayBuffer>;
 }
 
 /** Positions of the tets' corners at rest, tets x 4 x 3, and the modes there, tets x 4 x 3 x dimension. */

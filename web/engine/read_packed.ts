@@ -131,6 +131,7 @@ function readStars(container: Container, { dimension, material }: Known, poses: 
     material: readMaterial(container, "stars_moduli", material, poses * stars),
     origins: container.doubles("stars_origins", poses, stars, 9),
     forms: container.doubles("stars_forms", poses, dimension + 1, dimension + 1),
+    dirichlet: container.doubles("stars_dirichlet", poses, dimension, dimension),
   };
 }
 

@@ -54,6 +54,7 @@ export function blendedStars(
     material: { kind: KIND, rows: moduli.length / STAR_MODULI, moduli },
     origins,
     forms: container.doubles("stars_forms", poses.length, dimension + 1, dimension + 1),
+    dirichlet: container.doubles("stars_dirichlet", poses.length, dimension, dimension),
   };
 }
 

@@ -7,31 +7,36 @@ export const PLAIN_ENDS: WeightEnds = [0, 1];
 /** The widest range of sliders, even if minima exist beyond it. */
 const WIDEST: WeightEnds = [-1, 2];
 
-/** How far the weight of each of some poses may go while the others of them share the rest evenly: as far as there is
+/** How far the weight of one of some poses may go while the others of them share the rest evenly: as far as there is
  * certainly a minimum, and where that is not known as far as was sampled. In whole percent, and not beyond `WIDEST`. */
 export function weightEnds(
   model: BlendingModel,
   certain: CertainRange | null,
   chosen: readonly number[],
-): WeightEnds[] {
-  const even = 1 / chosen.length;
-  if (chosen.length < 2) return chosen.map(() => PLAIN_ENDS);
-  if (!certain) {
-    const least = Math.max(WIDEST[0], model.lowestWeight);
-    const greatest = Math.min(WIDEST[1], 1 - (chosen.length - 1) * model.lowestWeight);
-    return chosen.map(() => [inward(least, Math.ceil), inward(greatest, Math.floor)]);
-  }
-  const start = model.poses.map((_, pose) => (chosen.includes(pose) ? even : 0));
-  return chosen.map((pose) => {
-    const step = start.map((w, k) => (k === pose ? 1 - even : -w));
-    const back = step.map((x) => -x);
-    const least = even - (1 - even) * certain.reach(start, back, (even - WIDEST[0]) / (1 - even));
-    const greatest = even + (1 - even) * certain.reach(start, step, (WIDEST[1] - even) / (1 - even));
-    return [inward(least, Math.ceil), inward(greatest, Math.floor)];
-  });
+  pose: number,
+): WeightEnds {
+  if (chosen.length < 2) return PLAIN_ENDS;
+  const others = chosen.length - 1;
+  const sampled = (weight: number) => Math.min(weight, (1 - weight) / others) > model.lowestWeight - 1e-9;
+  const holds = (percent: number) => {
+    const weight = percent / 100;
+    if (!certain) return sampled(weight);
+    return certain.holds(
+      model.poses.map((_, k) => (k === pose ? weight : chosen.includes(k) ? (1 - weight) / others : 0)),
+    );
+  };
+  const [least, greatest] = PLAIN_ENDS.map((end, i) => farthest(holds, 100 * end, 100 * WIDEST[i]) / 100);
+  return [least, greatest];
 }
 
-/** A weight in whole percent; what rounding added to such a number does not count. */
-function inward(weight: number, round: (percent: number) => number): number {
-  return round(Number((100 * weight).toFixed(6))) / 100 || 0;
+/** The farthest whole number from one that holds towards another, if they hold up to there. */
+function farthest(holds: (number: number) => boolean, from: number, to: number): number {
+  if (holds(to)) return to;
+  let [within, beyond] = [from, to];
+  while (Math.abs(beyond - within) > 1) {
+    const middle = Math.trunc((within + beyond) / 2);
+    if (holds(middle)) within = middle;
+    else beyond = middle;
+  }
+  return within;
 }

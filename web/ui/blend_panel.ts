@@ -25,9 +25,11 @@ export interface BlendPanel {
   illustrate(pose: number, address: string): void;
 }
 
-/** The least and the greatest weight of each of some poses. */
-export type EndsOf = (poses: readonly number[]) => readonly WeightEnds[];
-const plainEnds: EndsOf = (poses) => poses.map(() => PLAIN_ENDS);
+/** The least and the greatest weight of one of some poses. */
+export type EndsOf = (poses: readonly number[], pose: number) => WeightEnds;
+/** Milliseconds. */
+const TURN = 15;
+const plainEnds: EndsOf = () => PLAIN_ENDS;
 
 /** `act` gets what the user asks for. Few poses all take part, many are chosen. */
 export function blendPanel(
@@ -59,6 +61,7 @@ function whole(
     element.append(own.element);
     return own;
   });
+  const extend = inTurns((pose, limits) => ends[pose].set(limits));
   return {
     sections: [
       section("Blend", place.element, row),
@@ -70,10 +73,7 @@ function whole(
       place.show(choice);
       sliders.forEach(({ set }, pose) => set(choice.weights[pose]));
     },
-    extend: (endsOf) => {
-      const limits = (endsOf ?? plainEnds)(shown.poses);
-      ends.forEach(({ set }, pose) => set(limits[pose]));
-    },
+    extend: (endsOf) => extend(shown.poses, endsOf ?? plainEnds),
     illustrate: (pose, address) => place.illustrate(pose, address),
   };
 }
@@ -95,13 +95,14 @@ function choosing(
   });
   place.element.classList.add("steady");
   let endsOf = plainEnds;
+  const extend = inTurns((at, limits) => rows.extend(at, limits));
   return {
     sections: [section("Poses", list.element), section("Blend", place.element, row, rows.element)],
     search: list.search,
     show: (choice) => {
       if (choice.poses !== shown.poses) {
         list.show(choice.poses);
-        rows.extend(endsOf(choice.poses));
+        extend(choice.poses, endsOf);
       }
       shown = choice;
       place.show(choice);
@@ -109,13 +110,28 @@ function choosing(
     },
     extend: (given) => {
       endsOf = given ?? plainEnds;
-      rows.extend(endsOf(shown.poses));
+      extend(shown.poses, endsOf);
     },
     illustrate: (pose, address) => {
       place.illustrate(pose, address);
       list.illustrate(pose, address);
       rows.show(shown, place.pictures);
     },
+  };
+}
+
+/** Sets the ends of one slider after the other. What takes longer than a picture goes on in later tasks, until the next call. */
+function inTurns(set: (place: number, limits: WeightEnds) => void) {
+  let later = 0;
+  return (poses: readonly number[], endsOf: EndsOf) => {
+    clearTimeout(later);
+    const go = (place: number) => {
+      const begin = performance.now();
+      for (; place < poses.length && performance.now() < begin + TURN; place++)
+        set(place, endsOf(poses, poses[place]));
+      if (place < poses.length) later = window.setTimeout(() => go(place));
+    };
+    go(0);
   };
 }
 

@@ -100,8 +100,9 @@ export async function blendingView(
     panel.extend(on ? endsOf : null);
     if (!on && choice.weights.some((w) => w < 0)) ask(withoutNegatives(choice));
   });
-  const endsOf = (poses: readonly number[]) => session.ends(poses);
-  const canGoBeyond = endsOf(firstChoice(model.poses.length).poses).some(([least]) => least < 0);
+  const endsOf = (poses: readonly number[], pose: number) => session.ends(poses, pose);
+  const first = firstChoice(model.poses.length).poses;
+  const canGoBeyond = first.some((pose) => endsOf(first, pose)[0] < 0);
   const buttons = [play, compare, mean, ...(canGoBeyond ? [beyond] : [])];
   const panel = blendPanel(model.poses, buttons, ask);
 

@@ -29,9 +29,9 @@ export class WeightRows {
     this.element = h("div", {}, ...this.#rows.map(({ element }) => element));
   }
 
-  /** How far each row's weight may go. */
-  extend(ends: readonly WeightEnds[]): void {
-    ends.forEach((own, place) => this.#rows[place].extend(own));
+  /** How far a row's weight may go. */
+  extend(place: number, ends: WeightEnds): void {
+    this.#rows[place].extend(ends);
   }
 
   /** `pictures` are addresses by pose; those that are not made yet are missing. */

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { BlendingSession } from "../blending_session.ts";
-import { CertainRange } from "../certain_range.ts";
+import { certainRange } from "../certain_range.ts";
 import { Core } from "../core.ts";
 import type { BlendingModel } from "../model.ts";
 import { readModel } from "../read_model.ts";
@@ -63,8 +63,9 @@ for (const [name, ending, kind] of [
     }
     session.dimension = 7;
     isValue(session.solve().value, leading);
-    areEnds([...session.ends([0, 1, 2]), ...session.ends([0, 1])], ends);
-    assert.deepEqual(session.ends([2]), [[0, 1]], "a pose alone has all the weight");
+    const endsOf = (poses: number[]) => poses.map((pose) => session.ends(poses, pose));
+    areEnds([...endsOf([0, 1, 2]), ...endsOf([0, 1])], ends);
+    assert.deepEqual(session.ends([2], 2), [0, 1], "a pose alone has all the weight");
     assert.throws(() => session.blend(model.poses.map(() => 1)), /a sum of one/);
     session.reset();
     assert.ok(session.q.every((x) => x === 0));
@@ -79,17 +80,19 @@ function areEnds(ends: readonly (readonly [number, number])[], expected: Ends | 
   });
 }
 
-test("the certain range is that of Python; where none is known weights go as far as was sampled", async () => {
-  const { ways, reaches } = expected<{ ways: number[][]; reaches: number[] }>("blending-cubature.json");
-  const model = readModel(bytes("blending-cubature.packed"), "poses") as BlendingModel;
-  const certain = CertainRange.of(model)!;
-  const start = [1 / 3, 1 / 3, 1 / 3];
-  ways.forEach((way, i) => {
-    const reach = certain.reach(start, way, 1e3);
-    assert.ok(Math.abs(reach / reaches[i] - 1) < 1e-3, `${reach}, not ${reaches[i]}`);
-    const at = (share: number) => start.map((w, pose) => w + share * reaches[i] * way[pose]);
-    assert.ok(certain.holds(at(1 - 1e-6)) && !certain.holds(at(1 + 1e-6)));
-  });
-  assert.equal(certain.reach(start, [0, 0, 0], 1e3), 1e3, "no way, no end");
-  assert.deepEqual(weightEnds({ ...model, lowestWeight: -0.1 }, null, [0, 1, 2])[0], [-0.1, 1.2]);
+for (const name of ["blending-cubature", "blending-arap"])
+  for (const ending of ["snapspace", "packed"])
+    test(`the certain range is that of Python: ${name}.${ending}`, () => {
+      const { ways, reaches } = expected<{ ways: number[][]; reaches: number[] }>(`${name}.json`);
+      const certain = certainRange(readModel(bytes(`${name}.${ending}`), "poses") as BlendingModel)!;
+      ways.forEach((way, i) => {
+        const at = (share: number) => way.map((x) => 1 / 3 + share * reaches[i] * x);
+        assert.ok(certain.holds(at(1 - 1e-6)) && !certain.holds(at(1 + 1e-6)));
+      });
+    });
+
+test("where no certain range is known weights go as far as was sampled", () => {
+  const model = readModel(bytes("blending.packed"), "poses") as BlendingModel;
+  assert.equal(certainRange(model), null);
+  assert.deepEqual(weightEnds({ ...model, lowestWeight: -0.1 }, null, [0, 1, 2], 0), [-0.1, 1.2]);
 });
