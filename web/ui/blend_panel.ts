@@ -28,7 +28,7 @@ export interface BlendPanel {
 /** The least and the greatest weight of one of some poses. */
 export type EndsOf = (poses: readonly number[], pose: number) => WeightEnds;
 /** Milliseconds. */
-const TURN = 15;
+const TURN = 8;
 const plainEnds: EndsOf = () => PLAIN_ENDS;
 
 /** `act` gets what the user asks for. Few poses all take part, many are chosen. */
