@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
@@ -59,6 +60,38 @@ def models() -> Iterator[tuple[str, ss.ReducedModel]]:
         solved = ss.solve_snapshots(problem, ss.sample(problem.domain, 12, seed=1), threads=1)
         subspace = ss.snapshot_pca(solved, dimension=3)
         yield f"interpolation-{kind.kind}", ss.reduce(problem, subspace, snapshots=solved)
+    for kind in (ss.ARAP(), ss.StableNeoHookean(lam=1.5, mu=0.7)):
+        yield f"shell-{kind.kind}", ss.calibrate(shell_model(kind), samples=8)
+        yield f"shells-{kind.kind}", blended_shells(kind)
+
+
+def sheet() -> ss.ShellMesh:
+    """The surface of the bar without its end, as a shell."""
+    faces = mesh().surface[(mesh().vertices[mesh().surface][:, :, 0] > 1e-9).any(axis=1)]
+    used, triangles = np.unique(faces, return_inverse=True)
+    return ss.ShellMesh(mesh().vertices[used], triangles.reshape(-1, 3), thickness=0.1)
+
+
+def shell_model(material: ss.Material) -> ss.PosingModel:
+    """A model of the sheet with three modes."""
+    x = sheet().vertices[:, 0]
+    domain = ss.HandleBox(translation=0.2, angle=0.3)
+    handles = ss.Handles([x < 0.1, x > x.max() - 0.1])
+    problem = ss.PosingProblem(sheet(), handles, domain=domain, material=material)
+    return _reduced(problem)
+
+
+def blended_shells(material: ss.Material) -> ss.InterpolationModel:
+    """A model of the sheet, as it is and bent, with three modes."""
+    bent = sheet().vertices * [1.0, 1.3, 0.8]
+    bent[:, 2] += 0.3 * bent[:, 0] ** 2
+    poses = ss.ShellPoses([sheet().vertices, bent], sheet().triangles, thickness=0.1)
+    return _reduced(ss.InterpolationProblem(poses, material=material))
+
+
+def _reduced(problem: ss.PosingProblem | ss.InterpolationProblem) -> Any:
+    solved = ss.solve_snapshots(problem, ss.sample(problem.domain, 12, seed=1), threads=1)
+    return ss.reduce(problem, ss.snapshot_pca(solved, dimension=3), snapshots=solved)
 
 
 KINDS = ("model", "page", "samples", "checkpoint", "problem", "surface", "tets", "timeline")

@@ -61,9 +61,11 @@ double ResidualProbe::norm(const double* q, int dimension, const double* offsets
   std::fill(gradient_.begin(), gradient_.end(), 0.0);
   const std::size_t tets = tets_.size() / rests_;
   const std::size_t moduli = is_of_shells(kind_) ? tets * material_moduli(kind_) : 0;
-  for (int k = 0; k < rests_; ++k)
+  for (int k = 0; k < rests_; ++k) {
+    if (weights && weights[k] == 0.0) continue;
     add_elastic(rest_shapes_.data() + k * shape_.size(), tets_.data() + k * tets,
                 moduli_.data() + k * moduli, weights ? weights[k] : 1.0);
+  }
   if (offsets) add_pins(offsets);
   double sum = 0.0;
   for (std::size_t i = 0; i < sampled_.size(); ++i) {
@@ -84,7 +86,7 @@ void ResidualProbe::add_elastic(const double* rest_shape, const RestTet* tets, c
     const int lanes = std::min(TetRows::kWidth, count - begin);
     Tets numbers[kMaxModuli], G[3][3], P[3][3];
     std::fill_n(numbers, kMaxModuli, Tets(0.0));
-    std::fill_n(G[0], 9, Tets(0.0));
+    for (auto& row : G) std::fill_n(row, 3, Tets(0.0));
     for (int lane = 0; lane < lanes; ++lane, moduli += moduli_per_tet_) {
       const RestTet& tet = tets[begin + lane];
       double weighted[kMaxModuli], own[3][3];

@@ -87,7 +87,8 @@ inline int read_material(const snapspace_material& given, int tets, TetMaterial&
   if (!given.kind) return SNAPSPACE_BAD_ARGUMENT;
   const int kind = material_index(given.kind);
   if (kind < 0) return SNAPSPACE_UNKNOWN_MATERIAL;
-  if (!given.moduli || (given.count != 1 && given.count != tets)) return SNAPSPACE_BAD_ARGUMENT;
+  const bool shared = given.count == 1 && !is_of_shells(kind);
+  if (!given.moduli || (!shared && given.count != tets)) return SNAPSPACE_BAD_ARGUMENT;
   const int columns = material_moduli(kind), energies = scaled_moduli(kind);
   const std::size_t size = static_cast<std::size_t>(given.count) * columns;
   if (!all_finite(given.moduli, size)) return SNAPSPACE_NOT_FINITE;

@@ -140,6 +140,8 @@ def test_a_faulty_probe_is_refused_and_the_one_before_stays(entry: Entry) -> Non
     kind = probe.material.kind.encode()
     assert refused(material=Material(b"mud", 1, address(np.ones((1, 2))))) == UNKNOWN_MATERIAL
     assert refused(material=Material(kind, 2, address(np.ones((2, 2))))) == BAD_ARGUMENT
+    star = Material(b"shell-arap", 1, address(np.ones((1, 12))))
+    assert refused(material=star) == BAD_ARGUMENT, "shells have a row per element"
     if probe.material.moduli.shape[1] == 2:
         assert refused(material=Material(kind, 1, address(moduli))) == NOT_FINITE
     assert residual(entry) == before

@@ -108,6 +108,7 @@ def test_wrong_stars_are_refused(library: ctypes.CDLL, arrays: Arrays) -> None:
         ({"material": Material(None, 1, address(moduli))}, BAD_ARGUMENT),
         ({"material": Material(b"shell-arap", 1, None)}, BAD_ARGUMENT),
         (material(b"shell-arap", moduli[:STARS]), BAD_ARGUMENT),
+        (material(b"shell-arap", moduli[:1]), BAD_ARGUMENT),
         (material(b"shell-arap", negative), BAD_ARGUMENT),
         (material(b"shell-arap", unknown), NOT_FINITE),
         (material(b"arap", np.ones((1, 1))), BAD_ARGUMENT),
