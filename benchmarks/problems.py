@@ -11,6 +11,7 @@ from collections.abc import Callable
 
 import common
 import numpy as np
+from tips import tips
 
 import snapspace as ss
 from snapspace import generators
@@ -23,7 +24,9 @@ STIFFNESS = 2e5
 
 
 def read(name: str) -> ss.PosingProblem:
-    """A problem by one of the names of NAMES, or `creature:TETS` of another size."""
+    """A problem by one of the names of NAMES, `creature:TETS` of another size, or `tips:SEED`."""
+    if name.startswith("tips:"):
+        return tips(int(name.partition(":")[2]))
     if name.startswith("creature:"):
         return common.creature_problem(int(name.partition(":")[2]))
     if name in GENERATED:
@@ -116,7 +119,7 @@ GENERATED: dict[str, Callable[[], ss.PosingProblem]] = {
 }
 NAMES = (*SHARED, *GENERATED)
 #: Help text of --problem.
-HELP = f"any of {', '.join(NAMES)}, or creature:TETS"
+HELP = f"any of {', '.join(NAMES)}, creature:TETS, or tips:SEED with random handles"
 #: Defaults are chosen on these, and judged on the others.
 CHOOSING = ("dragon", "elephant", "armadillo", "creature", "creature_with_tail")
 JUDGING = ("spot", "dog_head", "hand_five_fingers", "bar", "bridge", "helix", "tripod")
