@@ -170,10 +170,10 @@ class _Search:
 
     def _refined(self, plane: Plane, *, turning: bool = True) -> MirrorPlane:
         """A plane improved by Gauss-Newton, as long as that helps; it may keep its normal."""
-        best = self._measured(plane)
+        best, nearest = self._measured(plane)
         for _ in range(_STEPS):
-            plane = self._step(plane, turning=turning)
-            found = self._measured(plane)
+            plane = self._step(plane, nearest, turning=turning)
+            found, nearest = self._measured(plane)
             gain = 1.0 - _deviation(found) / max(_deviation(best), 1e-300)
             if gain > 0:
                 best = found
@@ -181,12 +181,11 @@ class _Search:
                 break
         return best
 
-    def _step(self, plane: Plane, *, turning: bool) -> Plane:
-        """A step towards the least distances of mirrored points to the tangents below them."""
+    def _step(self, plane: Plane, nearest: NDArray[np.intp], *, turning: bool) -> Plane:
+        """A step towards the least distances of mirrored points to the planes of faces."""
         normal, offset = plane
         images = _images(self._fine, plane)
-        face, _ = self._faces.closest(images)
-        triangles = self._faces.triangles[face]
+        triangles = self._faces.triangles[nearest]
         feet = closest_on_triangles(images, triangles)
         across = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         size = np.linalg.norm(across, axis=1, keepdims=True)
@@ -215,13 +214,14 @@ class _Search:
         other = self.across(np.eye(3)[axis])
         return other if _deviation(other) <= _WORSE * _deviation(plane) + _EXACT else plane
 
-    def _measured(self, plane: Plane) -> MirrorPlane:
-        _, away = self._faces.closest(_images(self._fine, plane))
+    def _measured(self, plane: Plane) -> tuple[MirrorPlane, NDArray[np.intp]]:
+        """The plane with its deviation, and the face nearest to each mirrored point."""
+        nearest, away = self._faces.closest(_images(self._fine, plane))
         normal, offset = plane
         point = self._center + (offset - normal @ self._center) * normal
         normal = normal * np.sign(normal[np.argmax(np.abs(normal))])
         deviation = float(np.sqrt((away**2).mean())) / self._diagonal
-        return MirrorPlane(tuple(normal.tolist()), tuple(point.tolist()), deviation)
+        return MirrorPlane(tuple(normal.tolist()), tuple(point.tolist()), deviation), nearest
 
 
 def _deviation(plane: MirrorPlane) -> float:

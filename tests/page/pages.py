@@ -16,6 +16,8 @@ BLANK = "about:blank"
 #: Pixels of the picture per pixel of the page: software draws a quarter of them, places stay.
 SCALE = 0.5
 PAUSE = 40  # milliseconds between two looks
+#: Canvases have few pixels: software draws all of them, and most tests look at none.
+COARSE = "Object.defineProperty(window, 'devicePixelRatio', { value: 0.05 });"
 
 
 class Page:
@@ -126,20 +128,30 @@ class Tabs:
         self._free: dict[str, list[Any]] = {}  # by the options of their contexts
         self._options: dict[Page, str] = {}
 
-    def open(self, address: str, *, size: tuple[int, int] = (800, 480), **options: Any) -> Page:
+    def open(
+        self,
+        address: str,
+        *,
+        size: tuple[int, int] = (800, 480),
+        sharp: bool = False,
+        **options: Any,
+    ) -> Page:
         """A page of `size`; other options are those of Playwright's contexts.
 
-        Nothing in it moves by itself, such as a progress bar: that would take half of a processor.
+        Pixels of canvases can be looked at if it is `sharp`. Nothing in it moves by itself, such
+        as a progress bar: that would take half of a processor.
         """
         viewport = {"width": size[0], "height": size[1]}
         options = {"device_scale_factor": SCALE, "reduced_motion": "reduce", **options}
-        key = repr(sorted(options.items()))
+        key = repr((sharp, sorted(options.items())))
         free = self._free.setdefault(key, [])
         if free:
             tab = free.pop()
             tab.set_viewport_size(viewport)
         else:
             tab = self._browser.new_page(viewport=viewport, **options)
+            if not sharp:
+                tab.add_init_script(COARSE)
         page = Page(tab, address)
         self._options[page] = key
         page.open()

@@ -129,7 +129,7 @@ PIXELS = """(() => {
 def test_lost_graphics_are_drawn_again(
     posing_model: PosingModel, posing_page: Path, opened: OpenPage
 ) -> None:
-    page = opened(posing_page.as_uri())
+    page = opened(posing_page.as_uri(), sharp=True)
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     before = np.array(page.run(PIXELS))
     page.run(f"{LOSE}; losing.loseContext(); null")

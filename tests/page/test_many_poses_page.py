@@ -163,7 +163,8 @@ def test_poses_are_searched_and_chosen_by_keys(page: Page) -> None:
     assert page.run("document.activeElement.closest('.poses')") is None, "one step leads out"
 
 
-def test_every_pose_has_a_picture_of_its_own(page: Page) -> None:
+def test_every_pose_has_a_picture_of_its_own(many_poses_page: Path, opened: OpenPage) -> None:
+    page = opened(many_poses_page.as_uri(), sharp=True)
     page.wait("[...document.querySelectorAll('.pose img')].every((i) => i.complete && i.src)")
     pictures = page.run("[...document.querySelectorAll('.pose img')].map((i) => i.src)")
     assert len(set(pictures)) == 12

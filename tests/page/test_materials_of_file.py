@@ -67,7 +67,7 @@ def pixel(page: Page, x: float, y: float) -> np.ndarray:
 
 def opened_with(model: PosingModel, file: SurfaceFile, folder: Path, opened: OpenPage) -> Page:
     path = export_html(with_file(model, file), folder / "own.html")
-    page = opened(path.as_uri())
+    page = opened(path.as_uri(), sharp=True)
     page.wait(f"{MATERIAL}.getAttribute('aria-checked') === 'true'")
     page.settle()
     return page
@@ -118,7 +118,7 @@ def test_a_model_file_brings_its_materials(
 ) -> None:
     """Opened in a page that has no server, as when it is dropped there."""
     path = with_file(posing_model, own_file(posing_model)).save(tmp_path / "own.snapspace")
-    page = opened(posing_page.as_uri())
+    page = opened(posing_page.as_uri(), sharp=True)
     page.page.locator("footer input[type=file]").set_input_files(path)
     page.wait(f"{MATERIAL}?.getAttribute('aria-checked') === 'true'")
     page.settle()

@@ -92,7 +92,7 @@ def at(page: Page, point: tuple[float, float, float]) -> tuple[int, int]:
 def test_corners_are_darker_and_flat_parts_as_they_were(
     angle_page: Path, opened: OpenPage, query: str
 ) -> None:
-    page = opened(angle_page.as_uri() + query)
+    page = opened(angle_page.as_uri() + query, sharp=True)
     lit, occluded = lit_and_occluded(page)
     outer, corner, end = (at(page, point) for point in (OUTER, CORNER, END))
     assert lit[outer][3] == lit[corner][3] == lit[end][3] == 255, "all are on the body"
@@ -105,16 +105,17 @@ def test_corners_are_darker_and_flat_parts_as_they_were(
     assert (occluded[body] <= lit[body] + 1).all(), "nothing gets lighter: there are no halos"
 
 
-def test_a_convex_shape_gets_all_light(posing: Page) -> None:
+def test_a_convex_shape_gets_all_light(posing_page: Path, opened: OpenPage) -> None:
     """Picture for picture, bit for bit: what is below the horizon of a vertex hides nothing."""
-    lit, occluded = lit_and_occluded(posing)
+    page = opened(posing_page.as_uri(), sharp=True)
+    lit, occluded = lit_and_occluded(page)
     assert (lit == occluded).all()
 
 
 def test_it_follows_the_shape(posing_page: Path, opened: OpenPage) -> None:
     """A bar that is bent has a hollow side."""
     bend = "#pose=foot:0,0,0,0,0,0;head:0,-1.2,0,-1,0,1;belly:0,0,0,0,0,0"
-    page = opened(posing_page.as_uri() + bend)
+    page = opened(posing_page.as_uri() + bend, sharp=True)
     page.rest()
     lit, occluded = lit_and_occluded(page)
     body = lit[:, :, 3] == 255
