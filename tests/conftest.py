@@ -13,8 +13,8 @@ from hypothesis import settings
 from snapspace import (
     InterpolationModel,
     InterpolationProblem,
+    MirrorPlane,
     PosingModel,
-    ReducedModel,
     Snapshots,
     StableNeoHookean,
     reduce,
@@ -36,6 +36,15 @@ settings.register_profile("searching", deadline=None)
 settings.load_profile("steady")
 
 
+#: Pages need the mirror plane of the bar. The record of its models names it: a search takes longer
+#: than everything else in a page.
+MIRROR = MirrorPlane((0, 1, 0), (2, 0.5, 0.5))
+
+
+def naming_its_plane(model: PosingModel) -> PosingModel:
+    return replace(model, provenance={**model.provenance, "mirror": MIRROR.content})
+
+
 @pytest.fixture(scope="session")
 def posing_snapshots() -> Snapshots:
     """60 random poses of a bar with three handles."""
@@ -44,11 +53,11 @@ def posing_snapshots() -> Snapshots:
 
 
 @pytest.fixture(scope="session")
-def posing_model(posing_snapshots: Snapshots) -> ReducedModel:
+def posing_model(posing_snapshots: Snapshots) -> PosingModel:
     """The bar with the first 20 principal components of its snapshots."""
     subspace = snapshot_pca(posing_snapshots, dimension=20)
     problem = posing_snapshots.problem
-    return reduce(problem, subspace, snapshots=posing_snapshots, threads=1)
+    return naming_its_plane(reduce(problem, subspace, snapshots=posing_snapshots, threads=1))
 
 
 @pytest.fixture(scope="session")
@@ -62,7 +71,9 @@ def cubature_model(posing_snapshots: Snapshots) -> PosingModel:
     """The bar in 19 dimensions, its energy summed over few tets."""
     subspace = snapshot_pca(posing_snapshots, dimension=19)
     problem = posing_snapshots.problem
-    return reduce(problem, subspace, energy="cubature", snapshots=posing_snapshots)
+    return naming_its_plane(
+        reduce(problem, subspace, energy="cubature", snapshots=posing_snapshots)
+    )
 
 
 def interpolation_model(

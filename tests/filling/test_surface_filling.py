@@ -10,6 +10,8 @@ from snapspace.generators import bar
 from snapspace.mesh import MeshNotice, TetMesh, compact_surface
 from snapspace.stuffing import root_finding
 
+from ..shapes import one_tet
+
 ORDER = ["filling", "filling inside", "filling boundary"]
 
 
@@ -58,8 +60,7 @@ def test_a_plate_too_thin_for_stuffing_is_filled_exactly() -> None:
 
 
 def test_a_surface_is_filled_exactly_on_request() -> None:
-    block = bar(1, 1, 1, length=1.0, width=1.0, height=1.0)
-    mesh, stages = filled(block, SurfaceFilling(edge_length=0.3, exact=True))
+    mesh, stages = filled(one_tet(), SurfaceFilling(edge_length=0.2, exact=True))
     assert stages == ["filling exactly"]
     assert np.allclose(np.ptp(mesh.vertices, axis=0), 1.0, atol=0.01)
 

@@ -124,6 +124,7 @@ def test_pages_get_plane_and_counterparts_or_the_reason(posing_model: PosingMode
     def about(record: dict[str, Any]) -> dict[str, Any]:
         return mirror_about(replace(posing_model, provenance={"mirror": record}))
 
+    assert about({})["normal"] == [0, 1, 0], "found on the surface where no record names it"
     assert about(MirrorPlane((1, 0, 0), (2, 0, 0)).content) == {
         "normal": [1, 0, 0],
         "counterparts": [1, 0, 2],
