@@ -70,7 +70,7 @@ def bar_server(bar_folder: Path, chromium: object) -> Iterator[str]:
         yield address
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def kept_posing_page(posing_page: Path, tabs: Tabs) -> Iterator[Page]:
     page = tabs.open(posing_page.as_uri())
     yield page
@@ -79,7 +79,7 @@ def kept_posing_page(posing_page: Path, tabs: Tabs) -> Iterator[Page]:
 
 @pytest.fixture
 def posing(kept_posing_page: Page) -> Page:
-    """The page of the bar with its handles at rest; tests of a module share it."""
+    """The page of the bar with its handles at rest; tests share it."""
     page = kept_posing_page
     page.page.mouse.move(0, 0)
     page.run(AT_REST)

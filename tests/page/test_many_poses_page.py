@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +10,42 @@ import pytest
 
 from snapspace import InterpolationModel
 
-from .pages import OpenPage, Page
+from .pages import OpenPage, Page, Tabs
 from .test_blending_page import assert_shown
 
 SHAPE = "[...snapspace.shown()]"
 
 
+#: Rest takes part alone, and then the two others that take part at first. One pose must stay.
+AT_FIRST = """(() => {
+  const pose = (name) => document.querySelector(`[title='${name}']`);
+  const others = [...document.querySelectorAll(".pose[aria-pressed=true]")].filter(
+    (button) => button !== pose("rest"),
+  );
+  const last = others.pop();
+  others.forEach((button) => button.click());
+  if (pose("rest").getAttribute("aria-pressed") === "false") pose("rest").click();
+  last?.click();
+  for (const name of ["arc-01", "arc-02"]) pose(name).click();
+  [...document.querySelectorAll("#panel button")].find((b) => b.textContent === "Mean").click();
+  document.activeElement.blur();
+  return null;
+})()"""
+
+
+@pytest.fixture(scope="module")
+def kept_page(many_poses_page: Path, tabs: Tabs) -> Iterator[Page]:
+    page = tabs.open(many_poses_page.as_uri(), size=(760, 480))
+    yield page
+    tabs.close(page)
+
+
 @pytest.fixture
-def page(many_poses_page: Path, opened: OpenPage) -> Page:
-    return opened(many_poses_page.as_uri(), size=(760, 480))
+def page(kept_page: Page) -> Page:
+    """The page as at first; tests share it."""
+    kept_page.run(AT_FIRST)
+    kept_page.settle()
+    return kept_page
 
 
 def weights_of(page: Page) -> list[float]:
