@@ -131,27 +131,26 @@ def test_crossings_are_those_of_a_direct_test() -> None:
     names = {finding.name: finding for finding in check_surface(vertices, faces).findings}
     assert names.keys() == {"components", "self-intersections"}
     found = {tuple(pair) for pair in names["self-intersections"].details["pairs"]}
-    direct = {
-        (i, j)
-        for i in range(144)
-        for j in range(144, 288)
-        if _crosses(vertices[faces[i]], vertices[faces[j]])
-    }
+    first, second = np.split(vertices[faces], 2)
+    crossing = _pierces(first, second) | _pierces(second, first).T
+    direct = {(i, 144 + j) for i, j in np.argwhere(crossing).tolist()}
     assert names["self-intersections"].count == len(direct) > 20
     assert found <= direct
 
 
-def _crosses(a: Vertices, b: Vertices) -> bool:
-    for one, other in ((a, b), (b, a)):
-        for k in range(3):
-            p, q = one[k], one[(k + 1) % 3]
-            matrix = np.stack([p - q, other[1] - other[0], other[2] - other[0]], axis=1)
-            if abs(np.linalg.det(matrix)) < 1e-12:
-                continue
-            t, s, r = np.linalg.solve(matrix, p - other[0])
-            if 0 < t < 1 and s > 0 and r > 0 and s + r < 1:
-                return True
-    return False
+def _pierces(ones: Vertices, others: Vertices) -> np.ndarray:
+    """Whether an edge of each triangle goes through the inside of each other one, (m, n)."""
+    origins, first, second = others[:, 0], others[:, 1] - others[:, 0], others[:, 2] - others[:, 0]
+    found = np.zeros((len(ones), len(others)), bool)
+    for k in range(3):
+        p, q = ones[:, None, k], ones[:, None, (k + 1) % 3]
+        matrices = np.stack(np.broadcast_arrays(p - q, first, second), axis=3)
+        flat = np.abs(np.linalg.det(matrices)) < 1e-12
+        matrices[flat] = np.eye(3)
+        solved = np.linalg.solve(matrices, (p - origins)[..., None])[..., 0]
+        t, s, r = np.moveaxis(solved, 2, 0)
+        found |= ~flat & (0 < t) & (t < 1) & (s > 0) & (r > 0) & (s + r < 1)
+    return found
 
 
 def test_an_edge_of_three_faces() -> None:

@@ -71,10 +71,16 @@ def test_a_flipped_bit_is_noticed_wherever_it_is(saved: Path) -> None:
     offsets = [*range(8, header), *range(header, len(content), step), len(content) - 1]
     bits = np.random.default_rng(0).integers(0, 8, len(offsets))
     for offset, bit in zip(offsets, bits.tolist(), strict=True):
-        altered = bytearray(content)
-        altered[offset] ^= 1 << bit
-        saved.write_bytes(altered)
+        _put(saved, offset, content[offset] ^ 1 << bit)
         refused(saved)
+        _put(saved, offset, content[offset])
+
+
+def _put(path: Path, offset: int, byte: int) -> None:
+    """Writes one byte in place: a whole new file for each would wait for the disk."""
+    with path.open("r+b") as file:
+        file.seek(offset)
+        file.write(bytes([byte]))
 
 
 @pytest.mark.parametrize("offset", range(8))

@@ -15,7 +15,7 @@ from .pages import PAUSE, SECONDS, OpenPage, Page, Point
 BAR = bar(12, 4, 4, length=4.0, width=1.0, height=1.0)
 ENDS = {"foot": BAR.vertices[:, 0] < 0.7, "head": BAR.vertices[:, 0] > 3.3}
 TAKE_HANDLES = """(given) => snapspace.choosing.go({
-  ...snapspace.choosing.choice,
+  ...snapspace.choosing.choice, selected: Int32Array.of(), parts: [],
   handles: given.map(([name, vertices], key) => ({
     key, name, vertices: Int32Array.from(vertices), moving: key > 0, translation: null, angle: null,
   })),
@@ -92,9 +92,14 @@ def bar_with_ends(opened: OpenPage, address: str) -> Page:
     """The page of a server that has `BAR`, with the handles foot and head, without any stroke."""
     page: Page = opened(address)
     page.wait("snapspace.kind === 'choosing'")
+    take_ends(page)
+    return page
+
+
+def take_ends(page: Page) -> None:
+    """The handles of `BAR` become foot and head; nothing is selected, and there are no parts."""
     ends = [[name, np.flatnonzero(end).tolist()] for name, end in ENDS.items()]
     page.run(TAKE_HANDLES, ends)
-    return page
 
 
 def saved_file(page: Page) -> str:

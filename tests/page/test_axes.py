@@ -67,10 +67,8 @@ def test_the_axes_in_the_corner_turn_with_the_camera(posing: Page) -> None:
 
 
 @pytest.mark.parametrize("turn", [False, True])
-def test_drags_snap(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage, turn: bool
-) -> None:
-    page = opened(posing_page.as_uri())
+def test_drags_snap(posing_model: PosingModel, posing: Page, turn: bool) -> None:
+    page = posing
     page.page.keyboard.press("s")
     assert page.page.get_by_role("button", name="Snap").get_attribute("aria-pressed") == "true"
     page.drag(page.run(f"snapspace.handle({HEAD})"), 47, -23, shift=turn)

@@ -40,9 +40,9 @@ def shift_of(page: Page) -> np.ndarray:
 
 
 def test_a_drag_is_cancelled_and_undo_waits_for_its_end(
-    posing_model: PosingModel, posing_page: Path, opened: OpenPage
+    posing_model: PosingModel, posing: Page
 ) -> None:
-    page = opened(posing_page.as_uri())
+    page = posing
     page.drag(page.run("snapspace.handle(1)"), 30, -20)
     first = shift_of(page)
     begin_drag(page, 40, 30)

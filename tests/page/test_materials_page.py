@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -20,15 +21,29 @@ from .choosing_page import (
     press,
     saved_file,
     stroke,
+    take_ends,
     tool,
     wait_for_text,
 )
-from .pages import OpenPage, Page
+from .pages import OpenPage, Page, Tabs
+
+
+@pytest.fixture(scope="module")
+def kept(bar_server: str, tabs: Tabs) -> Iterator[Page]:
+    page = bar_with_ends(tabs.open, bar_server)
+    yield page
+    tabs.close(page)
 
 
 @pytest.fixture
-def page(bar_server: str, opened: OpenPage) -> Page:
-    return bar_with_ends(opened, bar_server)
+def page(kept: Page) -> Page:
+    """The handles foot and head, and nothing else; tests share the page."""
+    kept.run("(document.activeElement.blur(), null)")
+    take_ends(kept)
+    kept.page.get_by_label("Material").select_option("stable-neo-hookean")
+    kept.page.get_by_label("Poisson's ratio").fill("0.25")
+    kept.settle()
+    return kept
 
 
 def parts(page: Page) -> dict[str, dict[str, Any]]:
@@ -111,7 +126,10 @@ def test_a_part_has_a_colour_of_its_own_below_handles(page: Page) -> None:
 
 
 @pytest.mark.parametrize("kind", ["corotational", "arap"])
-def test_they_are_computed_with_and_saved(page: Page, bar_folder: Path, kind: str) -> None:
+def test_they_are_computed_with_and_saved(
+    bar_server: str, bar_folder: Path, opened: OpenPage, kind: str
+) -> None:
+    page = bar_with_ends(opened, bar_server)
     page.page.get_by_label("Material").select_option(kind)
     if kind == "corotational":
         page.page.get_by_label("Poisson's ratio").fill("0.4")
