@@ -9,10 +9,11 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy import sparse
 
-from snapspace.generators import bar, creature
+from snapspace.generators import bar
 from snapspace.mesh import TetMesh
 
 from ..shapes import one_tet
+from ..snapshots.creatures import creature
 
 FloatArray = NDArray[np.float64]
 IndexArray = NDArray[np.int32]

@@ -13,9 +13,10 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from snapspace import _core as core
-from snapspace.generators import bar, creature
+from snapspace.generators import bar
 from snapspace.problem import HandleBox, Handles, PosingProblem
 
+from ..snapshots.creatures import creature
 from .matrices import MATRICES, by_columns, mesh_matrix, random_matrices
 
 FloatArray = NDArray[np.float64]

@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from snapspace.generators import bar, creature
+from snapspace.generators import bar
 from snapspace.mesh import compact_surface
 from snapspace.mesh.signed_distance import SignedDistance
 from snapspace.mesh.tet_search import closest_boundary_faces, containing_tets
+
+from ..snapshots.creatures import creature
 
 
 def test_it_is_that_of_a_box() -> None:

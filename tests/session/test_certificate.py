@@ -27,10 +27,11 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace.certificate import residual_sample, scalar_diagonal
-from snapspace.generators import bar, creature, creature_handles
+from snapspace.generators import bar, creature_handles
 from snapspace.mesh import mass_norm
 
 from ..shapes import irregular_bar, random_rotation, random_subspace
+from ..snapshots.creatures import creature
 
 FloatArray = NDArray[np.float64]
 

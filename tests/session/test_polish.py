@@ -23,11 +23,12 @@ from snapspace import (
     solve_snapshots,
 )
 from snapspace import _core as core
-from snapspace.generators import creature, creature_handles
+from snapspace.generators import creature_handles
 from snapspace.mesh import mass_norm
 from snapspace.problem import rotation_matrix
 
 from ..shapes import random_subspace
+from ..snapshots.creatures import creature
 
 FloatArray = NDArray[np.float64]
 NEVER = 1e-300

@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from snapspace import HandleBox, Handles, MirrorPlane, PosingProblem, StVK, TetMesh
-from snapspace.generators import creature, creature_handles
+from snapspace.generators import creature_handles
+
+from ..snapshots.creatures import creature
 
 #: Of the creature: its vertices are mirror images of each other.
 PLANE = MirrorPlane((0, 1, 0))
 
 
-@cache
 def body() -> TetMesh:
     return creature(5000)
 
