@@ -23,6 +23,8 @@ OPTIONS = (
     "--disable-sync",
     "--no-first-run",
 )
+#: Canvases have few pixels: software draws all of them, and most tests look at none.
+COARSE = "Object.defineProperty(window, 'devicePixelRatio', { value: 0.05 });"
 
 
 def missing(reason: str) -> None:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..browser import COARSE
+
 Point = tuple[float, float]
 OpenPage = Callable[..., "Page"]
 SECONDS = 60.0  # software rendering on a busy machine is slow
@@ -16,8 +18,6 @@ BLANK = "about:blank"
 #: Pixels of the picture per pixel of the page: software draws a quarter of them, places stay.
 SCALE = 0.5
 PAUSE = 40  # milliseconds between two looks
-#: Canvases have few pixels: software draws all of them, and most tests look at none.
-COARSE = "Object.defineProperty(window, 'devicePixelRatio', { value: 0.05 });"
 
 
 class Page:

@@ -14,7 +14,7 @@ import pytest
 
 from snapspace import InterpolationModel, PosingModel, export_packed
 
-from ..browser import missing
+from ..browser import COARSE, missing
 from .site import BUNDLE, PAGE, Viewer, site
 
 TOOLS = Path(__file__).parents[2] / "tools"
@@ -85,9 +85,11 @@ def address(folder: Path) -> Iterator[str]:
 @pytest.fixture(scope="session")
 def tab(chromium: Any) -> Any:
     """Used by one test after the other: a new tab costs more than a page in it."""
-    return chromium.new_page(
+    tab = chromium.new_page(
         viewport={"width": 480, "height": 360}, device_scale_factor=0.5, reduced_motion="reduce"
     )
+    tab.add_init_script(COARSE)
+    return tab
 
 
 @pytest.fixture
