@@ -54,8 +54,9 @@ blender: $(STAMP)
 paper: setup
 	$(BIN)/python -m paper
 
+# Three workers keep two processors busy: many tests wait for a browser, a server or the disk.
 test: setup
-	$(BIN)/python -m pytest --numprocesses 2 --dist worksteal
+	$(BIN)/python -m pytest --numprocesses 3 --dist worksteal
 
 # Tests the core with ASan, UBSan and assertions; see `$(BIN)/python tools/sanitize.py --help`.
 sanitize: setup
