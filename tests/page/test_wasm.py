@@ -21,6 +21,7 @@ def test_the_module_is_of_the_present_sources() -> None:
     assert module[:4] == b"\0asm" and len(module) < 200_000
 
 
+@pytest.mark.first
 @pytest.mark.skipif(
     not build_wasm.has_compiler(), reason=f"needs ziglang {build_wasm.ZIGLANG} to build it again"
 )
