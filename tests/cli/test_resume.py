@@ -22,7 +22,7 @@ from .conftest import Run, interrupted_as
 from .files import bar_mesh, write_problem
 
 PATIENCE = 60.0  # seconds until the test gives up on the other process
-SAMPLES = 120
+SAMPLES = 200
 # A process whose parent ignores SIGINT inherits that, for instance in the background of a shell.
 PROGRAM = (
     "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler); "

@@ -70,8 +70,8 @@ def test_fast_and_newton_agree_for_soft_and_hard_handles(stiffness: float) -> No
     assert error(fast, newton).max() < 1e-6
 
 
-@pytest.mark.parametrize(("method", "row"), [("Newton-CG", 0), ("Newton-CG", 1), ("L-BFGS-B", 0)])
-def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str, row: int) -> None:
+@pytest.mark.parametrize("method", ["Newton-CG", "L-BFGS-B"])
+def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str) -> None:
     """SciPy starts at rest, with F assembled in NumPy, and uses no code of the solvers."""
     problem = minimisers.problem
     pull = np.zeros(problem.mesh.vertices.shape)
@@ -84,16 +84,17 @@ def test_scipy_finds_the_same_shapes(minimisers: Snapshots, method: str, row: in
         "Newton-CG": {"hessp": hessian_product, "options": {"xtol": 1e-12}},
         "L-BFGS-B": {"options": {"maxiter": 20_000, "maxfun": 20_000, "ftol": 0.0, "gtol": 1e-10}},
     }
-    found = minimize(
-        problem.value_and_gradient,
-        problem.mesh.vertices.reshape(-1),
-        args=(minimisers.parameters[row],),
-        jac=True,
-        method=method,
-        **methods[method],
-    )
-    np.testing.assert_allclose(minimisers.reports[row].value, found.fun, rtol=1e-12)
-    np.testing.assert_allclose(minimisers.shapes[row], found.x, rtol=0, atol=1e-6)
+    for row in range(2):
+        found = minimize(
+            problem.value_and_gradient,
+            problem.mesh.vertices.reshape(-1),
+            args=(minimisers.parameters[row],),
+            jac=True,
+            method=method,
+            **methods[method],
+        )
+        np.testing.assert_allclose(minimisers.reports[row].value, found.fun, rtol=1e-12)
+        np.testing.assert_allclose(minimisers.shapes[row], found.x, rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
