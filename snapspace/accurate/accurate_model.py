@@ -30,6 +30,7 @@ class AccurateModel(Generic[ModelOf]):
     steps : the models that were tried, in order
     step : the step that made `model`
     target : the error that was asked for
+    most_samples : the limit of the samples, which may depend on how long they take
     """
 
     model: ModelOf
@@ -38,6 +39,7 @@ class AccurateModel(Generic[ModelOf]):
     steps: tuple[Step, ...]
     step: Step
     target: float
+    most_samples: int
 
     @property
     def reached(self) -> bool:
@@ -121,6 +123,11 @@ def accurate_model(
     many samples again are solved; they start from the reduced solutions of the best model, if there
     is one. Without a budget, time plays no part.
 
+    Bodies that are soft between their handles take many evaluations. If the first 32 motions of
+    tets take more than 110 each, a model predicts the others: they start from its solutions, have
+    its Hessians in the seed of the solver, and are solved more loosely, but not the held-out ones.
+    There may then be more samples, see `predicted_most_samples`.
+
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem
@@ -131,7 +138,7 @@ def accurate_model(
         the mean of blends.
     most_samples : int, optional
         Largest number of samples in all, at least 20. If the target is not met, the best model is
-        returned. Default: `usual_most_samples`.
+        returned. Default: `usual_most_samples`, or `predicted_most_samples` where models predict.
     budget : float, optional
         Time limit in seconds. Samples that would probably exceed it are not solved; the first stage
         always is. With a budget, the result depends on the speed of the machine. Default: none; the
@@ -189,4 +196,5 @@ def accurate_model(
         steps=tuple(search.steps),
         step=chosen.step,
         target=search.target,
+        most_samples=search.most,
     )

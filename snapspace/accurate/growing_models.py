@@ -13,9 +13,10 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import PosingModel
 from ..snapshots import Progress, Snapshots, SolverOptions
-from .model_search import Begins, Model, ModelSearch, SearchOptions, Trial
+from .model_search import Begins, Model, ModelSearch, SearchOptions
 from .solving import Solving
 from .step import Step
+from .trial import Trial
 
 
 @dataclass(frozen=True)

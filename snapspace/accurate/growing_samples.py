@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -35,6 +36,8 @@ class GrowingSamples:
     pilot : int, default 0
         So many of the first samples are solved before others are predicted, all but the held-out
         ones.
+    slow : float, default 0
+        Others are predicted only if these take more evaluations a sample.
     """
 
     def __init__(
@@ -47,15 +50,25 @@ class GrowingSamples:
         first: int,
         held_out: int,
         pilot: int = 0,
+        slow: float = 0.0,
     ) -> None:
         self.problem = problem
         self.parameters = sample(problem.domain, most, method=method, seed=seed)
-        self._pilot = pilot
+        self._pilot, self._slow = pilot, slow
         self._judges = range(first, first + held_out)
         self._snapshots: Snapshots | None = None
         self._first_known: Snapshots | None = None  # where the first solves start
         self._given: Snapshots | None = None  # shapes that count for a basis
         self._gram = SnapshotGram.of(problem)
+        self.seconds_a_sample = 0.0  # of the last ones
+
+    @property
+    def are_predicted(self) -> bool:
+        """Whether a model of the pilot predicts others: it has been solved, and it was slow."""
+        if not self._pilot or self._snapshots is None or len(self._snapshots) < self._pilot:
+            return False
+        evaluations = [report.evaluations for report in self._snapshots.reports[: self._pilot]]
+        return float(np.mean(evaluations)) > self._slow
 
     @property
     def snapshots(self) -> Snapshots:
@@ -122,16 +135,18 @@ class GrowingSamples:
 
         predict : returns the model that predicts the next samples, see `predicted_solutions`
         """
-        usual, judging = solving.usual(self.problem), solving.judging(self.problem)
-        first, judged = self._judges.start, self._judges.stop
-        parts = ((self._pilot, usual), (first, usual), (judged, judging), (count, usual))
-        for end, chosen in parts:
+        for end in (self._pilot, self._judges.start, self._judges.stop, count):
             before = 0 if self._snapshots is None else len(self._snapshots)
             if end <= before or end > count:
                 continue
             wanted = self.parameters[before:end]
+            judging, predicted = before in self._judges, self.are_predicted
+            chosen = solving.chosen(self.problem, judging=judging, predicted=predicted)
             # a model of the pilot is rough: held-out samples stay independent of it
-            model = None if self._pilot and chosen is judging else predict()
+            model = None if predicted and judging else predict()
+            begin, start = time.perf_counter(), None
+            if model is not None:
+                start = predicted_solutions(model, wanted, hessians=predicted)
             solved = solve_snapshots(
                 self.problem,
                 wanted,
@@ -142,11 +157,20 @@ class GrowingSamples:
                     solving.checkpoint, before, self.problem, wanted, chosen
                 ),
                 executor=solving.executor,
-                known=self._first_known if self._snapshots is None else self._snapshots,
-                predictions=None if model is None else predicted_solutions(model, wanted),
+                known=self._known_before(end),
+                predictions=start,
             )
+            if not judging or not self.seconds_a_sample:  # held-out samples take longer
+                self.seconds_a_sample = (time.perf_counter() - begin) / len(wanted)
             self._snapshots = solved if before == 0 else self.snapshots.joined(solved)
             self._gram.add(list(solved.displacements), threads=solving.threads or 0)
+
+    def _known_before(self, end: int) -> Snapshots | None:
+        """Where solves of the samples before `end` start."""
+        near, solved = self._first_known, self._snapshots
+        if near is None or solved is None:
+            return near or solved
+        return solved.joined(near) if end <= self._judges.start else solved
 
     def projection_errors(self) -> FloatArray:
         """Errors of projections onto bases of the others, see `SnapshotGram.held_out_errors`."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
@@ -21,25 +22,17 @@ from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .growing_samples import GrowingSamples
 from .old_model import OldModel, check_start, usual_shapes
-from .plan import plan_of, usual_most_samples
+from .plan import plan_of, predicted_most_samples, usual_most_samples
 from .predicting import Predicting
 from .solving import Solving
 from .step import Step
+from .trial import Trial
 
 Model = PosingModel | InterpolationModel
 #: Gets a line of text for the user.
 Tell = Callable[[str], None]
 #: Gets "snapshots", "subspace" or "energy" before each of these parts of the work.
 Begins = Callable[[str], None]
-
-
-@dataclass(frozen=True)
-class Trial:
-    """A model that was tried, its errors, and the full solutions that it was compared with."""
-
-    step: Step
-    model: Model
-    unseen: Snapshots
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,21 +85,21 @@ class ModelSearch:
         self._begin = time.perf_counter()
         usual = plan_of(problem)
         self.target = usual.target if options.target_error is None else options.target_error
-        self._most = (
-            usual_most_samples(problem) if options.most_samples is None else options.most_samples
-        )
+        most = options.most_samples
+        self.most = usual_most_samples(problem) if most is None else most
+        self._most_predicted = predicted_most_samples(problem) if most is None else most
         check_target(self.target)
-        check_most(self._most)
+        check_most(self.most)
         check_budget(options.budget)
         self._budget = options.budget
-        self._plan = usual.fitting(self._most)
+        self._plan = usual.fitting(self.most)
         self._old: OldModel | None = None
         self._near = 0  # number of shapes near solutions, if there is an old model
         if start is not None:
             check_start(start, problem)
             assert isinstance(problem, PosingProblem)
             wanted = max(self._plan.first, usual_shapes(start, problem))
-            self._near = min(wanted, self._most - self._plan.held_out)
+            self._near = min(wanted, self.most - self._plan.held_out)
             self._old = OldModel(start, problem, most=self._near)
         self._first: Model | None = None  # made from the old one
         self._predicting = Predicting()
@@ -115,11 +108,12 @@ class ModelSearch:
         self._begins = begins or (lambda part: None)
         self.samples = GrowingSamples(
             problem,
-            self._most,
+            self._most_predicted,
             method=self._plan.sampling,
             seed=options.seed,
             first=0 if self._old else self._plan.first,  # the old model has trained already
             pilot=0 if self._old else self._plan.pilot,
+            slow=self._plan.slow,
             held_out=self._plan.held_out,
         )
         self.steps: list[Step] = []
@@ -177,13 +171,17 @@ class ModelSearch:
         one_a_stage : also yield a model of a stage that cannot meet the target, to show progress.
             It does not count otherwise.
         """
-        stages = self._plan.stages(self._most)
+        stages = self._plan.stages(self.most)
         if self._first is not None:
             stages.insert(0, self._plan.held_out)
-        for stage, count in enumerate(stages):
+        for stage in itertools.count():
+            count = stages[stage]
             self._begins("snapshots")
             self.samples.solve_up_to(count, self._solving, predict=self._predict)
-            last = count == self._most or self._is_too_late(count, stages[stage + 1])
+            if self.samples.are_predicted:
+                self.most = self._most_predicted
+                stages = self._plan.stages(self.most)
+            last = count == self.most or self._is_too_late(count, stages[stage + 1])
             # the least: where more dimensions do not help, the ratio grows and means nothing
             ratio = min((step.ratio for step in self.steps), default=self._plan.first_ratio)
             if self._first is not None and stage == 0:
@@ -203,7 +201,7 @@ class ModelSearch:
 
     def _predict(self) -> Model | None:
         """The model that predicts the next samples, if there is one."""
-        if self._old or not self._plan.pilot:
+        if not self.samples.are_predicted:
             return self.best.model if self.best else self._first
         model = self._predicting.model(self.samples.solved, self._model)
         self._begins("snapshots")
@@ -282,8 +280,7 @@ class ModelSearch:
         seconds = self.seconds
         # the first model takes up to as long as the samples that it is made of
         model = self._model_seconds or seconds
-        done = max(count, self._near)  # the shapes near solutions took time as well
-        wanted = seconds / done * (following - count) + model
+        wanted = self.samples.seconds_a_sample * (following - count) + model
         if seconds + wanted <= self._budget:
             return False
         self._tell(

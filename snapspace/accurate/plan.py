@@ -31,6 +31,7 @@ class Plan:
     first : number of training samples of the first stage
     pilot : how many of them make a model that predicts the others; then every stage makes a model
         for the next one. 0: only models that may meet the target are made
+    slow : the pilot's model predicts others only if its samples take more evaluations, on average
     held_out : number of samples that judge models
     first_ratio : assumed ratio of errors of reduced solutions to those of projections, before it is
         measured; too low a ratio costs models that miss the target
@@ -40,6 +41,7 @@ class Plan:
     most_samples : default limit of samples of small meshes
     most_vertices : limit of the vertices of all samples together, where that is less than
         `most_samples` and more than 160 samples: half a minute on two cores
+    predicted_samples, predicted_vertices : the same where models predict samples
     looser_if_large : factor of the samples' tolerance for bodies that get 160 of them, `is_large`
     """
 
@@ -50,6 +52,7 @@ class Plan:
     sampling: Method
     first: int
     pilot: int
+    slow: float
     held_out: int
     first_ratio: float
     most_dimensions: int
@@ -57,6 +60,8 @@ class Plan:
     impression_dimension: int
     most_samples: int
     most_vertices: int
+    predicted_samples: int
+    predicted_vertices: int
     looser_if_large: float
 
     def fitting(self, most: int) -> Plan:
@@ -87,6 +92,7 @@ BLENDS = Plan(
     sampling="blends",
     first=32,
     pilot=16,
+    slow=0.0,
     held_out=12,
     first_ratio=8.0,
     most_dimensions=200,
@@ -94,6 +100,8 @@ BLENDS = Plan(
     impression_dimension=0,
     most_samples=640,
     most_vertices=2_000_000,
+    predicted_samples=640,
+    predicted_vertices=2_000_000,
     looser_if_large=1.0,
 )
 #: For motions the ratio is 3 to 7.
@@ -104,7 +112,8 @@ MOTIONS = Plan(
     unseen_name="motions",
     sampling="sobol",
     first=80,
-    pilot=0,
+    pilot=32,
+    slow=110.0,
     held_out=16,
     first_ratio=4.0,
     most_dimensions=256,
@@ -112,16 +121,18 @@ MOTIONS = Plan(
     impression_dimension=28,
     most_samples=1280,
     most_vertices=6_000_000,
+    predicted_samples=421,
+    predicted_vertices=24_000_000,
     looser_if_large=10.0,
 )
 
 
 def plan_of(problem: PosingProblem | InterpolationProblem) -> Plan:
     """The plan for a problem; two poses take Sobol points, as `blends` adds only their middle."""
-    if isinstance(problem, PosingProblem):
-        return MOTIONS
-    plan = BLENDS if problem.parameter_count > 2 else replace(BLENDS, sampling="sobol")
-    return plan if problem.solving.model_seeds else replace(plan, pilot=0)
+    plan = MOTIONS if isinstance(problem, PosingProblem) else BLENDS
+    if plan is BLENDS and problem.parameter_count <= 2:
+        plan = replace(plan, sampling="sobol")
+    return plan if problem.solving.seeded_tolerance else replace(plan, pilot=0)
 
 
 def is_large(problem: PosingProblem | InterpolationProblem) -> bool:
@@ -140,3 +151,10 @@ def usual_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
     plan = plan_of(problem)
     fitting = plan.most_vertices // len(problem.mesh.vertices)
     return min(plan.most_samples, max(FEWER_SAMPLES, fitting))
+
+
+def predicted_most_samples(problem: PosingProblem | InterpolationProblem) -> int:
+    """Default limit of samples if a pilot predicts them: as many as the most dimensions need."""
+    plan = plan_of(problem)
+    fitting = plan.predicted_vertices // len(problem.mesh.vertices)
+    return max(usual_most_samples(problem), min(plan.predicted_samples, fitting))

@@ -22,14 +22,19 @@ ENOUGH = 1.4
 
 
 class Predicting:
-    """The models that predict samples where that helps much: `SolverTraits.model_seeds`."""
+    """The models that predict samples where that helps much: `GrowingSamples.are_predicted`."""
 
     def __init__(self) -> None:
         self._model: Model | None = None
         self._count = 0  # of the samples that it is made of
 
     def take(self, model: Model, solved: Snapshots) -> None:
-        """Takes a model that was made of these samples for another purpose."""
+        """Takes the leading dimensions of a model that was made of these samples to meet a target.
+
+        With 150 dimensions a prediction takes as long as the solve that it starts.
+        """
+        if model.dimension > MOST_DIMENSIONS:
+            model = model.leading(MOST_DIMENSIONS)
         self._model, self._count = model, len(solved)
 
     def model(self, solved: Snapshots | None, make: Make) -> Model | None:
@@ -42,5 +47,5 @@ class Predicting:
             dimension = max(1, min(int(MODES_PER_SOLUTION * count), MOST_DIMENSIONS))
             spread = np.linspace(0, count - 1, TRAINED).round().astype(int)
             trained = solved.select(np.isin(np.arange(count), spread))
-            self.take(make(solved, dimension, trained), solved)
+            self._model, self._count = make(solved, dimension, trained), count
         return self._model

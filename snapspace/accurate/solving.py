@@ -27,14 +27,27 @@ class Solving:
     checkpoint: Checkpoint | None = None
     executor: Executor | None = None
 
+    def chosen(
+        self, problem: PosingProblem | InterpolationProblem, *, judging: bool, predicted: bool
+    ) -> SolverOptions:
+        """Options for samples that are held out, or else that a model predicts or not."""
+        if judging:
+            return self.judging(problem)
+        return self.seeded(problem) if predicted else self.usual(problem)
+
     def usual(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for training samples."""
-        if self.options is not None:
-            return self.options
+        given = self.options or SolverOptions()
         tight = self._tight(problem)
-        if tight is None or not is_large(problem):
-            return SolverOptions(tolerance=tight)
-        return SolverOptions(tolerance=tight * plan_of(problem).looser_if_large)
+        if tight is None or self._decided:
+            return given
+        looser = plan_of(problem).looser_if_large if is_large(problem) else 1.0
+        return replace(given, tolerance=tight * looser)
+
+    def seeded(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
+        """Options for training samples that a model predicts."""
+        usual, loose = self.usual(problem), problem.solving.seeded_tolerance
+        return usual if loose is None or self._decided else replace(usual, tolerance=loose)
 
     def judging(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for held-out samples.
@@ -42,7 +55,9 @@ class Solving:
         They are solved more tightly: along soft modes a training sample may be as far off as a
         model.
         """
-        usual = self.options or SolverOptions(tolerance=self._tight(problem))
+        usual = self.options or SolverOptions()
+        if not self._decided:
+            usual = replace(usual, tolerance=self._tight(problem))
         return replace(
             usual,
             tolerance=JUDGING * usual.resolved(problem).tolerance,
@@ -50,6 +65,12 @@ class Solving:
             precision=None,
             max_iterations=5000,
         )
+
+    @property
+    def _decided(self) -> bool:
+        """Whether the user decides how tightly samples are solved."""
+        given = self.options
+        return given is not None and (given.tolerance, given.settling) != (None, None)
 
     @staticmethod
     def _tight(problem: PosingProblem | InterpolationProblem) -> float | None:

@@ -196,7 +196,7 @@ def _notice_missed_target(built: AccurateModel[Any], budget: float | None) -> No
     if step.unseen == "blends":
         cure = "leave out the poses that differ most"
     more = "give --samples and --dimension"
-    if budget is not None and len(built.snapshots) < usual_most_samples(built.model.problem):
+    if budget is not None and len(built.snapshots) < built.most_samples:
         more = "raise --budget"
     notice(
         f"notice: unseen {step.unseen} are {100 * step.error:.2g} % off in the {step.typical}, "

@@ -21,20 +21,26 @@ STIFFER = 4.0
 
 @single_threaded_blas
 def predicted_solutions(
-    model: PosingModel | InterpolationModel, parameters: FloatArray
+    model: PosingModel | InterpolationModel, parameters: FloatArray, *, hessians: bool = True
 ) -> Predictions:
     """The model's solutions for parameters (k, p), for `solve_snapshots`.
 
-    With its Hessians there, if the problem's solves gain by them. A prediction does not depend on
-    the others.
+    A prediction does not depend on the others.
+
+    Parameters
+    ----------
+    model : PosingModel or InterpolationModel
+    parameters : (k, p)
+    hessians : bool, default True
+        Whether to predict Hessians as well. They pay where samples take many evaluations: blends of
+        tets, and motions that take fewer than 60, gain nothing by them.
     """
     basis, offset = model.subspace.basis, model.problem.base
     size, d = basis.shape
-    seeded = model.problem.solving.model_seeds
     displacements = np.empty((len(parameters), size))
-    inverses = np.empty((len(parameters), d, d) if seeded else (0, d, d))
+    inverses = np.empty((len(parameters), d, d) if hessians else (0, d, d))
     for k, session in enumerate(solved_sessions(model, parameters)):
         displacements[k] = model.subspace.shape(session.q) - offset
-        if seeded:
+        if hessians:
             inverses[k] = positive_inverse(session.hessian()) / STIFFER
-    return Predictions(displacements, basis, inverses) if seeded else Predictions(displacements)
+    return Predictions(displacements, basis, inverses) if hessians else Predictions(displacements)

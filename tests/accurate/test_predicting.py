@@ -62,8 +62,25 @@ def test_dimension_and_training_are_bounded(solved: Snapshots) -> None:
     assert makes.calls == [(len(solved), MOST_DIMENSIONS, TRAINED)]
 
 
+class Modes:
+    """A model of which only the dimension counts."""
+
+    def __init__(self, dimension: int) -> None:
+        self.dimension = dimension
+
+    def leading(self, dimension: int) -> InterpolationModel:
+        return cast("InterpolationModel", Modes(dimension))
+
+
 def test_a_model_made_for_another_purpose_serves_as_well(solved: Snapshots) -> None:
-    makes, model = Makes(), cast("InterpolationModel", object())
+    makes, model = Makes(), cast("InterpolationModel", Modes(40))
     makes.predicting.take(model, first(solved, 50))
     assert makes.model(first(solved, 60)) is model
     assert not makes.calls
+
+
+def test_its_leading_modes_predict_if_there_are_many(solved: Snapshots) -> None:
+    makes = Makes()
+    makes.predicting.take(cast("InterpolationModel", Modes(200)), first(solved, 50))
+    model = makes.model(first(solved, 60))
+    assert model is not None and model.dimension == MOST_DIMENSIONS

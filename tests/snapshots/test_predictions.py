@@ -28,7 +28,7 @@ from snapspace.session.predictions import STIFFER
 from snapspace.snapshots import positive_inverse
 
 from ..shells.sheets import rolled, sheet
-from .bars import assert_same_bits, parameters, posing_bar
+from .bars import assert_same_bits
 
 FloatArray = NDArray[np.float64]
 TIGHT = SolverOptions(tolerance=1e-12, max_iterations=5000)
@@ -167,12 +167,12 @@ def test_the_seed_is_the_scalar_inverse_and_that_of_the_subspace(
     assert np.linalg.norm(difference - expected) < 1e-3 * np.linalg.norm(expected)
 
 
-def test_only_problems_that_gain_get_inverses() -> None:
-    bar = posing_bar(bound=0.3)
-    solved = solve_snapshots(bar, parameters(bar, 12))
-    model = reduce(bar, snapshot_pca(solved, dimension=6), snapshots=solved)
-    predictions = predicted_solutions(model, parameters(bar, 2))
-    assert predictions.basis is None and predictions.inverses is None
+def test_without_hessians_there_are_only_starts(
+    model: InterpolationModel, wanted: FloatArray, predictions: Predictions
+) -> None:
+    starts = predicted_solutions(model, wanted, hessians=False)
+    assert starts.basis is None and starts.inverses is None
+    assert np.array_equal(starts.displacements, predictions.displacements)
 
 
 def test_inverses_are_positive_definite_whatever_the_hessian_is() -> None:

@@ -1,0 +1,60 @@
+"""Slender bodies, whose samples take many evaluations: models predict most of them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from snapspace import HandleBox, Handles, PosingModel, PosingProblem, generators, validate
+from snapspace.accurate import AccurateModel, accurate_model
+from snapspace.accurate.growing_samples import GrowingSamples
+from snapspace.accurate.plan import MOTIONS
+from snapspace.accurate.solving import Solving
+
+
+@pytest.fixture(scope="module")
+def slender() -> PosingProblem:
+    """A bar forty times as long as it is thick, between its ends."""
+    mesh = generators.bar(60, 2, 2, length=40.0)
+    x = mesh.vertices[:, 0]
+    ends = Handles([np.flatnonzero(x < 0.4), np.flatnonzero(x > 39.6)])
+    return PosingProblem(mesh, ends, domain=HandleBox(translation=4.0, angle=np.pi / 4))
+
+
+@pytest.fixture(scope="module")
+def built(slender: PosingProblem) -> AccurateModel[PosingModel]:
+    return accurate_model(slender, target_error=0.01, threads=2)
+
+
+def test_only_slow_bodies_are_predicted(
+    built: AccurateModel[PosingModel], motions: PosingProblem
+) -> None:
+    quick = GrowingSamples(
+        motions, 48, method="sobol", seed=0, first=40, held_out=8, pilot=32, slow=MOTIONS.slow
+    )
+    assert not quick.are_predicted
+    quick.solve_up_to(48, Solving(), predict=lambda: None)
+    assert not quick.are_predicted
+    reports = [report.evaluations for report in built.snapshots.reports[: MOTIONS.pilot]]
+    assert np.mean(reports) > MOTIONS.slow
+
+
+def test_predicted_samples_take_less(built: AccurateModel[PosingModel]) -> None:
+    evaluations = np.array([report.evaluations for report in built.snapshots.reports])
+    pilot = evaluations[: MOTIONS.pilot].mean()
+    predicted = ~built.held_out
+    predicted[: MOTIONS.pilot] = False
+    assert evaluations[predicted].mean() < 0.75 * pilot
+
+
+def test_the_model_is_as_accurate_as_asked(built: AccurateModel[PosingModel]) -> None:
+    assert built.reached
+    assert np.median(validate(built.model, samples=12).error) < 1.5 * built.target
+
+
+def test_it_is_the_same_on_any_number_of_threads(
+    slender: PosingProblem, built: AccurateModel[PosingModel]
+) -> None:
+    alone = accurate_model(slender, target_error=0.01, threads=1)
+    assert np.array_equal(alone.snapshots.shapes, built.snapshots.shapes)
+    assert alone.model.dimension == built.model.dimension
