@@ -29,7 +29,7 @@ SUPPRESSIONS = Path(__file__).parent / "sanitizer_suppressions"
 #: since the sanitizers work in this process only.
 TESTS = (
     "certificate", "cholesky", "cubature", "displacements", "energy", "fitting", "greedy",
-    "material", "multigrid", "online", "reduction", "session", "snapshots", "subspace",
+    "material", "multigrid", "online", "reduction", "session", "shells", "snapshots", "subspace",
 )  # fmt: skip
 #: These measure times, start processes, or compare with builds that do not exist here.
 LEFT_OUT = (

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,12 +73,13 @@ class ReducedModel(ABC):
         except (TypeError, ValueError):  # the record comes from a file and may hold anything
             return None
 
-    @property
+    @cached_property
     def value_scale(self) -> float:
         """Unit of energy for the termination tests, as of a shear of 10 %: 0.01 mu * volume.
 
         For moduli that differ from tet to tet, the sum over all of them. A shell bends more easily
         than it shears: it is the energy of bending by a curvature of sqrt(2) over the diagonal.
+        Kept, since every frame takes it and a sum costs as much as the mesh is large.
         """
         mu, mesh = self.problem.material.mu, self.problem.mesh
         if isinstance(mesh, ShellMesh):

@@ -234,6 +234,16 @@ def test_models_are_saved_and_loaded(model: InterpolationModel, tmp_path: Path) 
     assert 0.0 < found.relative < found.upper_relative < 0.2
 
 
+def test_frames_sum_over_no_triangles_of_the_surface(
+    model: InterpolationModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The unit of energy of the termination tests does: the first frame keeps it."""
+    session = model.session()
+    session.blend(WEIGHTS)
+    monkeypatch.delattr("snapspace.reduction.reduced_model.rigidities")
+    assert session.blend(WEIGHTS[::-1]).converged
+
+
 def test_polish_ends_at_the_full_solution(model: InterpolationModel) -> None:
     one, session = model.problem, model.session()
     session.blend(WEIGHTS)
