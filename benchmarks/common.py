@@ -127,21 +127,37 @@ def print_rows(rows: Sequence[dict[str, Any]], *, title: str, width: int) -> Non
     Console(width=width).print(table)
 
 
+#: Frames of a path from one random point to the next.
+PATH_FRAMES = 60
+
+
+def path(
+    problem: ss.PosingProblem | ss.InterpolationProblem, *, frames: int, seed: int
+) -> np.ndarray:
+    """Parameters (frames, p) on straight lines between random ones.
+
+    There are 60 frames from one to the next: like a hand that moves across the domain in a second.
+    """
+    corners = ss.sample(problem.domain, frames // PATH_FRAMES + 2, seed=seed)
+    at = np.arange(frames) / PATH_FRAMES
+    below = at.astype(int)
+    share = (at - below)[:, None]
+    along: np.ndarray = (1 - share) * corners[below] + share * corners[below + 1]
+    return along
+
+
 def drag(
     model: ss.PosingModel | ss.InterpolationModel, *, frames: int, seed: int, **options: Any
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Milliseconds of solves, and of solves with all vertices, on a path through the domain.
+    """Milliseconds of solves, and of solves with all vertices, on a `path` through the domain.
 
-    The path joins random parameters of the domain by straight lines, 60 frames each: like a hand
-    that moves across the domain in a second. Options are those of the session.
+    Options are those of the session.
     """
-    corners = ss.sample(model.problem.domain, frames // 60 + 2, seed=seed)
+    along = path(model.problem, frames=frames, seed=seed)
     session = model.session(**options)
-    session.set_parameters(corners[0])
+    session.set_parameters(along[0])
     solve, frame = [], []
-    for k in range(frames):
-        a, b = corners[k // 60], corners[k // 60 + 1]
-        w = a + (b - a) * (k % 60) / 60.0
+    for w in along:
         begin = time.perf_counter()
         report = session.set_parameters(w)
         _ = session.vertices

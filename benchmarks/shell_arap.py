@@ -30,8 +30,8 @@ FloatArray = NDArray[np.float64]
 
 #: Share of the vertices in each handle.
 HELD = 0.03
-#: Frames from one motion to the next, and every which frame is compared with a full solution.
-FRAMES, COMPARED = 60, 10
+#: Every tenth frame is compared with a full solution.
+COMPARED = 10
 
 
 def problem_of(name: str, stiffness: float) -> ss.PosingProblem:
@@ -48,16 +48,6 @@ def problem_of(name: str, stiffness: float) -> ss.PosingProblem:
     return ss.PosingProblem(
         mesh, handles, domain=domain, material=ss.ARAP(), stiffness=stiffness * usual.stiffness
     )
-
-
-def path(problem: ss.PosingProblem, frames: int, seed: int) -> FloatArray:
-    """Parameters (frames, p) on straight lines between random ones, as in `common.drag`."""
-    corners = ss.sample(problem.domain, frames // FRAMES + 2, seed=seed)
-    at = np.arange(frames) / FRAMES
-    below = at.astype(int)
-    share = (at - below)[:, None]
-    along: FloatArray = (1 - share) * corners[below] + share * corners[below + 1]
-    return along
 
 
 def walked(
@@ -92,7 +82,7 @@ def libigl_pose(problem: ss.PosingProblem, iterations: int) -> Callable[[FloatAr
 def measured(args: argparse.Namespace) -> tuple[list[dict[str, Any]], dict[str, Any]]:
     """A row per method, and facts about the problem."""
     problem = problem_of(args.surface, args.stiffness)
-    frames = path(problem, args.frames, args.seed + 1)
+    frames = common.path(problem, frames=args.frames, seed=args.seed + 1)
     compared = slice(COMPARED // 2, None, COMPARED)
     exact = common.solved(problem, frames[compared], tolerance=1e-9, max_iterations=5000)
     best = np.array([report.value for report in exact.reports])

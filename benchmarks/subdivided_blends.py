@@ -31,8 +31,6 @@ from snapspace.accurate.model_search import ModelSearch, SearchOptions
 from snapspace.accurate.solving import Solving
 
 FloatArray = NDArray[np.float64]
-#: Frames of a path from one random blend to the next.
-FRAMES = 60
 
 
 def split(
@@ -106,16 +104,6 @@ def built(
     return model, search
 
 
-def path(problem: ss.InterpolationProblem, frames: int, seed: int) -> FloatArray:
-    """Weights (frames, k) on straight lines between random blends."""
-    corners = ss.sample(problem.domain, frames // FRAMES + 2, seed=seed)
-    at = np.arange(frames) / FRAMES
-    below = at.astype(int)
-    share = (at - below)[:, None]
-    along: FloatArray = (1 - share) * corners[below] + share * corners[below + 1]
-    return along
-
-
 def rate(frames: FloatArray, frame: Callable[[FloatArray], object]) -> float:
     """Frames a second, of the median frame: other work of the machine delays a few."""
     seconds = []
@@ -137,7 +125,7 @@ def figures(poses: ss.ShellPoses, args: argparse.Namespace, parts: int) -> dict[
     model, search = built(problem, options, clock)
     seconds = np.array([time.perf_counter(), time.process_time()]) - begin
     reports = search.samples.snapshots.reports
-    frames = path(problem, args.frames, seed=args.seed)
+    frames = common.path(problem, frames=args.frames, seed=args.seed)
     session = model.session()
     solves = rate(frames, session.blend)
     evaluations = np.median([session.blend(w).evaluations for w in frames])

@@ -168,8 +168,10 @@ class GrowingSamples:
     def _known_before(self, end: int) -> Snapshots | None:
         """Where solves of the samples before `end` start."""
         near, solved = self._first_known, self._snapshots
-        if near is None or solved is None:
-            return near or solved
+        if solved is None:
+            return near
+        if near is None:
+            return solved
         return solved.joined(near) if end <= self._judges.start else solved
 
     def projection_errors(self) -> FloatArray:

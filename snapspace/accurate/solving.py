@@ -37,12 +37,10 @@ class Solving:
 
     def usual(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for training samples."""
-        given = self.options or SolverOptions()
         tight = self._tight(problem)
-        if tight is None or self._decided:
-            return given
-        looser = plan_of(problem).looser_if_large if is_large(problem) else 1.0
-        return replace(given, tolerance=tight * looser)
+        if self._decided or tight.tolerance is None or not is_large(problem):
+            return tight
+        return replace(tight, tolerance=tight.tolerance * plan_of(problem).looser_if_large)
 
     def seeded(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for training samples that a model predicts."""
@@ -55,12 +53,10 @@ class Solving:
         They are solved more tightly: along soft modes a training sample may be as far off as a
         model.
         """
-        usual = self.options or SolverOptions()
-        if not self._decided:
-            usual = replace(usual, tolerance=self._tight(problem))
+        tight = self._tight(problem)
         return replace(
-            usual,
-            tolerance=JUDGING * usual.resolved(problem).tolerance,
+            tight,
+            tolerance=JUDGING * tight.resolved(problem).tolerance,
             settling=None,
             precision=None,
             max_iterations=5000,
@@ -72,9 +68,14 @@ class Solving:
         given = self.options
         return given is not None and (given.tolerance, given.settling) != (None, None)
 
-    @staticmethod
-    def _tight(problem: PosingProblem | InterpolationProblem) -> float | None:
-        return training_tolerance(problem, plan_of(problem).most_dimensions)
+    def _tight(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
+        """The user's options, with the tolerance that the energy needs unless they decide it."""
+        given = self.options or SolverOptions()
+        if self._decided:
+            return given
+        return replace(
+            given, tolerance=training_tolerance(problem, plan_of(problem).most_dimensions)
+        )
 
     def loose(self, problem: PosingProblem | InterpolationProblem) -> SolverOptions:
         """Options for samples of a first impression.

@@ -33,7 +33,7 @@ def predicted_solutions(
     parameters : (k, p)
     hessians : bool, default True
         Whether to predict Hessians as well. They pay where samples take many evaluations: blends of
-        tets, and motions that take fewer than 60, gain nothing by them.
+        tets, and motions that take fewer than 110, gain nothing by them.
     """
     basis, offset = model.subspace.basis, model.problem.base
     size, d = basis.shape
