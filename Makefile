@@ -9,7 +9,7 @@ CORE := $(shell find core cmake -name '*.cmake' -o -name '*.h' -o -name '*.cpp')
 export PYTHONDONTWRITEBYTECODE :=
 WEB := $(shell find web -path web/node_modules -prune -o -path web/dist -prune -o -type f -print)
 
-.PHONY: setup demo wheel wheels viewer blender paper test sanitize fuzz docs lint format clean
+.PHONY: setup demo wheel wheels viewer blender wasm paper test sanitize fuzz docs lint format clean
 
 setup: $(STAMP) $(TOOLS)
 
@@ -49,6 +49,11 @@ viewer: $(STAMP)
 # The Blender extension for this machine, in build/blender, with the wheel of `make wheels`.
 blender: $(STAMP)
 	$(BIN)/python tools/build_blender.py
+
+# Builds the WebAssembly module again: the one that is checked in must have the same bytes.
+wasm: setup
+	$(BIN)/pip install --quiet ziglang==0.17.1
+	$(BIN)/python tools/build_wasm.py --check
 
 # The paper's tables beside ours; real meshes come from SNAPSPACE_MESHES.
 paper: setup

@@ -36,11 +36,6 @@ settings.register_profile("searching", deadline=None)
 settings.load_profile("steady")
 
 
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Long tests that begin last would run alone."""
-    items.sort(key=lambda item: item.get_closest_marker("first") is None)
-
-
 #: Pages need the mirror plane of the bar. The record of its models names it: a search takes longer
 #: than everything else in a page.
 MIRROR = MirrorPlane((0, 1, 0), (2, 0.5, 0.5))

@@ -7,10 +7,13 @@ core/online, or of files that it includes:
 
     pip install ziglang==0.17.1
     python tools/build_wasm.py
+
+`--check` builds it and compares: the module that is checked in must have the same bytes.
 """
 
 from __future__ import annotations
 
+import argparse
 import hashlib
 import importlib.util
 import json
@@ -94,11 +97,19 @@ def has_compiler() -> bool:
 
 
 def main() -> int:
-    """Builds the module and writes it with its record."""
+    """Builds the module and writes it with its record, or compares it with the one there is."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n\n")[0])
+    parser.add_argument("--check", action="store_true", help="compare and write nothing")
+    options = parser.parse_args()
     if not has_compiler():
         print(f"build_wasm: needs ziglang {ZIGLANG}: pip install ziglang=={ZIGLANG}")
         return 2
     module = build()
+    if options.check:
+        same = module == MODULE.read_bytes()
+        place, verdict = MODULE.relative_to(ROOT), "has the same bytes" if same else "differs"
+        print(f"build_wasm: {place} {verdict}" + ("" if same else f"; run {Path(__file__).name}"))
+        return 0 if same else 1
     record = {
         "compiler": f"ziglang {ZIGLANG}",
         "flags": list(FLAGS),
