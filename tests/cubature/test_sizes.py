@@ -1,0 +1,30 @@
+"""Sizes: tets of a cubature, and the equations and candidates that it is fitted with."""
+
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from snapspace.cubature import default_tets
+from snapspace.cubature.fit_tets import MOST_CANDIDATES, _candidate_count, _row_count
+
+
+@given(st.integers(1, 5000), st.integers(1, 20))
+def test_weights_are_overdetermined_and_chosen_from_several(count: int, each: int) -> None:
+    """More equations than unknowns; several candidates for each tet, unless there are too many."""
+    assert 2 * count <= _row_count(count) <= 3 * count
+    candidates = _candidate_count(each, count)
+    assert candidates >= count
+    assert candidates >= min(each, 10) * count or candidates == max(MOST_CANDIDATES, count)
+    assert candidates <= max(each * count, count)
+
+
+@given(st.integers(1, 5000))
+def test_more_tets_never_have_fewer_equations_or_candidates(count: int) -> None:
+    assert _row_count(count) <= _row_count(count + 1)
+    assert _candidate_count(20, count) <= _candidate_count(20, count + 1)
+
+
+def test_each_dimension_of_a_default_model_has_eight_tets() -> None:
+    """Default models have at most 256 dimensions; of them only the last six share their tets."""
+    assert [default_tets(d) for d in (1, 125, 250)] == [8, 1000, 2000]
