@@ -8,25 +8,23 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from ..calibration import calibrate
 from ..interruptible import begin_abandonable
 from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
-from ..reduction import InterpolationModel, PosingModel, reduce
+from ..reduction import InterpolationModel, PosingModel, finer_tets, reduce
 from ..snapshots import Snapshots
 from ..subspace import snapshot_pca
-from ..validation import unseen_errors, with_lower_minima
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
+from .early_parts import make_early_parts
 from .growing_samples import GrowingSamples
 from .old_model import OldModel, check_start, usual_shapes
 from .plan import plan_of, predicted_most_samples, usual_most_samples
 from .predicting import Predicting
 from .solving import Solving
 from .step import Step
-from .trial import Trial
+from .trial import Trial, trial_of
 
 Model = PosingModel | InterpolationModel
 #: Gets a line of text for the user.
@@ -119,7 +117,7 @@ class ModelSearch:
         self.steps: list[Step] = []
         self.best: Trial | None = None
         self._model_seconds = 0.0  # what the last model took; 0 before the first
-        self._finish_parts = begin_abandonable(lambda: _make_parts(problem))
+        self._finish_parts = begin_abandonable(lambda: make_early_parts(problem))
 
     @property
     def seconds(self) -> float:
@@ -192,6 +190,8 @@ class ModelSearch:
                     trial = self._taken(self._try(count, dimension, tries))
                     tries.add(trial.step)
                     yield trial
+                if last and (tets := self._finer_tets(tries)):
+                    yield self._taken(self._try(count, tries.steps[-1].dimension, tries, tets))
                 if one_a_stage and not tries.steps and not last:
                     yield self._try(count, tries.most, tries)
             if last or (self.best is not None and self.best.step.error <= self.target):
@@ -228,37 +228,46 @@ class ModelSearch:
             self.best = trial
         return trial
 
-    def _try(self, count: int, dimension: int, tries: DimensionSearch) -> Trial:
+    def _try(
+        self, count: int, dimension: int, tries: DimensionSearch, tets: int | None = None
+    ) -> Trial:
         begin = time.perf_counter()
-        model = self._model(self.samples.trained, dimension)
-        trial = self._judged(count, model, tries.projection(dimension))
+        model = self._model(self.samples.trained, dimension, tets=tets)
+        trial = self._judged(count, model, tries.projection(dimension), tets)
         self._model_seconds = time.perf_counter() - begin
         return trial
 
-    def _judged(self, count: int, model: Model, projection: float | None = None) -> Trial:
-        plan = self._plan
-        unseen = self.samples.unseen
-        errors = unseen_errors(model, unseen)
-        threads = self._solving.threads
-        unseen, lower = with_lower_minima(model, unseen, errors=errors, threads=threads)
-        if lower:
-            errors = unseen_errors(model, unseen)
+    def _finer_tets(self, tries: DimensionSearch) -> int | None:
+        """How many tets the last model gets instead, if all models of the last stage miss."""
+        best = self.best
+        if best is None or best.step.error <= self.target or best.model.cubature is None:
+            return None
+        if self._budget is not None and self.seconds + 2 * self._model_seconds > self._budget:
+            return None
+        return finer_tets(self.samples.problem, tries.steps[-1].dimension)
+
+    def _judged(
+        self, count: int, model: Model, projection: float | None = None, tets: int | None = None
+    ) -> Trial:
         if projection is None:
-            projection = plan.typical(self.samples.projection_errors_onto(model.subspace))
-        step = Step(
+            projection = self._plan.typical(self.samples.projection_errors_onto(model.subspace))
+        return trial_of(
+            model,
+            self.samples.unseen,
+            self._plan,
             samples=count,
-            dimension=model.dimension,
             projection=projection,
-            error=plan.typical(errors),
-            mean=float(errors.mean()),
-            ninth=float(np.quantile(errors, 0.9)),
-            unseen=plan.unseen_name,
-            typical=plan.typical_name,
+            tets=tets,
+            threads=self._solving.threads,
         )
-        return Trial(step, model, unseen)
 
     def _model(
-        self, snapshots: Snapshots, dimension: int, trained: Snapshots | None = None
+        self,
+        snapshots: Snapshots,
+        dimension: int,
+        trained: Snapshots | None = None,
+        *,
+        tets: int | None = None,
     ) -> Model:
         """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")
@@ -269,6 +278,7 @@ class ModelSearch:
             self.samples.problem,
             subspace,
             snapshots=trained or snapshots,
+            tets=tets,
             surface=self._surface,
             threads=self._solving.threads,
         )
@@ -288,10 +298,3 @@ class ModelSearch:
             "have to be enough"
         )
         return True
-
-
-def _make_parts(problem: PosingProblem | InterpolationProblem) -> None:
-    """Makes what every stage needs besides the system, and what can be made without it."""
-    _ = problem.mesh.surface
-    if isinstance(problem, PosingProblem):  # otherwise it is the mass of the mean shape, a solution
-        problem.mass()

@@ -4,8 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..reduction import InterpolationModel, PosingModel
 from ..snapshots import Snapshots
+from ..validation import unseen_errors, with_lower_minima
+from .plan import Plan
 from .step import Step
 
 
@@ -16,3 +20,35 @@ class Trial:
     step: Step
     model: PosingModel | InterpolationModel
     unseen: Snapshots
+
+
+def trial_of(
+    model: PosingModel | InterpolationModel,
+    unseen: Snapshots,
+    plan: Plan,
+    *,
+    samples: int,
+    projection: float,
+    tets: int | None,
+    threads: int | None,
+) -> Trial:
+    """Compares a model with unseen full solutions, which get lower energies if it finds them.
+
+    Numbers are those of `Step`.
+    """
+    errors = unseen_errors(model, unseen)
+    unseen, lower = with_lower_minima(model, unseen, errors=errors, threads=threads)
+    if lower:
+        errors = unseen_errors(model, unseen)
+    step = Step(
+        samples=samples,
+        dimension=model.dimension,
+        projection=projection,
+        error=plan.typical(errors),
+        mean=float(errors.mean()),
+        ninth=float(np.quantile(errors, 0.9)),
+        unseen=plan.unseen_name,
+        typical=plan.typical_name,
+        tets=tets,
+    )
+    return Trial(step, model, unseen)

@@ -12,6 +12,7 @@ from .train import (
     FEWEST_BLENDS,
     default_blended_tets,
     default_tets,
+    finer_tets,
     train_blended_cubature,
     train_cubature,
 )
@@ -29,6 +30,7 @@ __all__ = [
     "default_blended_tets",
     "default_tets",
     "element_count",
+    "finer_tets",
     "has_hinges",
     "has_stars",
     "train_blended_cubature",

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..problem import InterpolationProblem, PosingProblem
+from ..problem import InterpolationProblem, PosingProblem, Problem
 from ..subspace import AffineSubspace
 from .blended_stars import BlendedStars
 from .blended_sum import BlendedSum, blended_sum
@@ -34,13 +34,10 @@ ELEMENTS_PER_DIMENSION, MOST_ELEMENTS = 12, 1500
 #: Lion's mean errors are 0.015 and 0.009 (d = 40 and 60), with 8 d 0.015 and 0.010, in half the
 #: time a frame.
 TETS_PER_BLENDED_DIMENSION = 15
-#: Most tets by default: the time of an evaluation is proportional to their number. Bodies that are
-#: soft between their handles need all eight per dimension: with 1000 tets instead of 8 d the median
-#: errors of a Lion (d = 207), a dog (245) and Spot (256), with handles at their tips, are 0.0019,
-#: 0.0112 and 0.0162 instead of 0.0014, 0.0062 and 0.0073.
-MOST_TETS = 2000
-#: The same for blends.
-MOST_BLENDED_TETS = 1000
+#: Most tets by default: the time of an evaluation is proportional to their number.
+MOST_TETS = 1000
+#: The same where the error counts more than the time, see `finer_tets`.
+MOST_FINER_TETS = 2000
 #: Most motions to train on, and candidates per wanted tet. Errors on Dragon, Spot, Elephant,
 #: Armadillo, dog head and hand are the same as with 200 motions and twice as many candidates, which
 #: take twice as long.
@@ -58,13 +55,27 @@ PILOT_STEP = 8
 
 
 def default_tets(dimension: int, *, shell: bool = False) -> int:
-    """Default number of tets of a cubature: 8 d, but at most 2000 and those of the mesh.
+    """Default number of tets of a cubature: 8 d, but at most 1000 and those of the mesh.
 
     For triangles and hinges of a shell it is 12 d, but at most 1500; see `has_hinges`.
     """
     if shell:
         return min(ELEMENTS_PER_DIMENSION * dimension, MOST_ELEMENTS)
     return min(TETS_PER_DIMENSION * dimension, MOST_TETS)
+
+
+def finer_tets(problem: Problem, dimension: int) -> int | None:
+    """More tets than the default for many modes of a posed solid: 8 d, at most 2000; else None.
+
+    Bodies that are soft between their handles need them. With 1000 tets the median errors of a Lion
+    (d = 207), a dog (245) and Spot (256), with handles at their tips, are 0.0019, 0.0112 and
+    0.0162, and with 8 d tets 0.0014, 0.0062 and 0.0073. A frame then takes more than twice as long,
+    since their rows no longer fit into the caches. On shells more elements do not help.
+    """
+    if not isinstance(problem, PosingProblem) or has_hinges(problem) or has_stars(problem):
+        return None
+    several = min(TETS_PER_DIMENSION * dimension, MOST_FINER_TETS, element_count(problem))
+    return several if several > default_tets(dimension) else None
 
 
 def default_blended_tets(dimension: int, *, stars: bool = False) -> int:
@@ -75,7 +86,7 @@ def default_blended_tets(dimension: int, *, stars: bool = False) -> int:
     are larger by half.
     """
     share = TETS_PER_DIMENSION if stars else TETS_PER_BLENDED_DIMENSION
-    return min(share * dimension, MOST_BLENDED_TETS)
+    return min(share * dimension, MOST_TETS)
 
 
 def train_cubature(

@@ -10,6 +10,7 @@ from ..cubature import (
     default_blended_tets,
     default_tets,
     element_count,
+    finer_tets,
     has_hinges,
     has_stars,
 )
@@ -64,6 +65,7 @@ __all__ = [
     "element_count",
     "exact_seconds",
     "fewest_snapshots",
+    "finer_tets",
     "handle_quadric",
     "has_hinges",
     "has_stars",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from snapspace.cubature import default_tets
 from snapspace.cubature.fit_tets import MOST_CANDIDATES, _candidate_count, _row_count
 
 
@@ -23,8 +22,3 @@ def test_weights_are_overdetermined_and_chosen_from_several(count: int, each: in
 def test_more_tets_never_have_fewer_equations_or_candidates(count: int) -> None:
     assert _row_count(count) <= _row_count(count + 1)
     assert _candidate_count(20, count) <= _candidate_count(20, count + 1)
-
-
-def test_each_dimension_of_a_default_model_has_eight_tets() -> None:
-    """Default models have at most 256 dimensions; of them only the last six share their tets."""
-    assert [default_tets(d) for d in (1, 125, 250)] == [8, 1000, 2000]
