@@ -128,6 +128,9 @@ def accurate_model(
     its Hessians in the seed of the solver, and are solved more loosely, but not the held-out ones.
     There may then be more samples, see `predicted_most_samples`.
 
+    If all models with all samples miss the target, the last one is made again with more tets, see
+    `finer_tets`.
+
     Parameters
     ----------
     problem : PosingProblem or InterpolationProblem

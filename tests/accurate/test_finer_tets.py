@@ -15,8 +15,8 @@ from ..shells.strips import strip_problem
 
 
 def test_only_many_modes_of_posed_solids_get_more(motions: PosingProblem) -> None:
-    assert finer_tets(motions, 125) is None
-    assert finer_tets(motions, 126) == 1008
+    assert finer_tets(motions, 149) is None
+    assert finer_tets(motions, 150) == 1200
     assert finer_tets(motions, 400) == 2000
     assert finer_tets(strip_problem(), 200) is None
     assert finer_tets(interpolation_problem(), 200) is None
