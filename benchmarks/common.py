@@ -131,19 +131,24 @@ def print_rows(rows: Sequence[dict[str, Any]], *, title: str, width: int) -> Non
 PATH_FRAMES = 60
 
 
-def path(
-    problem: ss.PosingProblem | ss.InterpolationProblem, *, frames: int, seed: int
-) -> np.ndarray:
-    """Parameters (frames, p) on straight lines between random ones.
+def along(corners: np.ndarray, *, frames: int) -> np.ndarray:
+    """Parameters (frames, p) on straight lines from corner to corner.
 
     There are 60 frames from one to the next: like a hand that moves across the domain in a second.
     """
-    corners = ss.sample(problem.domain, frames // PATH_FRAMES + 2, seed=seed)
     at = np.arange(frames) / PATH_FRAMES
     below = at.astype(int)
     share = (at - below)[:, None]
-    along: np.ndarray = (1 - share) * corners[below] + share * corners[below + 1]
-    return along
+    between: np.ndarray = (1 - share) * corners[below] + share * corners[below + 1]
+    return between
+
+
+def path(
+    problem: ss.PosingProblem | ss.InterpolationProblem, *, frames: int, seed: int
+) -> np.ndarray:
+    """Parameters (frames, p) `along` random ones."""
+    corners = ss.sample(problem.domain, frames // PATH_FRAMES + 2, seed=seed)
+    return along(corners, frames=frames)
 
 
 def drag(
@@ -153,11 +158,11 @@ def drag(
 
     Options are those of the session.
     """
-    along = path(model.problem, frames=frames, seed=seed)
+    parameters = path(model.problem, frames=frames, seed=seed)
     session = model.session(**options)
-    session.set_parameters(along[0])
+    session.set_parameters(parameters[0])
     solve, frame = [], []
-    for w in along:
+    for w in parameters:
         begin = time.perf_counter()
         report = session.set_parameters(w)
         _ = session.vertices

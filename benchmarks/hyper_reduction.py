@@ -1,6 +1,7 @@
 """Cubature against the exact quartic: error, milliseconds, training and size by dimension.
 
 python benchmarks/hyper_reduction.py --problem dragon elephant --samples 1000
+python benchmarks/hyper_reduction.py --problem tips:0 --material stable-neo-hookean --tets 1000 2000
 
 Errors are against tight full solutions, as in `validate`. Poses are reached in one jump from rest,
 and (drag) along a straight line of 20 frames. "Call" is all of `set_parameters` in a drag, "warm"
@@ -14,12 +15,12 @@ import argparse
 import json
 import tempfile
 import time
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import common
 import numpy as np
+import problems
 from rich.console import Console
 from rich.table import Table
 
@@ -30,6 +31,8 @@ COLUMNS = ("d", "energy", "samples", "tets", "median", "mean", "max", "drag medi
 COLUMNS += ("call ms", "warm ms", "evaluations", "cold ms", "training s", "model MB", "held-out")
 #: Frames of a drag from rest to a held-out pose.
 DRAG = 20
+#: Frames of the path on which "warm" is measured, and those whose evaluations are counted.
+FRAMES, COUNTED = 300, 120
 
 
 def main() -> None:
@@ -40,7 +43,9 @@ def main() -> None:
     parser.add_argument("--tolerance", type=float, default=1e-5, help="tolerance of the samples")
     parser.add_argument("--settling", type=float, help="settling, instead of a tolerance")
     parser.add_argument("--dimensions", type=int, nargs="+", default=[20, 40, 60, 120, 250])
-    parser.add_argument("--tets", type=int, help="tets of a cubature; default: 8 d, at most 1000")
+    parser.add_argument(
+        "--tets", type=int, nargs="+", help="tets of cubatures; default: 8 d, at most 1000"
+    )
     parser.add_argument("--exact-up-to", type=int, default=40, help="largest d of the quartic")
     parser.add_argument("--validate", type=int, default=30, help="number of held-out parameters")
     parser.add_argument("--seed", type=int, default=0)
@@ -59,7 +64,7 @@ def main() -> None:
 
 def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
     """One row per model."""
-    problem = common.with_material(common.read_problem(name), args.material)
+    problem = common.with_material(problems.read(name), args.material)
     parameters = ss.sample(problem.domain, args.samples, method="sobol", seed=args.seed)
     stop = {"tolerance": args.tolerance} if args.settling is None else {"settling": args.settling}
     snapshots = common.solved(problem, parameters, **stop)
@@ -73,13 +78,13 @@ def table_of(name: str, args: argparse.Namespace) -> list[dict[str, Any]]:
         for energy in ("exact", "cubature"):
             if energy == "exact" and (d > args.exact_up_to or args.material != "stvk"):
                 continue
-            begin = time.perf_counter()
-            tets = args.tets if energy == "cubature" else None
-            model = ss.reduce(
-                problem, basis.leading(d), snapshots=snapshots, energy=energy, tets=tets
-            )
-            seconds = time.perf_counter() - begin
-            rows.append(row_of(model, reference, energy, seconds, seed=args.seed))
+            for tets in (args.tets or [None]) if energy == "cubature" else [None]:
+                begin = time.perf_counter()
+                model = ss.reduce(
+                    problem, basis.leading(d), snapshots=snapshots, energy=energy, tets=tets
+                )
+                seconds = time.perf_counter() - begin
+                rows.append(row_of(model, reference, energy, seconds, seed=args.seed))
     return rows
 
 
@@ -109,11 +114,11 @@ def row_of(
     errors = relative(mass, shapes, truth)
     dragged = relative(mass, solutions(model, reference, frames=DRAG)[0], truth)
     session, evaluations, calls = model.session(), [], []
-    for w in path(model, seed + 1):
+    for w in common.path(model.problem, frames=FRAMES, seed=seed + 1)[:COUNTED]:
         begin = time.perf_counter()
         evaluations.append(session.set_parameters(w).evaluations)
         calls.append(1e3 * (time.perf_counter() - begin))
-    warm, _ = common.drag(model, frames=300, seed=seed + 1)
+    warm, _ = common.drag(model, frames=FRAMES, seed=seed + 1)
     with tempfile.TemporaryDirectory() as folder:
         size = model.save(Path(folder) / "model.snapspace").stat().st_size
     record = model.provenance.get("cubature", {})
@@ -141,13 +146,6 @@ def relative(mass: Any, shapes: np.ndarray, truth: np.ndarray) -> np.ndarray:
     """Relative M-norm errors (k,) of displacements (k, 3n)."""
     errors: np.ndarray = mass_norms(mass, shapes - truth) / mass_norms(mass, truth)
     return errors
-
-
-def path(model: ss.PosingModel, seed: int) -> np.ndarray:
-    """The parameters of `common.drag` over 120 frames."""
-    corners = ss.sample(model.problem.domain, 7, seed=seed)[:3]
-    steps = np.arange(60)[:, None] / 60.0
-    return np.vstack([a + (b - a) * steps for a, b in pairwise(corners)])
 
 
 if __name__ == "__main__":

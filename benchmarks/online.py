@@ -192,10 +192,8 @@ def mesh(args: argparse.Namespace) -> tuple[dict[str, Any], Rows]:
         ),
     )
     sessions = [small.session(), large.session()]
-    corners = ss.sample(problem.domain, args.frames // 60 + 2, seed=7)
     seconds: list[list[float]] = [[], []]
-    for k in range(args.frames):
-        w = corners[k // 60] + (corners[k // 60 + 1] - corners[k // 60]) * (k % 60) / 60.0
+    for w in common.path(problem, frames=args.frames, seed=7):
         for session, times in zip(sessions, seconds, strict=True):
             begin = time.perf_counter()
             session.pose(w)

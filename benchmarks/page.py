@@ -48,13 +48,8 @@ Motions = list[tuple[int, dict[str, list[float]]]]
 
 def drag_path(model: ss.PosingModel, frames: int, seed: int) -> np.ndarray:
     """Parameters of a drag from rest."""
-    ends = ss.sample(model.problem.domain, frames // 60 + 1, seed=seed)
-    ends = np.vstack([np.zeros_like(ends[:1]), ends])
-    steps = np.arange(frames) / 60.0
-    first = steps.astype(int)
-    share = (steps - first)[:, None]
-    path: np.ndarray = (1 - share) * ends[first] + share * ends[first + 1]
-    return path
+    ends = ss.sample(model.problem.domain, frames // common.PATH_FRAMES + 1, seed=seed)
+    return common.along(np.vstack([np.zeros_like(ends[:1]), ends]), frames=frames)
 
 
 def motions(model: ss.PosingModel, parameters: np.ndarray) -> Motions:

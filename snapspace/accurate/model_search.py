@@ -14,7 +14,7 @@ from ..mesh import EmbeddedSurface
 from ..problem import InterpolationProblem, PosingProblem
 from ..reduction import InterpolationModel, PosingModel, finer_tets, reduce
 from ..snapshots import Snapshots
-from ..subspace import snapshot_pca
+from ..subspace import AffineSubspace, snapshot_pca
 from .checks import check_budget, check_most, check_target
 from .dimension_search import DimensionSearch
 from .early_parts import make_early_parts
@@ -186,12 +186,13 @@ class ModelSearch:
                 yield self._taken(self._judged(count, self._first))
             else:
                 tries = DimensionSearch(self.samples, self._plan, self.target, ratio)
+                trial = None
                 for dimension in tries.dimensions(last=last):
                     trial = self._taken(self._try(count, dimension, tries))
                     tries.add(trial.step)
                     yield trial
-                if last and (tets := self._finer_tets(tries)):
-                    yield self._taken(self._try(count, tries.steps[-1].dimension, tries, tets))
+                if last and trial and (finer := self._finer(trial)):
+                    yield self._taken(finer)
                 if one_a_stage and not tries.steps and not last:
                     yield self._try(count, tries.most, tries)
             if last or (self.best is not None and self.best.step.error <= self.target):
@@ -228,23 +229,23 @@ class ModelSearch:
             self.best = trial
         return trial
 
-    def _try(
-        self, count: int, dimension: int, tries: DimensionSearch, tets: int | None = None
-    ) -> Trial:
+    def _try(self, count: int, dimension: int, tries: DimensionSearch) -> Trial:
         begin = time.perf_counter()
-        model = self._model(self.samples.trained, dimension, tets=tets)
-        trial = self._judged(count, model, tries.projection(dimension), tets)
+        model = self._model(self.samples.trained, dimension)
+        trial = self._judged(count, model, tries.projection(dimension))
         self._model_seconds = time.perf_counter() - begin
         return trial
 
-    def _finer_tets(self, tries: DimensionSearch) -> int | None:
-        """How many tets the last model gets instead, if all models of the last stage miss."""
-        best = self.best
-        if best is None or best.step.error <= self.target or best.model.cubature is None:
+    def _finer(self, last: Trial) -> Trial | None:
+        """The last model with more tets, if all models of the last stage miss the target."""
+        best = self.best or last
+        late = self._budget is not None and self.seconds + 2 * self._model_seconds > self._budget
+        if late or best.step.error <= self.target or best.model.cubature is None:
             return None
-        if self._budget is not None and self.seconds + 2 * self._model_seconds > self._budget:
+        if (tets := finer_tets(self.samples.problem, last.model.dimension)) is None:
             return None
-        return finer_tets(self.samples.problem, tries.steps[-1].dimension)
+        model = self._reduced(last.model.subspace, self.samples.trained, tets=tets)
+        return self._judged(last.step.samples, model, last.step.projection, tets)
 
     def _judged(
         self, count: int, model: Model, projection: float | None = None, tets: int | None = None
@@ -262,22 +263,21 @@ class ModelSearch:
         )
 
     def _model(
-        self,
-        snapshots: Snapshots,
-        dimension: int,
-        trained: Snapshots | None = None,
-        *,
-        tets: int | None = None,
+        self, snapshots: Snapshots, dimension: int, trained: Snapshots | None = None
     ) -> Model:
         """Makes a model; `trained` are the snapshots that train a cubature, default all."""
         self._begins("subspace")
         self._finish_parts()
-        subspace = snapshot_pca(snapshots, dimension=dimension)
+        return self._reduced(snapshot_pca(snapshots, dimension=dimension), trained or snapshots)
+
+    def _reduced(
+        self, subspace: AffineSubspace, trained: Snapshots, *, tets: int | None = None
+    ) -> Model:
         self._begins("energy")
         return reduce(
             self.samples.problem,
             subspace,
-            snapshots=trained or snapshots,
+            snapshots=trained,
             tets=tets,
             surface=self._surface,
             threads=self._solving.threads,

@@ -1,4 +1,4 @@
-"""Sizes: tets of a cubature, and the equations and candidates that it is fitted with."""
+"""How many equations and candidates a cubature is fitted with."""
 
 from __future__ import annotations
 
