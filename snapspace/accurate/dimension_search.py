@@ -15,6 +15,8 @@ from .step import Step
 MODES_PER_SOLUTION = 0.8
 #: Least growth of the dimension from one try to the next.
 GROWTH = 1.2
+#: The same from the last try to the most dimensions.
+LAST_GROWTH = 1.1
 #: If more dimensions leave more than this share of the error, still more do not help.
 FALL = 0.9
 #: Factor by which the next try aims below the target.
@@ -63,7 +65,7 @@ class DimensionSearch:
             enough = np.flatnonzero(self._projections * self._ratio * MARGIN <= self._target)
             wanted = max(int(enough[0]), ceil(GROWTH * tried), 1) if len(enough) else self.most + 1
             if wanted > self.most:
-                if tried == self.most or not last:
+                if LAST_GROWTH * tried > self.most or not last:
                     return
                 wanted = self.most
             yield wanted

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import ArrayLike
+import warnings
 
-from ..mesh import TetMesh
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..mesh import MeshNotice, TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
 from ..stopping import check_stop
 from ..stuffing import Progress, stuff
 from .closed_input import check_share, closed_input
+from .lost_tips import are_tips
 
 # Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part.
 _LOST = 1.0
@@ -49,15 +52,17 @@ def stuff_surface(
     -------
     TetMesh
         Its boundary has its own vertices, which lie on the surface; sharp edges are cut off
-        within an edge length. Dihedral angles are over 8 degrees. The same for the same input.
+        within an edge length. If even the shortest edge tried does not reach thin tips of the
+        surface, with at most two in a thousand of its vertices, they are left out, and a
+        `MeshNotice` says so. Dihedral angles are over 8 degrees. The same for the same input.
 
     Raises
     ------
     ValueError
         For wrong shapes or types, coordinates that are not finite, an index out of range, no faces,
         a surface that is not closed, not oriented alike or encloses no volume, an edge length out
-        of range, or if a part of the surface is lost or touches another because it is too thin for
-        the edge length; use `fill_surface` for such surfaces.
+        of range, or if a part of the surface other than a tip is lost, or touches another, because
+        it is too thin for the edge length; use `fill_surface` for such surfaces.
 
     Notes
     -----
@@ -81,19 +86,21 @@ def stuff_surface(
         except ValueError as error:
             fault = str(error)
             continue
-        fault = _lost_part(mesh, surface.vertices, cell)
-        if not fault:
+        lost = _lost_vertices(mesh, surface.vertices, cell)
+        if lost.size and scale == _SCALES[-1] and are_tips(lost, surface.faces):
+            text = f"the tets leave out thin tips of the surface, {lost.size} of its vertices"
+            warnings.warn(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
+            lost = lost[:0]
+        if not lost.size:
             return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
+        fault = f"{lost.size} vertices are far from the tets, vertex {lost[0]} first"
     raise ValueError(
         f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin parts "
         f"or gaps of the surface ({fault}); choose a shorter one, or use fill_surface"
     )
 
 
-def _lost_part(mesh: TetMesh, vertices: FloatArray, cell: float) -> str:
-    """Says which part of the surface is missing; empty if none is."""
+def _lost_vertices(mesh: TetMesh, vertices: FloatArray, cell: float) -> NDArray[np.intp]:
+    """Vertices of the surface that are far from the boundary of the tets."""
     found, _ = closest_boundary_faces(mesh, vertices, limit=_LOST * cell)
-    lost = np.flatnonzero(found < 0)
-    return (
-        f"{lost.size} vertices are far from the tets, vertex {lost[0]} first" if lost.size else ""
-    )
+    return np.flatnonzero(found < 0)
