@@ -13,7 +13,7 @@ from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
 from ..stopping import check_stop
 from ..stuffing import Progress, stuff
-from .closed_input import check_share, closed_input
+from .closed_input import ClosedInput, check_share, closed_input
 from .lost_tips import are_tips
 
 # Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part.
@@ -52,9 +52,10 @@ def stuff_surface(
     -------
     TetMesh
         Its boundary has its own vertices, which lie on the surface; sharp edges are cut off
-        within an edge length. If even the shortest edge tried does not reach thin tips of the
-        surface, with at most two in a thousand of its vertices, they are left out, and a
-        `MeshNotice` says so. Dihedral angles are over 8 degrees. The same for the same input.
+        within an edge length. If no edge tried reaches thin tips of the surface, with at most
+        two in a thousand of its vertices, the shortest one that reaches the rest leaves them
+        out, and a `MeshNotice` says so. Dihedral angles are over 8 degrees. The same for the same
+        input.
 
     Raises
     ------
@@ -78,7 +79,7 @@ def stuff_surface(
         return distance(points)
 
     low, high = surface.vertices.min(axis=0), surface.vertices.max(axis=0)
-    fault = ""
+    fault, without_tips = "", None
     for scale in _SCALES:
         cell = scale * edge_length
         try:
@@ -87,17 +88,25 @@ def stuff_surface(
             fault = str(error)
             continue
         lost = _lost_vertices(mesh, surface.vertices, cell)
-        if lost.size and scale == _SCALES[-1] and are_tips(lost, surface.faces):
-            text = f"the tets leave out thin tips of the surface, {lost.size} of its vertices"
-            warnings.warn(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
-            lost = lost[:0]
         if not lost.size:
-            return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
+            return _placed(mesh, surface)
+        if are_tips(lost, surface.faces):
+            without_tips = mesh, lost.size
         fault = f"{lost.size} vertices are far from the tets, vertex {lost[0]} first"
-    raise ValueError(
-        f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin parts "
-        f"or gaps of the surface ({fault}); choose a shorter one, or use fill_surface"
-    )
+    if without_tips is None:
+        raise ValueError(
+            f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin "
+            f"parts or gaps of the surface ({fault}); choose a shorter one, or use fill_surface"
+        )
+    mesh, count = without_tips
+    text = f"the tets leave out thin tips of the surface, {count} of its vertices"
+    warnings.warn(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
+    return _placed(mesh, surface)
+
+
+def _placed(mesh: TetMesh, surface: ClosedInput) -> TetMesh:
+    """Scales tets in a surface of diagonal one back."""
+    return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
 
 
 def _lost_vertices(mesh: TetMesh, vertices: FloatArray, cell: float) -> NDArray[np.intp]:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import sys
+from typing import Any
+
 import numpy as np
 import pytest
 
 from snapspace.filling import stuff_surface
 from snapspace.filling.lost_tips import FEW, are_tips
-from snapspace.mesh import MeshNotice, embed_surface
+from snapspace.mesh import MeshNotice, TetMesh, embed_surface
+from snapspace.stuffing import stuff
 
-from .surfaces import tube
+from .surfaces import Surface, tube
 
 COLUMNS, RINGS = 3, 1200
+EDGE = 0.1
 
 
 @pytest.fixture(scope="module")
@@ -47,15 +52,39 @@ def test_many_vertices_are_none(rod_faces: np.ndarray) -> None:
     assert not are_tips(np.concatenate([ring(k) for k in range(rings)]), rod_faces)
 
 
-def test_a_spike_is_left_out_with_a_notice() -> None:
+@pytest.fixture(scope="module")
+def spiked() -> Surface:
+    """A ball with a spike at its top, which is one vertex."""
     latitudes = np.linspace(-np.pi / 2, np.pi / 2, 41)
     heights = np.sin(latitudes)
     heights[-1] += 0.6
-    vertices, faces = tube(np.cos(latitudes), heights, 40)
-    with pytest.warns(MeshNotice, match="leave out thin tips of the surface, 1 of its vertices"):
-        mesh = stuff_surface(vertices, faces, edge_length=0.1)
-    assert mesh.vertices[:, 2].max() < heights[-1] - 0.2
-    with_tip = embed_surface(vertices, faces, mesh, farthest=np.inf)
-    moved = mesh.vertices @ np.diag([1.0, -1.0, -1.0]) + [0.0, 1.0, 2.0]
-    turned = vertices @ np.diag([1.0, -1.0, -1.0]) + [0.0, 1.0, 2.0]
-    assert with_tip.vertices(moved) == pytest.approx(turned, abs=1e-9)
+    return tube(np.cos(latitudes), heights, 40)
+
+
+NOTICE = "leave out thin tips of the surface, 1 of its vertices, which follow the tets next to them"
+
+
+def test_a_spike_is_left_out_with_a_notice_and_follows(spiked: Surface) -> None:
+    vertices, faces = spiked
+    with pytest.warns(MeshNotice, match=NOTICE):
+        mesh = stuff_surface(vertices, faces, edge_length=EDGE)
+    assert mesh.vertices[:, 2].max() < vertices[:, 2].max() - 0.2
+    embedded = embed_surface(vertices, faces, mesh, farthest=np.inf)
+    turn, shift = np.diag([1.0, -1.0, -1.0]), np.array([0.0, 1.0, 2.0])
+    moved = embedded.vertices(mesh.vertices @ turn + shift)
+    assert moved == pytest.approx(vertices @ turn + shift, abs=1e-9)
+
+
+def test_a_shorter_edge_that_fails_leaves_the_tets_before_it(
+    spiked: Surface, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def failing(implicit: Any, low: Any, high: Any, cell: float, **options: Any) -> TetMesh:
+        if cell < 0.9 * EDGE:
+            raise ValueError("its surface is not a manifold")
+        return stuff(implicit, low, high, cell, **options)
+
+    monkeypatch.setattr(sys.modules[stuff_surface.__module__], "stuff", failing)
+    with pytest.warns(MeshNotice, match=NOTICE):
+        mesh = stuff_surface(*spiked, edge_length=EDGE)
+    edges = mesh.vertices[mesh.tets[:, 0]] - mesh.vertices[mesh.tets[:, 1]]
+    assert np.median(np.linalg.norm(edges, axis=1)) > 0.6 * EDGE * mesh.diagonal
