@@ -8,7 +8,7 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
 #: Largest share of the vertices that tips may have together.
-FEW = 2e-3
+FEW = 1e-2
 
 
 def are_tips(lost: NDArray[np.intp], faces: NDArray[np.int32]) -> bool:
@@ -27,7 +27,7 @@ def are_tips(lost: NDArray[np.intp], faces: NDArray[np.int32]) -> bool:
     Returns
     -------
     bool
-        True only for at most two in a thousand of the vertices, in patches whose neighbours are
+        True only for at most one in a hundred of the vertices, in patches whose neighbours are
         connected among themselves.
     """
     count = int(faces.max()) + 1

@@ -16,8 +16,9 @@ from ..stuffing import Progress, stuff
 from .closed_input import ClosedInput, check_share, closed_input
 from .lost_tips import are_tips
 
-# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part.
-_LOST = 1.0
+# Vertices of the surface farther than this from the tets, in edge lengths, are in a lost part, and
+# those of a lost tip may be so far away.
+_LOST, _TIP = 1.0, 3.0
 # Factors of the edge length, tried in turn if parts are too thin.
 _SCALES = (1.0, 0.8, 0.6)
 
@@ -53,9 +54,9 @@ def stuff_surface(
     TetMesh
         Its boundary has its own vertices, which lie on the surface; sharp edges are cut off
         within an edge length. If no edge tried reaches thin tips of the surface, with at most
-        two in a thousand of its vertices, the shortest one that reaches the rest leaves them
-        out, and a `MeshNotice` says so. Dihedral angles are over 8 degrees. The same for the same
-        input.
+        one in a hundred of its vertices and up to three edge lengths long, the shortest one
+        that reaches the rest leaves them out, and a `MeshNotice` says so. Dihedral angles are
+        over 8 degrees. The same for the same input.
 
     Raises
     ------
@@ -87,12 +88,13 @@ def stuff_surface(
         except ValueError as error:
             fault = str(error)
             continue
-        lost = _lost_vertices(mesh, surface.vertices, cell)
+        lost = _far_vertices(mesh, surface.vertices, _LOST * cell)
         if not lost.size:
             return _placed(mesh, surface)
-        if are_tips(lost, surface.faces):
+        too_far = _far_vertices(mesh, surface.vertices[lost], _TIP * cell)
+        if not too_far.size and are_tips(lost, surface.faces):
             without_tips = mesh, lost.size
-        fault = f"{lost.size} vertices are far from the tets, vertex {lost[0]} first"
+        fault = f"{lost.size} of its vertices are far from the tets, vertex {lost[0]} first"
     if without_tips is None:
         raise ValueError(
             f"stuff_surface: edge_length is {edge_length:g} of the diagonal, too long for thin "
@@ -109,7 +111,7 @@ def _placed(mesh: TetMesh, surface: ClosedInput) -> TetMesh:
     return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
 
 
-def _lost_vertices(mesh: TetMesh, vertices: FloatArray, cell: float) -> NDArray[np.intp]:
-    """Vertices of the surface that are far from the boundary of the tets."""
-    found, _ = closest_boundary_faces(mesh, vertices, limit=_LOST * cell)
+def _far_vertices(mesh: TetMesh, vertices: FloatArray, limit: float) -> NDArray[np.intp]:
+    """Vertices of the surface that are farther from the boundary of the tets."""
+    found, _ = closest_boundary_faces(mesh, vertices, limit=limit)
     return np.flatnonzero(found < 0)

@@ -9,7 +9,7 @@ from snapspace.mesh.components import tet_components
 
 
 def largest_component(
-    vertices: NDArray[np.float64], tets: NDArray[np.int64]
+    vertices: NDArray[np.float64], tets: NDArray[np.int64] | NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
     """Keep the component with the most tets; its vertices are renumbered in the same order.
 

@@ -52,13 +52,17 @@ def test_many_vertices_are_none(rod_faces: np.ndarray) -> None:
     assert not are_tips(np.concatenate([ring(k) for k in range(rings)]), rod_faces)
 
 
-@pytest.fixture(scope="module")
-def spiked() -> Surface:
-    """A ball with a spike at its top, which is one vertex."""
+def ball_with_spike(length: float) -> Surface:
+    """A unit ball whose top vertex is pulled away."""
     latitudes = np.linspace(-np.pi / 2, np.pi / 2, 41)
     heights = np.sin(latitudes)
-    heights[-1] += 0.6
+    heights[-1] += length
     return tube(np.cos(latitudes), heights, 40)
+
+
+@pytest.fixture(scope="module")
+def spiked() -> Surface:
+    return ball_with_spike(0.6)
 
 
 NOTICE = "leave out thin tips of the surface, 1 of its vertices, which follow the tets next to them"
@@ -88,3 +92,10 @@ def test_a_shorter_edge_that_fails_leaves_the_tets_before_it(
         mesh = stuff_surface(*spiked, edge_length=EDGE)
     edges = mesh.vertices[mesh.tets[:, 0]] - mesh.vertices[mesh.tets[:, 1]]
     assert np.median(np.linalg.norm(edges, axis=1)) > 0.6 * EDGE * mesh.diagonal
+
+
+def test_a_long_spike_is_no_tip() -> None:
+    with pytest.raises(
+        ValueError, match="1 of its vertices are far from the tets, vertex 1561 first"
+    ):
+        stuff_surface(*ball_with_spike(3.0), edge_length=EDGE)
