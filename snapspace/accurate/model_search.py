@@ -238,9 +238,8 @@ class ModelSearch:
 
     def _finer(self, last: Trial) -> Trial | None:
         """The last model with more tets, if all models of the last stage miss the target."""
-        best = self.best or last
         late = self._budget is not None and self.seconds + 2 * self._model_seconds > self._budget
-        if late or best.step.error <= self.target or best.model.cubature is None:
+        if late or last.step.error <= self.target or last.model.cubature is None:
             return None
         if (tets := finer_tets(self.samples.problem, last.model.dimension)) is None:
             return None

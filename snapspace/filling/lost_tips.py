@@ -7,6 +7,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components
 
+from ..mesh.edges import edges_of
+
 #: Largest share of the vertices that tips may have together.
 FEW = 1e-2
 
@@ -50,7 +52,6 @@ def _has_one_side(patch: NDArray[np.intp], edges: csr_array, is_lost: NDArray[np
 
 def _edges(faces: NDArray[np.int32], count: int) -> csr_array:
     """Edges as a symmetric matrix."""
-    pairs = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    ones = np.ones(len(pairs), np.int8)
-    one_way = coo_array((ones, (pairs[:, 0], pairs[:, 1])), shape=(count, count)).tocsr()
+    ends = edges_of(faces).ends
+    one_way = coo_array((np.ones(len(ends), np.int8), ends.T), shape=(count, count))
     return csr_array(one_way + one_way.T)

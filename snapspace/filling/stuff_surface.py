@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..mesh import MeshNotice, TetMesh
 from ..mesh.arrays import FloatArray
@@ -88,11 +88,11 @@ def stuff_surface(
         except ValueError as error:
             fault = str(error)
             continue
-        lost = _far_vertices(mesh, surface.vertices, _LOST * cell)
+        _, distances = closest_boundary_faces(mesh, surface.vertices, limit=_TIP * cell)
+        lost = np.flatnonzero(distances > _LOST * cell)
         if not lost.size:
             return _placed(mesh, surface)
-        too_far = _far_vertices(mesh, surface.vertices[lost], _TIP * cell)
-        if not too_far.size and are_tips(lost, surface.faces):
+        if np.isfinite(distances).all() and are_tips(lost, surface.faces):
             without_tips = mesh, lost.size
         fault = f"{lost.size} of its vertices are far from the tets, vertex {lost[0]} first"
     if without_tips is None:
@@ -109,9 +109,3 @@ def stuff_surface(
 def _placed(mesh: TetMesh, surface: ClosedInput) -> TetMesh:
     """Scales tets in a surface of diagonal one back."""
     return TetMesh(mesh.vertices * surface.diagonal + surface.center, mesh.tets)
-
-
-def _far_vertices(mesh: TetMesh, vertices: FloatArray, limit: float) -> NDArray[np.intp]:
-    """Vertices of the surface that are farther from the boundary of the tets."""
-    found, _ = closest_boundary_faces(mesh, vertices, limit=limit)
-    return np.flatnonzero(found < 0)

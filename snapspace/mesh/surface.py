@@ -7,8 +7,8 @@ import numpy as np
 from .arrays import FloatArray, IndexArray
 from .equal_faces import equal_faces
 
-# Faces of a positive tet, counter-clockwise seen from outside.
-_FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
+#: Faces of a positive tet, counter-clockwise seen from outside.
+FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 
 
 def boundary_faces(tets: IndexArray) -> IndexArray:
@@ -25,7 +25,7 @@ def boundary_faces(tets: IndexArray) -> IndexArray:
         In the order of the tets they belong to. Every directed edge of a closed surface occurs as
         often as its reverse.
     """
-    faces = tets[:, _FACES].reshape(-1, 3)
+    faces = tets[:, FACES].reshape(-1, 3)
     order, same = equal_faces(faces)
     differs = np.ones(len(faces) + 1, dtype=np.bool_)
     differs[1:-1] = ~same

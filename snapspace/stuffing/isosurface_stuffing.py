@@ -75,14 +75,14 @@ def stuff(
     mesh = stuff_unchecked(implicit, lower, upper, cell, progress=progress)
     if is_closed_manifold(mesh.surface):
         return mesh
-    parted = TetMesh(*largest_component(*parted_at_pinches(mesh.vertices, mesh.tets)))
+    parted = _tidied(*parted_at_pinches(mesh.vertices, mesh.tets))
     kept = len(parted.tets) >= (1.0 - _CRUMBS) * len(mesh.tets)
     if not kept or not is_closed_manifold(parted.surface):
         raise ValueError(
             f"stuff: cell is {cell}, but parts of the shape, or gaps between them, are as small,"
             " so the surface is not a manifold; use a smaller cell"
         )
-    return TetMesh(*morton_order(parted.vertices, parted.tets))
+    return parted
 
 
 def stuff_unchecked(
@@ -116,8 +116,12 @@ def stuff_unchecked(
     tets = clip_tets(tets, signs, lattice.odd_nodes(), cuts)
     if not len(tets):  # all nodes inside were moved to the surface
         raise ValueError(f"stuff: cell is {cell}, but no part of the shape is as thick")
-    largest = largest_component(np.concatenate([points, cuts.points]), tets)
-    return TetMesh(*morton_order(*largest))
+    return _tidied(np.concatenate([points, cuts.points]), tets)
+
+
+def _tidied(vertices: FloatArray, tets: NDArray[np.int64] | NDArray[np.int32]) -> TetMesh:
+    """The largest component, along a Morton curve."""
+    return TetMesh(*morton_order(*largest_component(vertices, tets)))
 
 
 def clip_tets(

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-#: The corners of a tet's faces.
-FACES = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
+from snapspace.mesh.equal_faces import equal_faces
+from snapspace.mesh.surface import FACES
 
 
 def parted_at_pinches(
@@ -30,9 +30,8 @@ def parted_at_pinches(
     tets : ndarray of int32, (m, 4)
         The same tets: those around a vertex are connected by faces that have this vertex.
     """
-    faces = np.sort(tets[:, FACES].reshape(-1, 3), axis=1)
-    order = np.lexsort(faces.T)
-    shared = (faces[order[1:]] == faces[order[:-1]]).all(axis=1)
+    faces = tets[:, FACES].reshape(-1, 3)
+    order, shared = equal_faces(faces)
     one, other = order[:-1][shared], order[1:][shared]
     # each tet has its own copy of a corner first; shared faces join these copies
     joined = [[_corner(tets, face // 4, faces[one, k]) for k in range(3)] for face in (one, other)]

@@ -10,54 +10,62 @@ import pytest
 
 from snapspace.filling import stuff_surface
 from snapspace.filling.lost_tips import FEW, are_tips
+from snapspace.generators import bar
 from snapspace.mesh import MeshNotice, TetMesh, embed_surface
 from snapspace.stuffing import stuff
 
-from .surfaces import Surface, tube
+from ..cli.odd_surfaces import ball
+from .surfaces import Surface, surface_of
 
-COLUMNS, RINGS = 3, 1200
+CELLS = 1200
 EDGE = 0.1
+#: The top vertex of `ball(40)`.
+TOP = 3120
+
+
+@pytest.fixture(scope="module")
+def rings() -> np.ndarray:
+    """The vertices of a long rod of one cell, (1201, 4): from one end to the other."""
+    vertices, _ = rod()
+    return np.argsort(vertices[:, 0], kind="stable").reshape(-1, 4)
 
 
 @pytest.fixture(scope="module")
 def rod_faces() -> np.ndarray:
-    radii = np.ones(RINGS + 2)
-    radii[[0, -1]] = 0.0
-    return tube(radii, np.linspace(0.0, 1.0, RINGS + 2), COLUMNS)[1]
+    return rod()[1]
 
 
-def ring(number: int) -> np.ndarray:
-    return 1 + COLUMNS * number + np.arange(COLUMNS)
+def rod() -> Surface:
+    return surface_of(bar(CELLS, 1, 1, length=float(CELLS), width=1.0, height=1.0))
 
 
-def test_an_end_is_a_tip(rod_faces: np.ndarray) -> None:
-    assert are_tips(np.array([0]), rod_faces)
-    assert are_tips(np.concatenate([[0], ring(0), ring(1)]), rod_faces)
-    both = np.array([0, 1 + COLUMNS * RINGS])
-    assert are_tips(both, rod_faces)
+def test_an_end_is_a_tip(rings: np.ndarray, rod_faces: np.ndarray) -> None:
+    assert are_tips(rings[0, :1], rod_faces)
+    assert are_tips(rings[:3].ravel(), rod_faces)
+    assert are_tips(rings[[0, -1]].ravel(), rod_faces), "both ends"
 
 
-def test_a_part_of_one_side_is_a_tip(rod_faces: np.ndarray) -> None:
+def test_a_part_of_one_side_is_a_tip(rings: np.ndarray, rod_faces: np.ndarray) -> None:
     """The top of a ridge, or a bump."""
-    assert are_tips(ring(600)[:1], rod_faces)
+    assert are_tips(rings[600, :1], rod_faces)
 
 
-def test_what_joins_two_parts_is_none(rod_faces: np.ndarray) -> None:
-    assert not are_tips(ring(600), rod_faces)
-    assert not are_tips(np.concatenate([[0], ring(600)]), rod_faces)
+def test_what_joins_two_parts_is_none(rings: np.ndarray, rod_faces: np.ndarray) -> None:
+    assert not are_tips(rings[600], rod_faces)
+    assert not are_tips(rings[[0, 600]].ravel(), rod_faces)
 
 
-def test_many_vertices_are_none(rod_faces: np.ndarray) -> None:
-    rings = int(FEW * rod_faces.max() / COLUMNS) + 1
-    assert not are_tips(np.concatenate([ring(k) for k in range(rings)]), rod_faces)
+def test_many_vertices_are_none(rings: np.ndarray, rod_faces: np.ndarray) -> None:
+    few = int(FEW * rings.size / 4)
+    assert are_tips(rings[:few].ravel(), rod_faces)
+    assert not are_tips(rings[: few + 1].ravel(), rod_faces)
 
 
 def ball_with_spike(length: float) -> Surface:
     """A unit ball whose top vertex is pulled away."""
-    latitudes = np.linspace(-np.pi / 2, np.pi / 2, 41)
-    heights = np.sin(latitudes)
-    heights[-1] += length
-    return tube(np.cos(latitudes), heights, 40)
+    vertices, faces = ball(40)
+    vertices[TOP, 2] += length
+    return vertices, faces
 
 
 @pytest.fixture(scope="module")
@@ -96,6 +104,6 @@ def test_a_shorter_edge_that_fails_leaves_the_tets_before_it(
 
 def test_a_long_spike_is_no_tip() -> None:
     with pytest.raises(
-        ValueError, match="1 of its vertices are far from the tets, vertex 1561 first"
+        ValueError, match=f"1 of its vertices are far from the tets, vertex {TOP} first"
     ):
         stuff_surface(*ball_with_spike(3.0), edge_length=EDGE)
