@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,15 @@ from snapspace import _core as core
 from snapspace.reduction import coefficient_count
 
 from .snapshots.bars import posing_bar
+
+
+def shortest(measure: Callable[[], list[float]]) -> np.ndarray:
+    """The shortest of ten times of each loop, measured in turn.
+
+    Others may use the processor and the memory meanwhile: one loop after the other, a disturbance
+    could last through all repetitions of the first and be gone for the second.
+    """
+    return np.min([measure() for _ in range(10)], axis=0)
 
 
 @pytest.mark.parametrize("single", [False, True])
@@ -23,8 +34,10 @@ def test_no_part_of_the_solver_beats_the_peak(single: bool) -> None:
 
 
 def test_single_precision_has_twice_the_peak() -> None:
-    ratio = core.peak_flops(single=True) / core.peak_flops(single=False)
-    assert 1.4 < ratio < 2.8
+    seconds_of_a_flop = shortest(
+        lambda: [1.0 / core.peak_flops(single=single, repeats=1) for single in (False, True)]
+    )
+    assert 1.4 < seconds_of_a_flop[0] / seconds_of_a_flop[1] < 2.8
 
 
 def test_reading_takes_time() -> None:
@@ -37,9 +50,25 @@ def test_an_evaluation_reads_all_coefficients() -> None:
     d = 60
     rng = np.random.default_rng(0)
     coefficients, q = rng.normal(size=coefficient_count(d)), rng.normal(size=d)
-    bound = coefficients.nbytes / core.read_bandwidth(coefficients.nbytes, repeats=5)
-    first, both = core.time_quartic(d, coefficients, q, repeats=5)
-    assert 0.5 * bound < first and 0.5 * bound < both
-    modes = rng.normal(size=(30, 90_000))
-    bound = modes.nbytes / core.read_bandwidth(modes.nbytes, repeats=3)
-    assert core.time_reconstruct(modes[0], modes, q[:30], repeats=3) > 0.5 * bound
+
+    def quartic() -> list[float]:
+        first, both = core.time_quartic(d, coefficients, q, repeats=1)
+        reading = coefficients.nbytes / core.read_bandwidth(coefficients.nbytes, repeats=1)
+        return [first, both, reading]
+
+    first, both, reading = shortest(quartic)
+    assert 0.5 * reading < first and 0.5 * reading < both
+
+
+def test_a_shape_reads_all_modes() -> None:
+    """Modes beyond the caches are not added up much faster than they are read."""
+    rng = np.random.default_rng(0)
+    q, modes = rng.normal(size=30), rng.normal(size=(30, 90_000))
+
+    def reconstruction() -> list[float]:
+        seconds = core.time_reconstruct(modes[0], modes, q, repeats=1)
+        reading = modes.nbytes / core.read_bandwidth(modes.nbytes, repeats=1)
+        return [seconds, reading]
+
+    seconds, reading = shortest(reconstruction)
+    assert 0.5 * reading < seconds
