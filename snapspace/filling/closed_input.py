@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +15,7 @@ from ..mesh import MeshNotice, compact_surface
 from ..mesh.arrays import FloatArray, IndexArray, as_indices, as_points
 from ..mesh.closed_surface import check_closed, enclosed_volume, is_flat
 from ..mesh.validation import check_indices, check_points
+from ..notice import notify
 
 
 class NoSolidError(ValueError):
@@ -88,7 +88,7 @@ def _mended(
             raise
         closed = False
         done += f"; {left.fault.partition(':')[0]}, so inside is where the winding number says"
-    warnings.warn(f"{done}; `snapspace check` says more", MeshNotice, stacklevel=4)
+    notify(f"{done}; `snapspace check` says more", MeshNotice, stacklevel=4)
     return mended.vertices, mended.faces, closed
 
 
@@ -112,7 +112,7 @@ def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexAr
             f"faces around ({center})), but one solid is needed; join them, or remove all but one"
         )
     if len(share) > 1:
-        warnings.warn(
+        notify(
             f"{len(share) - 1} small parts of the surface are apart and were left out of the tets; "
             "they follow the nearest tets",
             MeshNotice,

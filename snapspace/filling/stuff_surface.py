@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -11,6 +9,7 @@ from ..mesh import MeshNotice, TetMesh
 from ..mesh.arrays import FloatArray
 from ..mesh.signed_distance import SignedDistance
 from ..mesh.tet_search import closest_boundary_faces
+from ..notice import notify
 from ..stopping import check_stop
 from ..stuffing import Progress, stuff
 from .closed_input import ClosedInput, check_share, closed_input
@@ -102,7 +101,7 @@ def stuff_surface(
         )
     mesh, count = without_tips
     text = f"the tets leave out thin tips of the surface, {count} of its vertices"
-    warnings.warn(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
+    notify(f"{text}, which follow the tets next to them", MeshNotice, stacklevel=2)
     return _placed(mesh, surface)
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import warnings
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -11,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from ..input_error import located
-from ..notice import Notice
+from ..notice import Notice, notify
 from .arrays import FloatArray, IndexArray, as_indices, as_points
 from .file_content import CellArray, FileContent
 from .input_path import existing_file
@@ -64,7 +63,7 @@ def read_tets(path: str | os.PathLike[str], *, repair: bool = False) -> TetMesh:
             tets, notes = _flip_if_all_inverted(content.vertices, tets)
             mesh = TetMesh(content.vertices, tets)
     for note in notes:
-        warnings.warn(f"{file}: {note}", MeshNotice, stacklevel=2)
+        notify(f"{file}: {note}", MeshNotice, stacklevel=2)
     return mesh
 
 

@@ -25,7 +25,7 @@ from ..problem import (
 )
 from ..reduction import InterpolationModel, PosingModel, ReducedModel
 from ..stopping import check_stop
-from .body import Body
+from .body import Body, with_notices
 from .user_surface import UserSurface
 
 PROBLEM_SUFFIX = ".json"
@@ -37,6 +37,10 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
 
     A surface without tets is filled, if it is not a shell.
     """
+    return with_notices(lambda: _problem_body(path, filling), path)
+
+
+def _problem_body(path: Path, filling: SurfaceFilling | None) -> Body:
     own = problem_surface_file(path)
     if own is None or problem_thickness(path) is not None:
         problem = read_problem(path)
@@ -95,6 +99,16 @@ def mesh_body(
         its path.
     """
     existing_file(path, known=MESH_SUFFIXES)
+    return with_notices(lambda: _mesh_body(path, stage, filling, thickness, read), path)
+
+
+def _mesh_body(
+    path: Path,
+    stage: Callable[..., None],
+    filling: SurfaceFilling | None,
+    thickness: float | None,
+    read: Callable[[UserSurface], None],
+) -> Body:
     stage("reading")
     if path.suffix.lower() in TET_SUFFIXES:
         if thickness is not None:

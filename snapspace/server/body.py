@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from ..material import DEFAULT_MATERIAL, Material
 from ..mesh import Body as Mesh
 from ..mesh import EmbeddedSurface, MirrorPlane
+from ..notice import collected_notices
 from ..problem import PosingProblem
 
 
@@ -27,6 +28,7 @@ class Body:
     mirror : MirrorPlane that a file gives, or None
     painted : by the name of a handle, the vertices of the surface where it was painted
     material : that of the problem, or another one to begin with
+    notices : what was mended or left out when the mesh was made, for the reader
     """
 
     name: str
@@ -40,3 +42,15 @@ class Body:
     mirror: MirrorPlane | None = None
     painted: Mapping[str, Sequence[int]] = field(default_factory=dict)
     material: Material = field(default_factory=DEFAULT_MATERIAL)
+    notices: tuple[str, ...] = ()
+
+
+def with_notices(make: Callable[[], Body], path: Path | None = None) -> Body:
+    """The body that `make` makes, with the notices meanwhile, each once, without the folder of `path`.
+
+    Where quick tets fail, fTetWild mends the surface again.
+    """
+    with collected_notices() as notices:
+        body = make()
+    texts = notices if path is None else [text.replace(str(path), path.name) for text in notices]
+    return replace(body, notices=tuple(dict.fromkeys(texts)))

@@ -100,6 +100,7 @@ def mesh_workspace(
         else None,
         is_filled=isinstance(shape, TetMesh),
         is_open=is_open(shape),
+        notices=tuple(text.replace("`snapspace check`", "Check surface") for text in body.notices),
     )
     if problem is None:
         return known

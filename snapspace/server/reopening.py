@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..filling import SurfaceFilling
-from .body import Body
+from .body import Body, with_notices
 from .opening import Opening
 from .user_surface import UserSurface
 
@@ -23,7 +23,8 @@ def reopening(
 
     def fill(opening: Opening) -> Body:
         opening.read(surface)
-        return surface.filled(filling or SurfaceFilling(), stage=opening.stage)
+        tets = filling or SurfaceFilling()
+        return with_notices(lambda: surface.filled(tets, stage=opening.stage), surface.path)
 
     return fill
 

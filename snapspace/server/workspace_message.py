@@ -38,6 +38,7 @@ class Workspace:
     usual_thickness : to begin with where a solid becomes a shell; null: it came as tets
     is_filled : whether there are tets, and not only a surface
     is_open : whether the surface is a shell with holes, which filling would close
+    notices : what was mended or left out when the mesh was made, a sentence each
     """
 
     id: str
@@ -68,3 +69,4 @@ class Workspace:
     usual_thickness: float | None = None
     is_filled: bool = False
     is_open: bool = False
+    notices: tuple[str, ...] = ()

@@ -27,6 +27,7 @@ def test_holes_are_listed_and_what_closes_them_is_drawn(
     with served(tmp_path / "scan.obj", "--edge-length", "0.1", cwd=tmp_path) as address:
         page = opened(address)
         page.wait("snapspace.kind === 'choosing'")
+        assert "closed 1 holes with 1 faces" in page.text(".notes"), "before anybody asks"
         assert page.run(INVENTED) == []
         press(page, "Check surface")
         wait_for_text(page, ".findings", "What to do:")
@@ -50,3 +51,4 @@ def test_tets_have_nothing_to_check(bar_server: str, opened: OpenPage) -> None:
     page = opened(bar_server)
     page.wait("snapspace.kind === 'choosing'")
     assert page.page.get_by_role("button", name="Check surface").count() == 0
+    assert page.page.locator(".notes").count() == 0

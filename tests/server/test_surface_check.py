@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from snapspace.filling import SurfaceFilling
 from snapspace.mesh import MeshNotice, write_surface
 from snapspace.server.bodies import mesh_body
 from snapspace.server.body import Body
@@ -21,14 +22,16 @@ from ..shapes import bar_problem
 from .test_workspace import Mailbox
 
 
-def scan(folder: Path, faces: slice = slice(1, None)) -> Body:
+def scan(
+    folder: Path, faces: slice = slice(1, None), *, filling: SurfaceFilling | None = None
+) -> Body:
     """A bar from a file; by default the first of its faces is missing."""
     mesh = bar_problem().mesh
     path = folder / "scan.obj"
     write_surface(path, mesh.vertices, mesh.surface[faces])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", MeshNotice)
-        return mesh_body(path, stage=lambda *_: None)
+        return mesh_body(path, stage=lambda *_: None, filling=filling)
 
 
 def test_holes_are_found_and_what_closes_them_is_sent(tmp_path: Path) -> None:
@@ -53,6 +56,14 @@ def test_a_closed_surface_is_fine(tmp_path: Path) -> None:
     assert not [note for note in answer.mended if not note.startswith("dropped")]
 
 
+def test_the_body_says_what_was_mended(tmp_path: Path) -> None:
+    (notice,) = scan(tmp_path, filling=SurfaceFilling()).notices
+    assert notice.startswith("the surface was mended for filling: ")
+    assert "closed 1 holes with 1 faces" in notice
+    assert scan(tmp_path, slice(None)).notices == ()
+    assert scan(tmp_path).notices == (), "a shell is not mended"
+
+
 def opened(body: Body, folder: Path) -> tuple[Workspace, Mailbox]:
     mailbox = Mailbox()
     shared = SharedBody(lambda stage: body)
@@ -65,8 +76,12 @@ def opened(body: Body, folder: Path) -> tuple[Workspace, Mailbox]:
 
 
 def test_a_page_asks_for_it(tmp_path: Path) -> None:
-    workspace, mailbox = opened(scan(tmp_path), tmp_path)
+    workspace, mailbox = opened(scan(tmp_path, filling=SurfaceFilling()), tmp_path)
     mailbox.wait_for(Opened, kind="mesh", has_surface=True)
+    begun = mailbox.messages[-1]
+    assert isinstance(begun, Opened)
+    (notice,) = begun.notices
+    assert notice.endswith("; Check surface says more"), "the page has a button, not a command"
     workspace.receive(Check(request=3))
     mailbox.wait_for(Checked, request=3, fine=False)
     workspace.close()

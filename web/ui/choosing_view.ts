@@ -1,4 +1,5 @@
 import type { Choice } from "../engine/choice.ts";
+import type { Workspace } from "../engine/messages.ts";
 import { Choosing } from "./choosing.ts";
 import { bodyPanel, type Forms } from "./choosing_body.ts";
 import { HandleList } from "./choosing_handles.ts";
@@ -10,6 +11,7 @@ import { PartList } from "./choosing_parts.ts";
 import { samplingPanel, type Sampling } from "./choosing_sampling.ts";
 import { selectPanel } from "./choosing_select_panel.ts";
 import { ChoosingTools } from "./choosing_tools.ts";
+import { meshNotes } from "./mesh_notes.ts";
 import type { MeshScene } from "./mesh_scene.ts";
 import type { Server } from "./server.ts";
 import { CHOOSING, shortcutSheet } from "./shortcuts.ts";
@@ -28,7 +30,7 @@ export function choosingView(
   scene: MeshScene,
   start: Choice,
   sampling: Sampling,
-  given: Materials & Forms,
+  given: Materials & Forms & Pick<Workspace, "notices">,
   below: readonly HTMLElement[],
   server: Pick<Server, "ask">,
   acts: {
@@ -81,6 +83,7 @@ export function choosingView(
     choosing,
     hud: meshHud(scene),
     panel: [
+      ...meshNotes(given.notices ?? []),
       ...body,
       select.element,
       handles.element,
