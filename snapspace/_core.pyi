@@ -320,6 +320,11 @@ class SampleSystem:
         Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their gradients (k, 3n). Several are computed in one pack.
         """
 
+    def evaluate_in_pack(self, shapes: NDArray[numpy.float64], inputs: NDArray[numpy.float64], *, width: int, single: bool) -> tuple[NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64], NDArray[numpy.float64]]:
+        """
+        Objectives (k,) and gradients (k, 3n) as `evaluate`, in one pack of a width; the gradients times the seed of the inverse Hessian, and the products of both.
+        """
+
     def put(self, queue: SampleQueue, id: int, input: NDArray[numpy.float64], start: NDArray[numpy.float64], *, coarse: CoarseSpace | None = None) -> None:
         """Puts a sample into a queue: input as for solve_fast, start (3n,)."""
 

@@ -129,6 +129,27 @@ void bind_system(nb::module_& m) {
           "Objectives (k,) at displacements (k, 3n) for inputs (k, input_size), and their "
           "gradients (k, 3n). Several are computed in one pack.")
       .def(
+          "evaluate_in_pack",
+          [](const System& self, MatrixIn shapes, MatrixIn inputs, int width, bool single) {
+            const std::size_t count = shapes.shape(0), size = shapes.shape(1);
+            require(size == static_cast<std::size_t>(self.size()) && inputs.shape(0) == count &&
+                        inputs.shape(1) == static_cast<std::size_t>(self.input_size()) &&
+                        count >= 1 && count <= static_cast<std::size_t>(width),
+                    "needs (k, 3n) displacements and (k, input_size) inputs, 1 <= k <= width");
+            DoublesOut values = new_array<double>({count}), products = new_array<double>({count}),
+                       gradients = new_array<double>({count, size}),
+                       images = new_array<double>({count, size});
+            require(
+                evaluate_in_pack(self, {width, single}, static_cast<int>(count), inputs.data(),
+                                 shapes.data(),
+                                 {values.data(), gradients.data(), products.data(), images.data()}),
+                "needs a width of packs that this processor has");
+            return std::make_tuple(values, gradients, products, images);
+          },
+          nb::arg("shapes"), nb::arg("inputs"), nb::kw_only(), nb::arg("width"), nb::arg("single"),
+          "Objectives (k,) and gradients (k, 3n) as `evaluate`, in one pack of a width; the "
+          "gradients times the seed of the inverse Hessian, and the products of both.")
+      .def(
           "put",
           [](const System& self, SampleQueue& queue, int id, VectorIn input, VectorIn start,
              const CoarseSpace* coarse) {

@@ -34,7 +34,7 @@ struct AngleBend {
     const Real square = part * part;
     Real series(0.0);
     for (int n = 23; n > 0; n -= 2) series = Real(1.0 / n) - square * series;
-    const Real angle = Real(16.0) * part * series, share(kShare);
+    const Real angle = rounded(Real(16.0) * part * series), share(kShare);
     return {angle + share * (t + t - angle), Real(1.0) + share * t * t,
             share * t * (Real(1.0) + t * t)};
   }

@@ -20,8 +20,8 @@ struct HingeAngle {
   explicit HingeAngle(const Real E[3][3]) {
     for (int r = 0; r < 3; ++r) {
       const int s = (r + 1) % 3, t = (r + 2) % 3;
-      first_normal[r] = E[s][0] * E[t][1] - E[t][0] * E[s][1];   // e x a
-      second_normal[r] = E[s][2] * E[t][0] - E[t][2] * E[s][0];  // b x e
+      first_normal[r] = E[s][0] * E[t][1] - rounded(E[t][0] * E[s][1]);   // e x a
+      second_normal[r] = E[s][2] * E[t][0] - rounded(E[t][2] * E[s][0]);  // b x e
     }
     const Real least(kLeastSquare);
     edge_square = max(product(E, 0, E, 0), least);
@@ -30,15 +30,15 @@ struct HingeAngle {
     edge = sqrt(edge_square);
     first_foot = product(E, 0, E, 1) / edge_square;
     second_foot = product(E, 0, E, 2) / edge_square;
-    sine =
-        edge * (first_normal[0] * E[0][2] + first_normal[1] * E[1][2] + first_normal[2] * E[2][2]);
+    sine = edge * (first_normal[0] * E[0][2] + rounded(first_normal[1] * E[1][2]) +
+                   first_normal[2] * E[2][2]);
     cosine = product(first_normal, second_normal);
     length = sqrt(first_square * second_square);
     const Real first = edge / first_square, second = edge / second_square;
     for (int r = 0; r < 3; ++r) {
       by_a[r] = first * first_normal[r];
       by_b[r] = second * second_normal[r];
-      by_e[r] = Real(0.0) - (first_foot * by_a[r] + second_foot * by_b[r]);
+      by_e[r] = Real(0.0) - (first_foot * by_a[r] + rounded(second_foot * by_b[r]));
     }
   }
 
@@ -50,10 +50,10 @@ struct HingeAngle {
 
  private:
   static Real product(const Real x[3], const Real y[3]) {
-    return x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+    return x[0] * y[0] + rounded(x[1] * y[1]) + x[2] * y[2];
   }
   static Real product(const Real X[3][3], int i, const Real Y[3][3], int j) {
-    return X[0][i] * Y[0][j] + X[1][i] * Y[1][j] + X[2][i] * Y[2][j];
+    return X[0][i] * Y[0][j] + rounded(X[1][i] * Y[1][j]) + X[2][i] * Y[2][j];
   }
 };
 
@@ -68,7 +68,8 @@ struct HingeAreas {
 
   /// @param rest  product of both areas at rest, times four
   HingeAreas(const HingeAngle<Real>& hinge, const Real E[3][3], Real rest) {
-    const Real square = hinge.first_square * hinge.second_square, at_rest = rest * rest;
+    const Real square = rounded(hinge.first_square * hinge.second_square);
+    const Real at_rest = rounded(rest * rest);
     const Real sum = max(square + at_rest, Real(HingeAngle<Real>::kLeastProduct));
     weight = Real(2.0) * hinge.length * rest / sum;
     slope = (square - at_rest) / sum;
@@ -76,10 +77,11 @@ struct HingeAreas {
     for (int r = 0; r < 3; ++r) {
       const int s = (r + 1) % 3, t = (r + 2) % 3;
       const Real *n = hinge.first_normal, *m = hinge.second_normal;
-      by_a[r] = first * (n[s] * E[t][0] - n[t] * E[s][0]);   // n x e
-      by_b[r] = second * (E[s][0] * m[t] - E[t][0] * m[s]);  // e x m
-      by_e[r] = first * (E[s][1] * n[t] - E[t][1] * n[s]) +  // a x n, and m x b
-                second * (m[s] * E[t][2] - m[t] * E[s][2]);
+      by_a[r] = first * (n[s] * E[t][0] - rounded(n[t] * E[s][0]));   // n x e
+      by_b[r] = second * (E[s][0] * m[t] - rounded(E[t][0] * m[s]));  // e x m
+      const Real a_n = E[s][1] * n[t] - rounded(E[t][1] * n[s]);
+      const Real m_b = m[s] * E[t][2] - rounded(m[t] * E[s][2]);
+      by_e[r] = first * a_n + rounded(second * m_b);
     }
   }
 };

@@ -34,9 +34,9 @@ class HingeState {
     const Real force = square_ * slope_ * bend_.slope;
     const Real tension = Real(0.0) - square_ * twice_ * areas_.slope;
     for (int r = 0; r < 3; ++r) {
-      P[r][0] = force * angle_.by_e[r] + tension * areas_.by_e[r];
-      P[r][1] = force * angle_.by_a[r] + tension * areas_.by_a[r];
-      P[r][2] = force * angle_.by_b[r] + tension * areas_.by_b[r];
+      P[r][0] = force * angle_.by_e[r] + rounded(tension * areas_.by_e[r]);
+      P[r][1] = force * angle_.by_a[r] + rounded(tension * areas_.by_a[r]);
+      P[r][2] = force * angle_.by_b[r] + rounded(tension * areas_.by_b[r]);
     }
     return Real(0.5) * square_ * twice_;
   }

@@ -16,11 +16,11 @@ namespace snapspace {
 struct PlaneStVK {
   template <class Real>
   static Real value_and_stress(Real lam, Real mu, const Real E2[3], Real S[3]) {
-    const Real pressure = (E2[0] + E2[1]) * (lam * Real(0.5));
+    const Real pressure = rounded((E2[0] + E2[1]) * (lam * Real(0.5)));
     S[0] = E2[0] * mu + pressure;
     S[1] = E2[1] * mu + pressure;
     S[2] = E2[2] * mu;
-    return Real(0.25) * (S[0] * E2[0] + S[1] * E2[1]) + Real(0.5) * S[2] * E2[2];
+    return Real(0.25) * (S[0] * E2[0] + rounded(S[1] * E2[1])) + rounded(Real(0.5) * S[2] * E2[2]);
   }
 
   static void differential(double lam, double mu, const double* /*E2*/, const double dE2[3],
@@ -87,9 +87,9 @@ struct PlaneStVK {
     /// Q e
     template <class Real>
     static void quadratic(const Real* Q, const Real e[3], Real product[3]) {
-      product[0] = Q[0] * e[0] + Q[1] * e[1] + Q[2] * e[2];
-      product[1] = Q[1] * e[0] + Q[3] * e[1] + Q[4] * e[2];
-      product[2] = Q[2] * e[0] + Q[4] * e[1] + Q[5] * e[2];
+      product[0] = Q[0] * e[0] + rounded(Q[1] * e[1]) + Q[2] * e[2];
+      product[1] = Q[1] * e[0] + rounded(Q[3] * e[1]) + Q[4] * e[2];
+      product[2] = Q[2] * e[0] + rounded(Q[4] * e[1]) + Q[5] * e[2];
     }
   };
 };
@@ -104,7 +104,7 @@ struct PlaneNeoHookean {
   template <class Real>
   static Real value_and_stress(Real lam, Real mu, const Real E2[3], Real S[3]) {
     const AreaChange<Real> area(E2);
-    const Real volume = lam + mu, along = (volume + mu) * area.change * area.inverse;
+    const Real volume = lam + mu, along = rounded((volume + mu) * area.change * area.inverse);
     const Real across = (volume * area.change - mu) * area.inverse;
     S[0] = along + across * E2[1];
     S[1] = along + across * E2[0];
@@ -113,7 +113,7 @@ struct PlaneNeoHookean {
     // |F|^2 / 2 - J, without the terms that cancel
     const Real shear = half * (area.trace * area.change - area.determinant - area.determinant) /
                        (area.change + Real(2.0));
-    return mu * shear + half * volume * area.change * area.change;
+    return mu * shear + rounded(half * volume * area.change * area.change);
   }
 
   static void differential(double lam, double mu, const double E2[3], const double dE2[3],
@@ -160,8 +160,8 @@ struct PlaneNeoHookean {
           PlaneNeoHookean::value_and_stress(numbers[4] + numbers[3], Real(0.0) - numbers[3], E2, S);
       for (int i = 0; i < 3; ++i) S[i] += numbers[i];
       const Real half(0.5);
-      return numbers[5] + (half * (numbers[0] * E2[0] + numbers[1] * E2[1]) + numbers[2] * E2[2]) +
-             value;
+      const Real diagonal = half * (numbers[0] * E2[0] + rounded(numbers[1] * E2[1]));
+      return numbers[5] + (diagonal + rounded(numbers[2] * E2[2])) + value;
     }
 
     static void differential(const double* numbers, const double E2[3], const double dE2[3],
@@ -178,7 +178,7 @@ struct PlaneNeoHookean {
     Real inverse;             ///< 1 / J
 
     explicit AreaChange(const Real E2[3])
-        : trace(E2[0] + E2[1]), determinant(E2[0] * E2[1] - E2[2] * E2[2]) {
+        : trace(E2[0] + E2[1]), determinant(E2[0] * E2[1] - rounded(E2[2] * E2[2])) {
       const Real square = trace + determinant;  // J^2 - 1
       const Real J = sqrt(max(square + Real(1.0), Real(kLeastSquare)));
       change = square / (J + Real(1.0));

@@ -1,4 +1,5 @@
 #pragma once
+#include "simd/lanes.h"
 
 /// The strain of a triangle between its rest shape and space. Symmetric 2 x 2 matrices are stored
 /// as xx, yy, xy.
@@ -12,8 +13,8 @@ template <class Real>
 inline void symmetric_product(const Real F[3][2], const Real G[3][3], Real result[3]) {
   for (int i = 0; i < 3; ++i) {
     const int c = kPlaneEntries[i][0], d = kPlaneEntries[i][1];
-    result[i] = (F[0][c] * G[0][d] + F[1][c] * G[1][d] + F[2][c] * G[2][d]) +
-                (G[0][c] * F[0][d] + G[1][c] * F[1][d] + G[2][c] * F[2][d]);
+    result[i] = (F[0][c] * G[0][d] + rounded(F[1][c] * G[1][d]) + F[2][c] * G[2][d]) +
+                (G[0][c] * F[0][d] + rounded(G[1][c] * F[1][d]) + G[2][c] * F[2][d]);
   }
 }
 
@@ -21,8 +22,8 @@ inline void symmetric_product(const Real F[3][2], const Real G[3][3], Real resul
 template <class Real>
 inline void plane_stress(const Real F[3][2], const Real S[3], Real P[3][3]) {
   for (int r = 0; r < 3; ++r) {
-    P[r][0] = F[r][0] * S[0] + F[r][1] * S[2];
-    P[r][1] = F[r][0] * S[2] + F[r][1] * S[1];
+    P[r][0] = F[r][0] * S[0] + rounded(F[r][1] * S[2]);
+    P[r][1] = F[r][0] * S[2] + rounded(F[r][1] * S[1]);
     P[r][2] = Real(0.0);
   }
 }
@@ -44,7 +45,7 @@ struct TriangleStrain {
     symmetric_product(T, G, E2);
     for (int i = 0; i < 3; ++i) {
       const int c = kPlaneEntries[i][0], d = kPlaneEntries[i][1];
-      E2[i] += G[0][c] * G[0][d] + G[1][c] * G[1][d] + G[2][c] * G[2][d];
+      E2[i] += G[0][c] * G[0][d] + rounded(G[1][c] * G[1][d]) + G[2][c] * G[2][d];
     }
   }
 

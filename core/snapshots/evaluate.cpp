@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <type_traits>
 #include <vector>
 
 #include "snapshots/lane_objectives.h"
@@ -12,17 +13,17 @@ namespace snapspace {
 
 namespace {
 
-constexpr int kWidth = kWideLanes;
-using Wide = Lanes<kWidth>;
-
 /// Evaluates one pack of displacements after the other.
+template <class Real>
 class Evaluation {
  public:
+  static constexpr int kWidth = Real::kWidth;
+
   explicit Evaluation(const SampleSystem& system, const LaneObjectives& objectives)
       : system_(system),
-        objective_(objectives.objective<Wide>(1)),
-        shapes_(system.size(), Wide(0.0)),
-        gradients_(system.size(), Wide(0.0)),
+        objective_(objectives.objective<Real>(1)),
+        shapes_(system.size(), Real(0)),
+        gradients_(system.size(), Real(0)),
         one_(system.size()) {}
 
   /// The same as `evaluate`, for at most one pack.
@@ -33,28 +34,64 @@ class Evaluation {
       const int sample = std::min(lane, count - 1);  // unused lanes repeat the last sample
       objective_->load(lane, inputs + sample * system_.input_size());
       system_.numbering.to_internal(shapes + static_cast<std::size_t>(sample) * size, one_.data());
-      for (int i = 0; i < size; ++i) shapes_[i].set(lane, one_[i]);
+      for (int i = 0; i < size; ++i) set_lane(shapes_[i], lane, one_[i]);
     }
     SweepVisitor idle;
     const auto sums = objective_->value_and_gradient(shapes_.data(), gradients_.data(), idle);
-    for (int lane = 0; lane < count; ++lane) {
-      values[lane] = sums[lane];
-      for (int i = 0; i < size; ++i) one_[i] = gradients_[i][lane];
-      system_.numbering.to_external(one_.data(), gradients + static_cast<std::size_t>(lane) * size);
-    }
+    for (int lane = 0; lane < count; ++lane) values[lane] = sums[lane];
+    take(gradients_, count, gradients);
+  }
+
+  /// The last gradients times the seed of the inverse Hessian, and their products.
+  void precondition(int count, double* products, double* images) {
+    using Single = typename LaneObjective<Real>::Single;
+    std::vector<Single> vectors(gradients_.size());
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = cast<float>(gradients_[i]);
+    const auto sums = objective_->precondition(vectors.data(), vectors.data());
+    for (int lane = 0; lane < count; ++lane) products[lane] = sums[lane];
+    take(vectors, count, images);
   }
 
  private:
+  template <class Vector>
+  void take(const Vector& from, int count, double* to) {
+    const int size = system_.size();
+    for (int lane = 0; lane < count; ++lane) {
+      for (int i = 0; i < size; ++i) one_[i] = from[i][lane];
+      system_.numbering.to_external(one_.data(), to + static_cast<std::size_t>(lane) * size);
+    }
+  }
+
   const SampleSystem& system_;
-  std::unique_ptr<LaneObjective<Wide>> objective_;
-  std::vector<Wide> shapes_, gradients_;
+  std::unique_ptr<LaneObjective<Real>> objective_;
+  std::vector<Real> shapes_, gradients_;
   std::vector<double> one_;
 };
+
+template <class Real>
+bool evaluate_pack(const SampleSystem& system, const LaneObjectives& objectives, PackKind kind,
+                   int count, const double* inputs, const double* shapes,
+                   const PackResults& results) {
+  if (kind.width != Real::kWidth || kind.single != std::is_same_v<typename Real::Scalar, float>)
+    return false;
+  const FlushDenormals flush;
+  Evaluation<Real> evaluation(system, objectives);
+  evaluation(count, inputs, shapes, results.values, results.gradients);
+  evaluation.precondition(count, results.products, results.images);
+  return true;
+}
+
+template <class... Real>
+bool evaluate_pack(PackList<Real...>, const auto&... arguments) {
+  return (evaluate_pack<Real>(arguments...) || ...);
+}
 
 }  // namespace
 
 void evaluate(const SampleSystem& system, int count, const double* inputs, const double* shapes,
               double* values, double* gradients, int threads) {
+  using Wide = Lanes<kWideLanes>;
+  constexpr int kWidth = Wide::kWidth;
   const LaneObjectives objectives = system.lanes();
   const int packs = (count + kWidth - 1) / kWidth, size = system.size();
   const int workers = std::clamp(
@@ -62,7 +99,7 @@ void evaluate(const SampleSystem& system, int count, const double* inputs, const
   std::atomic<int> next{0};
   parallel_for(workers, workers, [&](int) {
     const FlushDenormals flush;
-    Evaluation evaluation(system, objectives);
+    Evaluation<Wide> evaluation(system, objectives);
     for (int pack = next++; pack < packs; pack = next++) {
       const int first = pack * kWidth;
       evaluation(std::min(kWidth, count - first), inputs + first * system.input_size(),
@@ -70,6 +107,11 @@ void evaluate(const SampleSystem& system, int count, const double* inputs, const
                  gradients + static_cast<std::size_t>(first) * size);
     }
   });
+}
+
+bool evaluate_in_pack(const SampleSystem& system, PackKind kind, int count, const double* inputs,
+                      const double* shapes, const PackResults& results) {
+  return evaluate_pack(LanePacks(), system, system.lanes(), kind, count, inputs, shapes, results);
 }
 
 }  // namespace snapspace

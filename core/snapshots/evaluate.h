@@ -13,4 +13,24 @@ namespace snapspace {
 void evaluate(const SampleSystem& system, int count, const double* inputs, const double* shapes,
               double* values, double* gradients, int threads);
 
+/// A pack of `width` samples, in single or double precision.
+struct PackKind {
+  int width;
+  bool single;
+};
+
+/// Where a pack's results go: values and products are `count`, the others count x 3n.
+struct PackResults {
+  double* values;
+  double* gradients;
+  double* products;  ///< gradient . image
+  double* images;    ///< the gradients times the seed of the inverse Hessian
+};
+
+/// What L-BFGS asks of a pack with `count` samples, to compare packs of different widths: they must
+/// have the same bits. False if this processor's level has no such pack.
+[[nodiscard]] bool evaluate_in_pack(const SampleSystem& system, PackKind kind, int count,
+                                    const double* inputs, const double* shapes,
+                                    const PackResults& results);
+
 }  // namespace snapspace

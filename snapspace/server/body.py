@@ -46,7 +46,7 @@ class Body:
 
 
 def with_notices(make: Callable[[], Body], path: Path | None = None) -> Body:
-    """The body that `make` makes, with the notices meanwhile, each once, without the folder of `path`.
+    """The body that `make` makes, with the notices meanwhile, each once, with the file's name only.
 
     Where quick tets fail, fTetWild mends the surface again.
     """

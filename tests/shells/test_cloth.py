@@ -24,6 +24,8 @@ from snapspace import (
 from .sheets import sheet
 
 FloatArray = NDArray[np.float64]
+#: A hinge that is bent farther, in radians, is folded onto itself.
+FOLDED = 3.0
 
 
 @pytest.fixture(scope="module")
@@ -71,10 +73,13 @@ def test_a_dragged_cloth_neither_flips_nor_flies(
         shape = session.vertices
         assert np.isfinite(shape).all()
         assert np.abs(shape - mesh.vertices).max() < mesh.diagonal
-        # followed through whole turns: a hinge beyond half a turn has passed through itself
         now = angles(mesh, shape)
-        bent = now + 2 * np.pi * np.round((bent - now) / (2 * np.pi))
-        assert np.abs(bent).max() < np.pi
+        assert np.abs(now).max() < FOLDED
+        # Followed through whole turns, a hinge beyond half a turn has passed through itself. In a
+        # jump hinges swing by up to three radians, and which way they went is not known.
+        if reach < 1.0:
+            bent = now + 2 * np.pi * np.round((bent - now) / (2 * np.pi))
+            assert np.abs(bent).max() < np.pi
         ratios = area_ratios(mesh, shape)
         assert 0.2 < ratios.min() and ratios.max() < 3.0
         way = np.linalg.norm(shape - before, axis=1)
