@@ -16,6 +16,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 LEVELS = ROOT / "tests" / "snapshots" / "test_levels.py"
+#: Compilers contract other products for each level, so each is tested.
+WIDTHS = Path("tests") / "snapshots" / "test_pack_widths.py"
 X86_LEVELS = ("_core_baseline", "_core_v3", "_core_v4")
 DEMO = ["snapspace", "demo", "--output", "demo", "--tets", "5000", "--samples", "24"]
 
@@ -40,7 +42,12 @@ def check(wheel: Path) -> None:
         clean.run(*DEMO, "--dimension", "12")
         clean.expect({"creature.png"})
         shutil.copy2(LEVELS, clean.folder)
-        clean.run("pytest", "-q", "-W", "error", "-p", "no:cacheprovider", LEVELS.name)
+        test = ("pytest", "-q", "-W", "error", "-p", "no:cacheprovider")
+        clean.run(*test, LEVELS.name)
+        shutil.copytree(ROOT / "tests", clean.folder / "tests")
+        listed = "from snapspace import _core; print(*_core.available_levels())"
+        for level in clean.run("python", "-c", listed).split():
+            clean.run(*test, "--noconftest", str(WIDTHS), level=level)
     print(f"{wheel.name}: no fault found")
 
 
@@ -55,13 +62,15 @@ class _Clean:
             if shutil.which(name, path=str(self.programs)):
                 raise SystemExit(f"check_wheel: {name} is in the environment")
 
-    def run(self, program: str, *words: str, code: int = 0) -> str:
-        """The output of a program; SystemExit unless it ends with the code."""
+    def run(self, program: str, *words: str, code: int = 0, level: str | None = None) -> str:
+        """The output of a program, at a level; SystemExit unless it ends with the code."""
         kept = {k: v for k, v in os.environ.items() if k.startswith(("PIP_", "SSL_", "SYSTEMROOT"))}
         finished = subprocess.run(
             [str(self.programs / program), *words],
             cwd=self.folder,
-            env={**kept, "PATH": str(self.programs), "HOME": str(self.folder)},
+            env=kept
+            | {"PATH": str(self.programs), "HOME": str(self.folder)}
+            | ({} if level is None else {"SNAPSPACE_LEVEL": level}),
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
