@@ -66,7 +66,8 @@ def fill_surface(
     Notes
     -----
     Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral Meshing in the Wild", 2020 (package
-    pytetwild). It takes from seconds to minutes, on one thread, and can be interrupted with Ctrl-C.
+    pytetwild). It takes from seconds to minutes, and can be interrupted with Ctrl-C. It stops
+    improving the tets at an AMIPS energy of 100: that suffices for deformations.
     **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
     and offers no seed, so two runs differ in some tets. Write the mesh to a file to keep it.
 

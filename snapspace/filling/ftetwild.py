@@ -35,7 +35,7 @@ def ftetwild(
     tolerance: float,
     progress: Callable[[int], None] | None = None,
 ) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
-    """Tetrahedralises a surface with fTetWild on one thread.
+    """Tetrahedralises a surface with fTetWild on all threads.
 
     Parameters
     ----------
