@@ -67,7 +67,7 @@ def fill_surface(
     -----
     Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral Meshing in the Wild", 2020 (package
     pytetwild). It takes from seconds to minutes, and can be interrupted with Ctrl-C. It stops
-    improving the tets at an AMIPS energy of 100: that suffices for deformations.
+    improving the tets at an AMIPS energy of 30: that suffices for deformations.
     **Not reproducible:** it inserts the points in an order drawn from the system's random numbers
     and offers no seed, so two runs differ in some tets. Write the mesh to a file to keep it.
 

@@ -9,6 +9,7 @@ import pytest
 from numpy.typing import ArrayLike
 
 from snapspace.filling import fill_surface, ftetwild
+from snapspace.filling.ftetwild_process import STOP_ENERGY
 from snapspace.generators import bar, cylinder
 from snapspace.mesh import MeshNotice, TetMesh, embed_surface
 from snapspace.mesh.closed_surface import check_closed, enclosed_volume
@@ -38,12 +39,18 @@ def test_the_solid_is_that_of_the_surface(barrel: Surface, filled: TetMesh) -> N
 def test_passes_are_told_while_it_works(barrel: Surface) -> None:
     """Finer than in other tests: a pass must last longer than the pause between two looks."""
     passes: list[int] = []
-    fill_surface(*barrel, edge_length=0.1, tolerance=1e-3, progress=passes.append)
+    fill_surface(*barrel, edge_length=0.04, tolerance=1e-3, progress=passes.append)
     assert passes and passes == sorted(set(passes))
 
 
 def test_the_tets_are_well_shaped(filled: TetMesh) -> None:
-    assert filled.dihedral_angles.min() > 5.0
+    """The conformal AMIPS energy |J|^2 / det(J)^(2/3), where J maps a regular tet to the tet."""
+    corners = filled.vertices[filled.tets]
+    regular = np.array([[1, 0, 0], [0.5, np.sqrt(3) / 2, 0], [0.5, np.sqrt(3) / 6, np.sqrt(2 / 3)]])
+    J = np.linalg.inv(regular) @ (corners[:, 1:] - corners[:, :1])
+    energies = (J**2).sum(axis=(1, 2)) / np.abs(np.linalg.det(J)) ** (2 / 3)
+    assert energies.min() >= 3.0 - 1e-9, "that of a regular tet"
+    assert energies.max() < STOP_ENERGY
 
 
 def test_the_surface_is_near_the_boundary_and_follows_the_tets(
