@@ -37,7 +37,7 @@ def problem_body(path: Path, *, filling: SurfaceFilling | None = None) -> Body:
 
     A surface without tets is filled, if it is not a shell.
     """
-    return with_notices(lambda: _problem_body(path, filling), path)
+    return with_notices(lambda: _problem_body(path, filling), folder=path.parent)
 
 
 def _problem_body(path: Path, filling: SurfaceFilling | None) -> Body:
@@ -99,7 +99,9 @@ def mesh_body(
         its path.
     """
     existing_file(path, known=MESH_SUFFIXES)
-    return with_notices(lambda: _mesh_body(path, stage, filling, thickness, read), path)
+    return with_notices(
+        lambda: _mesh_body(path, stage, filling, thickness, read), folder=path.parent
+    )
 
 
 def _mesh_body(

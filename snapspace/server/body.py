@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -45,12 +46,12 @@ class Body:
     notices: tuple[str, ...] = ()
 
 
-def with_notices(make: Callable[[], Body], path: Path | None = None) -> Body:
-    """The body that `make` makes, with the notices meanwhile, each once, with the file's name only.
+def with_notices(make: Callable[[], Body], *, folder: Path | None = None) -> Body:
+    """The body that `make` makes, with the notices meanwhile, each once and without the folder.
 
     Where quick tets fail, fTetWild mends the surface again.
     """
     with collected_notices() as notices:
         body = make()
-    texts = notices if path is None else [text.replace(str(path), path.name) for text in notices]
-    return replace(body, notices=tuple(dict.fromkeys(texts)))
+    place = "" if folder is None else f"{folder}{os.sep}"
+    return replace(body, notices=tuple(dict.fromkeys(text.removeprefix(place) for text in notices)))

@@ -24,7 +24,7 @@ def reopening(
     def fill(opening: Opening) -> Body:
         opening.read(surface)
         tets = filling or SurfaceFilling()
-        return with_notices(lambda: surface.filled(tets, stage=opening.stage), surface.path)
+        return with_notices(lambda: surface.filled(tets, stage=opening.stage))
 
     return fill
 

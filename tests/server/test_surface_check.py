@@ -5,7 +5,9 @@ from __future__ import annotations
 import warnings
 from pathlib import Path
 
+import meshio
 import numpy as np
+import pytest
 
 from snapspace.filling import SurfaceFilling
 from snapspace.mesh import MeshNotice, write_surface
@@ -62,6 +64,15 @@ def test_the_body_says_what_was_mended(tmp_path: Path) -> None:
     assert "closed 1 holes with 1 faces" in notice
     assert scan(tmp_path, slice(None)).notices == ()
     assert scan(tmp_path).notices == (), "a shell is not mended"
+
+
+def test_notices_name_a_file_without_its_folder(tmp_path: Path) -> None:
+    mesh = bar_problem().mesh
+    mirrored = meshio.Mesh(mesh.vertices, [("tetra", mesh.tets[:, [1, 0, 2, 3]])])
+    meshio.write(tmp_path / "bar.vtu", mirrored)
+    with pytest.warns(MeshNotice, match=r"bar\.vtu: all"):
+        (notice,) = mesh_body(tmp_path / "bar.vtu", stage=lambda *_: None).notices
+    assert notice.startswith("bar.vtu: all ")
 
 
 def opened(body: Body, folder: Path) -> tuple[Workspace, Mailbox]:

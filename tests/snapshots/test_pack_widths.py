@@ -70,12 +70,10 @@ def in_packs(
 ) -> Iterator[tuple[FloatArray, ...]]:
     """Values, gradients and images of the samples for each width that the processor has."""
     for width in (2, 4, 8, 16):
-        some = slice(None, 2)
         try:
-            found = problem.system.evaluate_in_pack(
-                shapes[some], inputs[some], width=width, single=single
-            )
-        except ValueError:  # the processor has no wider packs
+            found = problem.system.evaluate_in_pack(shapes, inputs, width=width, single=single)
+        except ValueError as error:
+            assert "a width of packs that this processor has" in str(error)
             return
         yield found
 
@@ -94,7 +92,7 @@ def test_packs_of_every_width_have_the_same_bits(
         noise = rng.normal(size=(2, problem.base.size))
         shapes = at_rest + size * problem.mesh.diagonal * noise
         first, *others = in_packs(problem, shapes, inputs, single=single)
-        assert len(others) >= single, "at least two widths in single precision"
+        assert others or not single, "at least two widths in single precision"
         for found in others:
             for name, one, other in zip(
                 ("values", "gradients", "products", "images"), first, found, strict=True
