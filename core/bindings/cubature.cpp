@@ -111,7 +111,7 @@ void bind_cubature(nb::module_& m) {
           [](TetFunction& self, VectorIn q) {
             const double* at = checked_coordinates(self.function->dimension(), q);
             auto hessians = new_array<float>({static_cast<std::size_t>(self.sum->tets()), 9, 9});
-            const nb::gil_scoped_release release;
+            const ReleasedGil released;
             self.sum->curvatures(at, hessians.data());
             return hessians;
           },

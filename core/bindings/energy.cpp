@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "energy/block_hessian.h"
 #include "energy/elastic_energy.h"
 #include "energy/shell_poses.h"
@@ -40,7 +41,7 @@ std::pair<DoublesOut, DoublesOut> in_lanes(const ElasticEnergy& self, const Matr
           "needs (k, 3n) with k at most the number of lanes");
   DoublesOut values = new_array<double>({count}), gradients = new_array<double>({count, n});
   {
-    const nb::gil_scoped_release release;
+    const ReleasedGil released;
     energies_in_lanes(self, packing, count, shapes.data(), values.data(), gradients.data());
   }
   return {values, gradients};
@@ -127,7 +128,7 @@ void bind_energy(nb::module_& m) {
             DoublesOut gradient = new_array<double>({size(self)});
             const double* displacement = checked(self, u);
             const double value = [&] {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               return self.value_and_gradient(displacement, gradient.data());
             }();
             return std::make_pair(value, gradient);
@@ -141,7 +142,7 @@ void bind_energy(nb::module_& m) {
                        energies = new_array<double>({elements});
             const double* displacement = checked(self, u);
             {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               self.tet_stresses(displacement, stresses.data(), energies.data());
             }
             return std::make_pair(stresses, energies);
@@ -159,7 +160,7 @@ void bind_energy(nb::module_& m) {
                        energies = new_array<double>({some.size()});
             const double* displacement = checked(self, u);
             {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               self.tet_stresses(some, displacement, stresses.data(), energies.data());
             }
             return std::make_pair(stresses, energies);

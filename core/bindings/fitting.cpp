@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "fitting/pose_fitter.h"
 
 namespace snapspace {
@@ -65,7 +66,7 @@ std::pair<DoublesOut, FitReport> fit(const FittingSystem& self, const MatrixIn& 
   FitReport report;
   std::vector<double> shape;
   {
-    nb::gil_scoped_release release;
+    const ReleasedGil released;
     PoseFitter fitter(self, {deviation, first_stiffness, stretch, max_iterations});
     report = fitter.fit(targets.data(), control);
     shape = fitter.shape();

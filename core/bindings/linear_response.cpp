@@ -1,6 +1,7 @@
 #include "snapshots/linear_response.h"
 
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "snapshots/warp.h"
 
 namespace snapspace {
@@ -15,7 +16,7 @@ void bind_linear_response(nb::module_& m) {
             require(inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
                     "inputs must be (count, input_size)");
             require(inputs.shape(0) > 0, "at least one input is needed");
-            const nb::gil_scoped_release release;
+            const ReleasedGil released;
             new (self) LinearResponse(system, inputs.data(), static_cast<int>(inputs.shape(0)));
           },
           nb::arg("system"), nb::arg("inputs"))
@@ -31,7 +32,7 @@ void bind_linear_response(nb::module_& m) {
                         inputs.shape(1) == static_cast<std::size_t>(system.input_size()),
                     "inputs must be (samples, input_size)");
             DoublesOut displacements = new_array<double>({inputs.shape(0), self.size()});
-            const nb::gil_scoped_release release;
+            const ReleasedGil released;
             warp(system, self, coordinates.data(), inputs.data(), static_cast<int>(inputs.shape(0)),
                  displacements.data());
             return displacements;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "live/live_loop.h"
 
 namespace snapspace {
@@ -21,7 +22,7 @@ inline auto derivatives(live::ReducedFunction& function, const VectorIn& q) {
   DoublesOut gradient = new_array<double>({d}), hessian = new_array<double>({d, d});
   double* H = hessian.data();
   const double value = [&] {
-    const nb::gil_scoped_release release;  // Hessians of many tets take milliseconds
+    const ReleasedGil released;  // Hessians of many tets take milliseconds
     return function.derivatives(at, gradient.data(), H);
   }();
   for (std::size_t i = 0; i < d; ++i)

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "measure/machine_peak.h"
 #include "measure/online_times.h"
 #include "measure/solver_parts.h"
@@ -9,7 +10,7 @@ void bind_measure(nb::module_& m) {
   m.def(
       "peak_flops",
       [](bool single, int repeats) {
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         return peak_flops(single, repeats);
       },
       nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,
@@ -17,7 +18,7 @@ void bind_measure(nb::module_& m) {
   m.def(
       "read_bandwidth",
       [](std::size_t bytes, int repeats) {
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         return read_bandwidth(bytes, repeats);
       },
       nb::arg("bytes"), nb::kw_only(), nb::arg("repeats") = 20,
@@ -30,7 +31,7 @@ void bind_measure(nb::module_& m) {
                     coefficients.size() == live::coefficient_count(dimension),
                 "coefficients (C(d+4,4),) and q (d,) do not match");
         const live::FunctionPointer quartic = live::quartic(dimension, coefficients.data(), single);
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         const EvaluationTimes times = time_evaluations(*quartic, q.data(), repeats);
         return std::make_pair(times.value_and_gradient, times.derivatives);
       },
@@ -42,7 +43,7 @@ void bind_measure(nb::module_& m) {
       [](VectorIn tau, MatrixIn modes, VectorIn q, int repeats) {
         require(modes.shape(0) == q.size() && modes.shape(1) == tau.size(),
                 "tau (3n,), modes (d, 3n) and q (d,) do not match");
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         return time_reconstruct(tau.size(), static_cast<int>(q.size()), tau.data(), modes.data(),
                                 q.data(), repeats);
       },
@@ -61,7 +62,7 @@ void bind_measure(nb::module_& m) {
         require(u.size() == static_cast<std::size_t>(system.size()), "u must be (3n,)");
         std::vector<double> shape(u.size());
         system.numbering.to_internal(u.data(), shape.data());
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         return time_parts(system, shape, single, repeats);
       },
       nb::arg("system"), nb::arg("u"), nb::kw_only(), nb::arg("single"), nb::arg("repeats") = 20,

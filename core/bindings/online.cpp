@@ -187,7 +187,7 @@ void bind_shape_rows(nb::module_& m) {
                     "q must have an entry for each mode, or for the first ones");
             auto shape = new_array<float>({self.size()});
             {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               self.shape(q.data(), static_cast<int>(q.size()), threads, shape.data());
             }
             return shape;

@@ -1,6 +1,7 @@
 #include "polish/polish.h"
 
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 
 namespace snapspace {
 
@@ -34,7 +35,7 @@ void bind_polish(nb::module_& m) {
         sample.input.insert(sample.input.end(), inverse.data(), inverse.data() + d * d);
         const SolveOptions options{
             .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         return polish(system, coarse, sample, options, control);
       },
       nb::arg("system"), nb::arg("coarse"), nb::arg("inverse"), nb::arg("input"), nb::arg("start"),

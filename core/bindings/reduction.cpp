@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "reduction/mode_gradients.h"
 #include "reduction/quartic_coefficients.h"
 #include "reduction/training_columns.h"
@@ -19,7 +20,7 @@ void bind_training(nb::module_& m) {
         require(tets.shape(1) == 4, "tets must be (r, 4)");
         require_below(tets, vertices.shape(0), "a tet has a vertex index out of range");
         auto rows = new_array<float>({tets.shape(0), 9, modes.shape(0)});
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         mode_gradients(vertices.data(), static_cast<int>(modes.shape(0)), modes.shape(1),
                        modes.data(), shell, static_cast<int>(tets.shape(0)), tets.data(),
                        rows.data(), threads);
@@ -40,7 +41,7 @@ void bind_training(nb::module_& m) {
                 "columns must be (c, s k) or wider");
         const TrainingStates training{static_cast<int>(states), static_cast<int>(along.shape(2)),
                                       stresses.data(), along.data()};
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         training_columns(static_cast<int>(rows.shape(2)), static_cast<int>(candidates), rows.data(),
                          training, threads, columns.shape(1), columns.data());
       },
@@ -62,7 +63,7 @@ void bind_reduction(nb::module_& m) {
                 "modes must be (dimension + 1, 3n)");
         std::vector<double> coefficients;
         {
-          nb::gil_scoped_release release;
+          const ReleasedGil released;
           coefficients = quartic_coefficients(energy, modes.data(),
                                               static_cast<int>(modes.shape(0)) - 1, threads);
         }

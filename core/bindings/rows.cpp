@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "snapshots/combine_rows.h"
 #include "snapshots/mass_products.h"
 
@@ -42,7 +43,7 @@ struct HeldMassProducts {
     const auto left = addresses(rows, 3 * size), right = addresses(others, 3 * size);
     require(!offset || offset->size() == 3 * size, "the offset must be (3n,)");
     DoublesOut result = new_array<double>({left.size(), right.size()});
-    const nb::gil_scoped_release release;
+    const ReleasedGil released;
     products.multiply(left, offset ? offset->data() : nullptr, right, threads, result.data());
     return result;
   }
@@ -70,7 +71,7 @@ void bind_rows(nb::module_& m) {
         const auto from = addresses(rows, size);
         require(weights.shape(1) == from.size(), "one column of weights per row is needed");
         DoublesOut combined = new_array<double>({weights.shape(0), size});
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         combine_rows(from, size, weights.data(), weights.shape(0), combined.data());
         return combined;
       },

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "snapshots/evaluate.h"
 #include "snapshots/solve.h"
 
@@ -39,7 +40,7 @@ Batch solve_batch(const SampleSystem& system, const CoarseSpace* coarse, const M
           "starts must be (samples, 3n)");
   const std::size_t count = inputs.shape(0), size = starts.shape(1), width = inputs.shape(1);
   Batch batch{new_array<double>({count, size}), std::vector<SolveReport>(count)};
-  nb::gil_scoped_release release;
+  const ReleasedGil released;
   SampleQueue queue;
   for (std::size_t k = 0; k < count; ++k) {
     const double* input = inputs.data() + k * width;
@@ -119,7 +120,7 @@ void bind_system(nb::module_& m) {
             DoublesOut values = new_array<double>({count}),
                        gradients = new_array<double>({count, size});
             {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               evaluate(self, static_cast<int>(count), inputs.data(), shapes.data(), values.data(),
                        gradients.data(), threads);
             }
@@ -165,7 +166,7 @@ void bind_system(nb::module_& m) {
              double settling, const SoftModes* modes, const CoarseSpace* coarse) {
             const SolveOptions options{tolerance, settling, max_iterations, lanes, single, threads};
             const LowRankSeed seed = checked_seed(self, modes, coarse);
-            nb::gil_scoped_release release;
+            const ReleasedGil released;
             solve_fast(self, seed, queue, expected, options, control);
           },
           nb::arg("queue"), nb::arg("expected"), nb::kw_only(), nb::arg("tolerance"),
@@ -178,7 +179,7 @@ void bind_system(nb::module_& m) {
           [](const System& self, SampleQueue& queue, int expected, double tolerance,
              int max_iterations, int threads, Projection projection, double threshold,
              SolveControl& control) {
-            nb::gil_scoped_release release;
+            const ReleasedGil released;
             const SolveOptions options{
                 .tolerance = tolerance, .max_iterations = max_iterations, .threads = threads};
             solve_newton(self, queue, expected, options, {projection, threshold}, control);
@@ -272,7 +273,7 @@ void bind_snapshots(nb::module_& m) {
           [](SampleQueue& self, nb::typed<nb::list, Solution> into, double seconds) {
             std::vector<Solution> finished;
             {
-              const nb::gil_scoped_release release;
+              const ReleasedGil released;
               finished = self.collect(seconds);
             }
             for (Solution& solution : finished) into.append(std::move(solution));

@@ -1,4 +1,5 @@
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "snapshots/find_soft_modes.h"
 
 namespace snapspace {
@@ -12,7 +13,7 @@ void bind_soft_modes(nb::module_& m) {
       .def(
           "__init__",
           [](SoftModes* self, const PosingSystem& system) {
-            const nb::gil_scoped_release release;
+            const ReleasedGil released;
             new (self) SoftModes(find_soft_modes(system));
           },
           nb::arg("system"))

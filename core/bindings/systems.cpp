@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bindings/arrays.h"
+#include "bindings/released_gil.h"
 #include "snapshots/interpolation_system.h"
 #include "snapshots/posing_system.h"
 
@@ -33,7 +34,7 @@ void bind_systems(nb::module_& m) {
         const auto n = static_cast<std::int32_t>(vertices.shape(0));
         for (std::size_t i = 0; i < pinned.size(); ++i)
           require(pinned.data()[i] >= 0 && pinned.data()[i] < n, "a pinned vertex is out of range");
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         const LocalMesh mesh = local_mesh(vertices.data(), vertices.shape(0), tets);
         new (self) PosingSystem(mesh, material, {pinned.data(), pinned.data() + pinned.size()},
                                 {weights.data(), weights.data() + weights.size()}, inverse);
@@ -51,7 +52,7 @@ void bind_systems(nb::module_& m) {
       [](InterpolationSystem* self, TensorIn poses, IndexMatrixIn tets,
          const MaterialField& material) {
         require(poses.shape(0) >= 1 && poses.shape(2) == 3, "poses must be (k, n, 3)");
-        const nb::gil_scoped_release release;
+        const ReleasedGil released;
         const LocalMesh mesh = local_mesh(poses.data(), poses.shape(1), tets);
         const Numbering numbering(mesh.order);
         const std::size_t size = 3 * poses.shape(1);
@@ -74,7 +75,7 @@ void bind_systems(nb::module_& m) {
         for (std::size_t k = 0; k < shapes.shape(0); ++k)
           self.numbering.to_internal(shapes.data() + k * shapes.shape(1),
                                      renumbered.data() + k * shapes.shape(1));
-        nb::gil_scoped_release release;
+        const ReleasedGil released;
         return self.adapted(renumbered, {weights.data(), weights.data() + weights.size()});
       },
       nb::arg("shapes"), nb::arg("weights"),
@@ -90,7 +91,7 @@ void bind_systems(nb::module_& m) {
         DoublesOut stresses = new_array<double>({tets, 9}), energies = new_array<double>({tets});
         DoublesOut gradient = new_array<double>({u.size()});
         {
-          const nb::gil_scoped_release release;
+          const ReleasedGil released;
           std::vector<double> shape(u.size()), slope(u.size()), P(9 * tets), psi(tets);
           self.numbering.to_internal(u.data(), shape.data());
           self.energy->tet_stresses(weights.data(), shape.data(), P.data(), psi.data(),
