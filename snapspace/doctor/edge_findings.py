@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..counted import counted
 from ..mesh.arrays import FloatArray, IndexArray
 from ..mesh.edges import Edges
 from .cleaned import Cleaned
@@ -36,8 +37,8 @@ def edge_findings(vertices: FloatArray, faces: IndexArray, edges: Edges) -> list
                 name="non-manifold edges",
                 fault=bool((edges.balance[edges.uses > 2] != 0).any()),
                 count=fans,
-                text=f"{fans} edges have more than two faces (the first between vertices "
-                f"{first[0]} and {first[1]})",
+                text=f"{counted(fans, 'edge has', 'edges have')} more than two faces (the first "
+                f"between vertices {first[0]} and {first[1]})",
                 meaning="inside and outside are clear only where as many faces run one way as the "
                 "other",
                 cure="delete the inner faces in a mesh editor, or fill it with fTetWild",
@@ -52,21 +53,31 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
     """Points and faces that say nothing new."""
     found: list[Finding] = []
     if clean.merged:
+        repeat = counted(clean.merged, "vertex repeats", "vertices repeat")
         found.append(
             Finding(
                 name="seams",
                 fault=False,
                 count=clean.merged,
-                text=f"{clean.merged} vertices repeat the position of another one",
+                text=f"{repeat} the position of another one",
                 meaning="usual at seams of texture coordinates; they count as one here and move "
                 "together",
                 cure="nothing",
                 mended=True,
             )
         )
-    for name, count, what in (
-        ("degenerate faces", clean.degenerate, "name a vertex twice"),
-        ("duplicate faces", clean.duplicate, "have the same vertices as another face"),
+    for name, count, text in (
+        (
+            "degenerate faces",
+            clean.degenerate,
+            f"{counted(clean.degenerate, 'face names', 'faces name')} a vertex twice",
+        ),
+        (
+            "duplicate faces",
+            clean.duplicate,
+            f"{counted(clean.duplicate, 'face has', 'faces have')} the same vertices as another "
+            "face",
+        ),
     ):
         if count:
             found.append(
@@ -74,7 +85,7 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
                     name=name,
                     fault=True,
                     count=count,
-                    text=f"{count} faces {what}",
+                    text=text,
                     meaning="they enclose nothing, and confuse what is inside",
                     cure="drop them: --fix",
                     mended=True,
@@ -86,7 +97,7 @@ def copy_findings(clean: Cleaned, unused: int) -> list[Finding]:
                 name="unused vertices",
                 fault=False,
                 count=unused,
-                text=f"{unused} vertices belong to no face",
+                text=f"{counted(unused, 'vertex belongs', 'vertices belong')} to no face",
                 meaning="they are kept in the file, but do not move",
                 cure="nothing; --fix drops them",
                 mended=True,
@@ -107,7 +118,7 @@ def _holes(holes: list[Hole], diagonal: float) -> Finding:
         name="holes",
         fault=True,
         count=len(holes),
-        text=f"it is not closed: {len(holes)} holes ({'; '.join(some)}{more})",
+        text=f"it is not closed: {counted(len(holes), 'hole')} ({'; '.join(some)}{more})",
         meaning=f"tets need an inside; {can} of {len(holes)} are closed when it is filled, the "
         "others by the winding number (fTetWild)",
         cure="--fix closes flat and small holes; or close them in a mesh editor",
@@ -156,7 +167,8 @@ def _orientation(turn: NDArray[np.bool_], twisted: NDArray[np.bool_]) -> Finding
             name="flipped faces",
             fault=True,
             count=count,
-            text=f"{count} faces form a band that cannot be oriented, like a Moebius strip",
+            text=f"{counted(count, 'face forms', 'faces form')} a band that cannot be oriented, "
+            "like a Moebius strip",
             meaning="it has no inside",
             cure="cut it in a mesh editor",
         )
@@ -165,8 +177,8 @@ def _orientation(turn: NDArray[np.bool_], twisted: NDArray[np.bool_]) -> Finding
         name="flipped faces",
         fault=True,
         count=count,
-        text=f"{count} faces are oriented against their neighbours (the first: face "
-        f"{int(np.flatnonzero(turn)[0])})",
+        text=f"{counted(count, 'face is', 'faces are')} oriented against the neighbours (the "
+        f"first: face {int(np.flatnonzero(turn)[0])})",
         meaning="orientation says what is inside",
         cure="turn them round: --fix",
         mended=True,

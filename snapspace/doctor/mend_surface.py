@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..counted import counted
 from ..mesh.arrays import IndexArray
 from ..mesh.closed_surface import enclosed_volume
 from ..mesh.edges import edges_of
@@ -77,26 +78,31 @@ def mend_surface(
         )
     notes = []
     if clean.merged:
-        notes.append(f"merged {clean.merged} vertices with others at the same position")
+        notes.append(
+            f"merged {counted(clean.merged, 'vertex', 'vertices')} with others at the same position"
+        )
     if clean.degenerate:
-        notes.append(f"dropped {clean.degenerate} faces with a repeated vertex")
+        notes.append(f"dropped {counted(clean.degenerate, 'face')} with a repeated vertex")
     if clean.duplicate:
-        notes.append(f"dropped {clean.duplicate} faces with the vertices of another one")
+        notes.append(f"dropped {counted(clean.duplicate, 'face')} with the vertices of another one")
     used, mended = compact_surface(points, clean.faces)
     unused = len(points) - len(used) - clean.merged
     if unused > 0:
-        notes.append(f"dropped {unused} vertices without faces")
+        notes.append(f"dropped {counted(unused, 'vertex', 'vertices')} without faces")
     turn, _, _ = orientation(edges_of(mended))
     if turn.any():
         mended[turn] = mended[turn][:, ::-1]
-        notes.append(f"turned {int(turn.sum())} faces round to agree with their neighbours")
+        notes.append(
+            f"turned {counted(int(turn.sum()), 'face')} round to agree with the neighbours"
+        )
     fills = _fills(used, mended) if close_holes else []
     if fills:
         mended = np.concatenate([mended, *fills])
     invented = sum(map(len, fills))
     area = _area(used, mended[len(mended) - invented :])
     if fills:
-        notes.append(f"closed {len(fills)} holes with {invented} faces, area {area:.4g}")
+        holes = counted(len(fills), "hole")
+        notes.append(f"closed {holes} with {counted(invented, 'face')}, area {area:.4g}")
     center = (used.min(axis=0) + used.max(axis=0)) / 2.0
     if not edges_of(mended).balance.any() and enclosed_volume(used - center, mended) < 0:
         mended = np.ascontiguousarray(mended[:, ::-1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..counted import counted
 from ..mesh import triangle_areas
 from .finding import Finding
 from .intersections import crossing_faces
@@ -39,7 +40,7 @@ def sliver_finding(shape: FloatArray) -> list[Finding]:
             name="slivers",
             fault=False,
             count=count,
-            text=f"{count} faces are less than 1 % as high as long",
+            text=f"{counted(count, 'face is', 'faces are')} less than 1 % as high as long",
             meaning="harmless: tets are made anew inside the surface, and normals are weighted "
             "by area",
             cure="nothing",
@@ -108,7 +109,8 @@ def crossing_finding(vertices: FloatArray, faces: IndexArray) -> list[Finding]:
             name="self-intersections",
             fault=True,
             count=len(pairs),
-            text=f"{len(pairs)} pairs of faces cross (the first: {first} and {second})",
+            text=f"{counted(len(pairs), 'pair of faces crosses', 'pairs of faces cross')} "
+            f"(the first: {first} and {second})",
             meaning="quick tets may be wrong there; fTetWild makes one solid of overlapping parts",
             cure="fill it with fTetWild (pip install 'snapspace[fill]'; view --exact), or correct "
             "it in a mesh editor",

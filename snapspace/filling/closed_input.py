@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..counted import counted
 from ..doctor import mend_surface
 from ..doctor.components import parts_apart
 from ..doctor.edge_findings import DUST
@@ -112,9 +113,10 @@ def _one_part(points: FloatArray, triangles: IndexArray, *, who: str) -> IndexAr
             f"faces around ({center})), but one solid is needed; join them, or remove all but one"
         )
     if len(share) > 1:
+        small = "small part of the surface is", "small parts of the surface are"
         notify(
-            f"{len(share) - 1} small parts of the surface are apart and were left out of the tets; "
-            "they follow the nearest tets",
+            f"{counted(len(share) - 1, *small)} apart, left out of the tets, and carried by the "
+            "nearest ones",
             MeshNotice,
             stacklevel=4,
         )

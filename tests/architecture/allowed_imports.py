@@ -7,6 +7,7 @@ ALLOWED: dict[str, set[str]] = {
     "_core": {"_cpu_level"},
     "input_error": set(),
     "disk": set(),
+    "counted": set(),
     "extras": set(),
     "notice": set(),
     "thread_count": set(),
@@ -18,8 +19,9 @@ ALLOWED: dict[str, set[str]] = {
     "sampling": set(),
     "pictures": {"disk", "extras"},
     "stuffing": {"mesh"},
-    "doctor": {"mesh", "stopping"},
+    "doctor": {"counted", "mesh", "stopping"},
     "filling": {
+        "counted",
         "doctor",
         "extras",
         "input_error",

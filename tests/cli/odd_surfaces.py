@@ -111,7 +111,7 @@ ODD = {
         surface=together(block(), block(x=2.2, scale=0.02)),
         others=("components",),
         volume=2.0,
-        said="1 small parts of the surface are apart",
+        said="1 small part of the surface is apart",
     ),
     "parts that overlap": Odd(
         surface=together(block(), block(x=1.1, y=0.31, z=0.27)),

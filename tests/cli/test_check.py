@@ -30,7 +30,7 @@ def test_a_fault_has_exit_code_1_and_a_cure(run: Run, tmp_path: Path) -> None:
     result = run("check", file, "--json")
     assert result.code == 1
     assert '"name": "holes"' in result.out and "Traceback" not in result.err
-    assert "it is not closed: 1 holes (3 edges" in " ".join(result.err.split())
+    assert "it is not closed: 1 hole (3 edges" in " ".join(result.err.split())
     assert f"snapspace check {file} --fix open-mended.obj" in result.err
 
 

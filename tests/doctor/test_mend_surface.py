@@ -32,7 +32,7 @@ def test_a_removed_side_comes_back_flat() -> None:
     report = check_surface(mended.vertices, mended.faces)
     assert report.fine and report.volume == pytest.approx(4.0)
     assert mended.invented == 6 and mended.invented_area == pytest.approx(1.0)
-    assert mended.notes[-1] == "closed 1 holes with 6 faces, area 1"
+    assert mended.notes[-1] == "closed 1 hole with 6 faces, area 1"
 
 
 def test_a_large_hole_of_any_shape_is_left() -> None:

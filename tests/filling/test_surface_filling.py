@@ -68,6 +68,6 @@ def test_a_surface_is_filled_exactly_on_request() -> None:
 def test_an_open_surface_is_mended_with_a_notice() -> None:
     block = bar(2, 2, 2, length=1.0, width=1.0, height=1.0)
     vertices, faces = compact_surface(block.vertices, block.surface)
-    with pytest.warns(MeshNotice, match="closed 1 holes with 1 faces"):
+    with pytest.warns(MeshNotice, match="closed 1 hole with 1 face"):
         mesh = SurfaceFilling(edge_length=0.1).fill(vertices, faces[1:], stage=lambda *_: None)
     assert mesh.volume == pytest.approx(block.volume, rel=0.05)

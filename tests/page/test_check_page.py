@@ -27,13 +27,13 @@ def test_holes_are_listed_and_what_closes_them_is_drawn(
     with served(tmp_path / "scan.obj", "--edge-length", "0.1", cwd=tmp_path) as address:
         page = opened(address)
         page.wait("snapspace.kind === 'choosing'")
-        assert "closed 1 holes with 1 faces" in page.text(".notes"), "before anybody asks"
+        assert "closed 1 hole with 1 face" in page.text(".notes"), "before anybody asks"
         assert page.run(INVENTED) == []
         press(page, "Check surface")
         wait_for_text(page, ".findings", "What to do:")
         text = page.text(".findings")
-        assert "holes it is not closed: 1 holes" in text
-        assert "closed 1 holes with 1 faces" in text and "Your file is as it was" in text
+        assert "holes it is not closed: 1 hole" in text
+        assert "closed 1 hole with 1 face" in text and "Your file is as it was" in text
         corners = np.array(page.run(INVENTED)).reshape(-1, 3)
         for corner in missing.reshape(-1, 3):
             assert np.abs(corners - corner).max(axis=1).min() < 1e-6

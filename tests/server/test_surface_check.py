@@ -44,7 +44,7 @@ def test_holes_are_found_and_what_closes_them_is_sent(tmp_path: Path) -> None:
     first = answer.findings[0]
     assert first.name == "holes" and first.fault
     assert "snapspace check --fix" in first.cure
-    assert any(note.startswith("closed 1 holes with") for note in answer.mended)
+    assert any(note.startswith("closed 1 hole with") for note in answer.mended)
     corners = np.array(answer.invented).reshape(-1, 3, 3)
     mesh = bar_problem().mesh
     missing = mesh.vertices[mesh.surface[0]]
@@ -61,7 +61,7 @@ def test_a_closed_surface_is_fine(tmp_path: Path) -> None:
 def test_the_body_says_what_was_mended(tmp_path: Path) -> None:
     (notice,) = scan(tmp_path, filling=SurfaceFilling()).notices
     assert notice.startswith("the surface was mended for filling: ")
-    assert "closed 1 holes with 1 faces" in notice
+    assert "closed 1 hole with 1 face" in notice
     assert scan(tmp_path, slice(None)).notices == ()
     assert scan(tmp_path).notices == (), "a shell is not mended"
 
