@@ -19,9 +19,11 @@ MOST_TEXTURE_BYTES = 1 << 25
 
 IntArray = NDArray[np.int64]
 _Drawn = tuple[Arrays, dict[str, Any] | None]
+#: What of a surface is not shown.
+_Notes = list[str]
 
 # Of files in use: the models that grow share one, and a user is told once what is not shown.
-_KNOWN: WeakKeyDictionary[SurfaceFile, _Drawn] = WeakKeyDictionary()
+_KNOWN: WeakKeyDictionary[SurfaceFile, tuple[_Drawn, _Notes]] = WeakKeyDictionary()
 
 
 def appearance_arrays(surface: EmbeddedSurface) -> _Drawn:
@@ -51,14 +53,26 @@ def appearance_arrays(surface: EmbeddedSurface) -> _Drawn:
 
 def file_arrays(source: SurfaceFile) -> _Drawn:
     """`appearance_arrays` of a surface that is in no mesh yet."""
-    if source not in _KNOWN:
-        _KNOWN[source] = _drawn(source)
-    arrays, about = _KNOWN[source]
+    arrays, about = _known(source)[0]
     return dict(arrays), about
 
 
-def _drawn(source: SurfaceFile) -> _Drawn:
-    look = _look(source)
+def appearance_notes(source: SurfaceFile) -> tuple[str, ...]:
+    """What of a surface's own materials is not shown, and why."""
+    return tuple(_known(source)[1])
+
+
+def _known(source: SurfaceFile) -> tuple[_Drawn, _Notes]:
+    if source not in _KNOWN:
+        notes: _Notes = []
+        _KNOWN[source] = _drawn(source, notes), notes
+        for note in notes:
+            warnings.warn(note, MeshNotice, stacklevel=4)
+    return _KNOWN[source]
+
+
+def _drawn(source: SurfaceFile, notes: _Notes) -> _Drawn:
+    look = _look(source, notes)
     if look is None or not _shows_anything(look):
         return {}, None
     sizes = np.diff(source.starts)
@@ -90,32 +104,28 @@ def _drawn(source: SurfaceFile) -> _Drawn:
         for number, data in enumerate(look.textures):
             arrays[f"own_texture_{number}"] = np.frombuffer(data, np.uint8)
     else:
-        _note(
-            f"{source.name}: its textures have {total >> 20} MB, and are not shown: a page takes "
+        notes.append(
+            f"the textures of {source.name} have {total >> 20} MB, and are not shown: a page takes "
             f"{MOST_TEXTURE_BYTES >> 20} MB; save smaller ones"
         )
     counts = np.bincount(of_triangle, minlength=len(look.materials)).tolist()
     return arrays, {"materials": _materials(look, counts, arrays)}
 
 
-def _look(source: SurfaceFile) -> Appearance | None:
-    """The file's appearance, None if it is damaged, with notices of what is not shown."""
+def _look(source: SurfaceFile, notes: _Notes) -> Appearance | None:
+    """The file's appearance, None if it is damaged; adds notes of what is not shown."""
     try:
         look = source.appearance
     except ValueError as error:
-        _note(f"{error}; the surface is shown without them")
+        notes.append(f"{error}; the surface is shown without them")
         return None
     if look is not None and look.missing:
         names = ", ".join(look.missing[:3]) + (" ..." if len(look.missing) > 3 else "")
-        _note(
-            f"{source.name}: not found beside it, or no PNG, JPEG, WebP, GIF or BMP: {names}; the "
+        notes.append(
+            f"not found beside {source.name}, or no PNG, JPEG, WebP, GIF or BMP: {names}; the "
             "surface is shown without them"
         )
     return look
-
-
-def _note(text: str) -> None:
-    warnings.warn(text, MeshNotice, stacklevel=6)
 
 
 def _shows_anything(look: Appearance) -> bool:

@@ -10,6 +10,7 @@ from pathlib import Path
 from ..material import DEFAULT_MATERIAL, Material
 from ..mesh import Body as Mesh
 from ..mesh import EmbeddedSurface, MirrorPlane
+from ..model_file.appearance import appearance_notes
 from ..notice import collected_notices
 from ..problem import PosingProblem
 
@@ -29,7 +30,7 @@ class Body:
     mirror : MirrorPlane that a file gives, or None
     painted : by the name of a handle, the vertices of the surface where it was painted
     material : that of the problem, or another one to begin with
-    notices : what was mended or left out when the mesh was made, for the reader
+    notices : what was mended or left out when the mesh was made, or is not shown, for the reader
     """
 
     name: str
@@ -49,9 +50,12 @@ class Body:
 def with_notices(make: Callable[[], Body], *, folder: Path | None = None) -> Body:
     """The body that `make` makes, with the notices meanwhile, each once and without the folder.
 
-    Where quick tets fail, fTetWild mends the surface again.
+    Where quick tets fail, fTetWild mends the surface again. What of the surface's own materials is
+    not shown is one more notice.
     """
     with collected_notices() as notices:
         body = make()
+    if body.surface is not None and body.surface.source is not None:
+        notices += appearance_notes(body.surface.source)
     place = "" if folder is None else f"{folder}{os.sep}"
     return replace(body, notices=tuple(dict.fromkeys(text.removeprefix(place) for text in notices)))

@@ -19,7 +19,7 @@ def reopening(
     """
     if thickness is not None:
         shell = surface.shell(thickness)
-        return lambda _: shell
+        return lambda _: with_notices(lambda: shell)
 
     def fill(opening: Opening) -> Body:
         opening.read(surface)

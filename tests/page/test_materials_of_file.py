@@ -206,13 +206,13 @@ def test_what_is_not_shown_is_told(
 ) -> None:
     file = own_file(posing_model)
     alone = with_file(posing_model, replace(file, beside={})).surface
-    with pytest.warns(MeshNotice, match=r"own\.obj: not found beside it, .*: own\.mtl; the surf"):
+    with pytest.warns(MeshNotice, match=r"not found beside own\.obj, .*: own\.mtl; the surf"):
         assert appearance_arrays(alone) == ({}, None)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert appearance_arrays(alone) == ({}, None), "once, also while models grow"
     monkeypatch.setattr(appearance, "MOST_TEXTURE_BYTES", 10)
-    with pytest.warns(MeshNotice, match=r"its textures have 0 MB, and are not shown"):
+    with pytest.warns(MeshNotice, match=r"the textures of own\.obj have 0 MB, and are not shown"):
         arrays, about = appearance_arrays(with_file(posing_model, file).surface)
     assert about is not None and about["materials"][1]["texture"] is None
     assert not any(name.startswith("own_texture") for name in arrays)

@@ -15,6 +15,8 @@ from snapspace.server.bodies import mesh_body
 from snapspace.server.body import Body
 from snapspace.server.messages import Check, Checked, Failed
 from snapspace.server.messages import Workspace as Opened
+from snapspace.server.opening import Opening
+from snapspace.server.reopening import reopening, surface_of
 from snapspace.server.settings import ServerSettings
 from snapspace.server.shared_body import SharedBody
 from snapspace.server.surface_check import surface_check
@@ -64,6 +66,20 @@ def test_the_body_says_what_was_mended(tmp_path: Path) -> None:
     assert "closed 1 hole with 1 face" in notice
     assert scan(tmp_path, slice(None)).notices == ()
     assert scan(tmp_path).notices == (), "a shell is not mended"
+
+
+def test_the_body_says_which_materials_are_missing_in_every_form(tmp_path: Path) -> None:
+    mesh = bar_problem().mesh
+    path = tmp_path / "painted.obj"
+    write_surface(path, mesh.vertices, mesh.surface)
+    path.write_text(f"mtllib paint.mtl\nusemtl red\n{path.read_text()}")
+    with pytest.warns(MeshNotice, match="not found beside"):
+        body = mesh_body(path, stage=lambda *_: None)
+        shell = reopening(surface_of(body), 0.1, None)(Opening(lambda *_: None))
+    (notice,) = body.notices
+    assert notice.startswith("not found beside painted.obj")
+    assert notice.endswith("BMP: paint.mtl; the surface is shown without them")
+    assert shell.notices == (notice,)
 
 
 def test_notices_name_a_file_without_its_folder(tmp_path: Path) -> None:

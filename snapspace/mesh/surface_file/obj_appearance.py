@@ -13,7 +13,10 @@ from .mtl import read_mtl
 
 
 def obj_appearance(layout: Layout, beside: Mapping[str, bytes]) -> Appearance | None:
-    """Texture coordinates, colours (`v x y z r g b`) and materials; None without any of them."""
+    """Texture coordinates, colours (`v x y z r g b`) and materials; None without any of them.
+
+    A file that only names a library of materials which is not there has an appearance, to say so.
+    """
     lines = _Lines(layout.data)
     textures = Textures()
     known: dict[str, SurfaceMaterial] = {}
@@ -25,7 +28,8 @@ def obj_appearance(layout: Layout, beside: Mapping[str, bytes]) -> Appearance | 
             textures.missing.append(library)
     normals = as_normals(next((one.of_corner for one in layout.directions), None))
     colors = lines.colors(len(layout.points.values))
-    if lines.coordinates is None and colors is None and normals is None and not known:
+    looks = [lines.coordinates, colors, normals]
+    if all(one is None for one in looks) and not known and not textures.missing:
         return None
     names, of_polygon = np.unique(np.array(lines.materials, np.object_), return_inverse=True)
     return Appearance(
