@@ -31,6 +31,8 @@ import build_viewer
 
 TETS = 12_000
 READY = "document.querySelectorAll('snapspace-viewer')[{}].model !== null"
+#: Both viewers and the bar of weights fit in the picture.
+LOW = "snapspace-viewer { aspect-ratio: auto; height: 360px }"
 POSED = """(() => {
   const [posing, blending] = document.querySelectorAll("snapspace-viewer");
   posing.setHandles({
@@ -68,6 +70,7 @@ def main() -> None:
         with served(folder) as address:
             page = browser.new_page(viewport={"width": 820, "height": 980})
             page.goto(f"{address}/example.html")
+            page.add_style_tag(content=LOW)
             for viewer in (0, 1):
                 page.wait_for_function(READY.format(viewer), timeout=120_000)
             page.evaluate(POSED)

@@ -26,7 +26,7 @@ canvas:focus-visible { outline: 2px solid var(--snapspace-focus); outline-offset
 }
 .bar {
   position: absolute; inset: auto 0 0; max-height: 45%; overflow-y: auto;
-  display: flex; flex-wrap: wrap; gap: 6px; align-items: center; justify-content: center;
+  display: flex; flex-wrap: wrap; gap: 6px 14px; align-items: center; justify-content: center;
   padding: 8px 12px; background: var(--snapspace-card); border-top: 1px solid var(--snapspace-line);
 }
 button {
