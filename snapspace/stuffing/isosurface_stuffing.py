@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from snapspace.mesh.morton_order import morton_order
 from snapspace.mesh.tet_mesh import TetMesh
 from snapspace.stuffing.arguments import require_positive
 from snapspace.stuffing.bcc_lattice import BccLattice, lattice_around
@@ -15,7 +16,6 @@ from snapspace.stuffing.cut_points import TET_EDGES, CutPoints, find_cut_points
 from snapspace.stuffing.largest_component import largest_component
 from snapspace.stuffing.lattice_warp import warp_nodes
 from snapspace.stuffing.manifold import is_closed_manifold
-from snapspace.stuffing.morton_order import morton_order
 from snapspace.stuffing.pinches import parted_at_pinches
 from snapspace.stuffing.root_finding import FloatArray, ImplicitFunction, evaluate
 from snapspace.stuffing.stuffing_stencils import case_numbers, stencil_table

@@ -43,6 +43,28 @@ def test_passes_are_told_while_it_works(barrel: Surface) -> None:
     assert passes and passes == sorted(set(passes))
 
 
+def test_faces_reach_ftetwild_in_one_order_along_a_curve_in_space(
+    barrel: Surface, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[Surface] = []
+
+    def read(folder: Path, progress: object) -> tuple[int, str]:
+        with np.load(folder / "surface.npz") as surface:
+            given.append((surface["vertices"], surface["faces"]))
+        return 1, "stopped here"
+
+    monkeypatch.setattr(ftetwild, "_run", read)
+    vertices, faces = barrel
+    rng = np.random.default_rng(0)
+    for _ in range(2):
+        order, cells = rng.permutation(len(vertices)), rng.permutation(len(faces))
+        shuffled = np.argsort(order).astype(np.int32)[faces[cells]]
+        with pytest.raises(ValueError, match="stopped here"):
+            ftetwild.ftetwild(vertices[order], shuffled, edge_length=0.1, tolerance=1e-3)
+    (one, first), (other, second) = given
+    assert np.array_equal(one, other) and np.array_equal(first, second)
+
+
 def test_the_tets_are_well_shaped(filled: TetMesh) -> None:
     """The conformal AMIPS energy |J|^2 / det(J)^(2/3), where J maps a regular tet to the tet."""
     corners = filled.vertices[filled.tets]
