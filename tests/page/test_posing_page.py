@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from snapspace import PosingModel, calibrate, export_html
+from snapspace import ARAP, PosingModel, calibrate, export_html
 
+from ..shells.strips import shell_model
 from .pages import OpenPage, Page
 
 
@@ -35,6 +36,24 @@ def assert_shown(model: PosingModel, page: Page) -> None:
 def test_a_handle_is_dragged(posing_model: PosingModel, posing: Page) -> None:
     assert posing.run("snapspace.onGpu")
     assert_dragged(posing_model, posing)
+
+
+def test_surfaces_are_posed_also_from_files_that_are_dropped(
+    posing_page: Path, tmp_path: Path, opened: OpenPage
+) -> None:
+    page = opened(posing_page.as_uri())
+    for name, material in (("rigid", ARAP()), ("hinged", None)):
+        model = shell_model(material)
+        page.page.set_input_files(
+            "footer input[type=file]", model.save(tmp_path / f"{name}.snapspace")
+        )
+        page.wait(f"document.title.includes({name!r})")
+        page.rest()
+        assert_shown(model, page)
+        page.drag(page.run("snapspace.handle(1)"), 20, -20)
+        page.rest()
+        assert np.abs(page.shown() - model.surface.vertices(model.subspace.tau)).max() > 0.02
+        assert_shown(model, page)
 
 
 def test_a_handle_is_dragged_where_float_textures_are_missing(

@@ -12,9 +12,10 @@ from typing import Any
 
 import pytest
 
-from snapspace import InterpolationModel, PosingModel, export_packed
+from snapspace import ARAP, InterpolationModel, PosingModel, export_packed
 
 from ..browser import COARSE, missing
+from ..shells.strips import blended_strips, shell_model
 from .site import BUNDLE, PAGE, Viewer, site
 
 TOOLS = Path(__file__).parents[2] / "tools"
@@ -51,20 +52,36 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="session")
+def posed_surface() -> PosingModel:
+    """A strip that is as rigid as possible."""
+    return shell_model(ARAP())
+
+
+@pytest.fixture(scope="session")
+def blended_surfaces() -> InterpolationModel:
+    """Three shapes of a strip, whose blends are as rigid as possible."""
+    return blended_strips()
+
+
+@pytest.fixture(scope="session")
 def folder(
     package: Path,
     posing_model: PosingModel,
     blending_model: InterpolationModel,
+    posed_surface: PosingModel,
+    blended_surfaces: InterpolationModel,
     tmp_path_factory: pytest.TempPathFactory,
 ) -> Path:
-    """The site: the package, two models, and pages."""
+    """The site: the package, models, and pages."""
     folder = tmp_path_factory.mktemp("site")
     shutil.copytree(package, folder, dirs_exist_ok=True)
     export_packed(posing_model, folder / "posing.snapspace")
     export_packed(blending_model, folder / "blending.snapspace")
+    posed_surface.save(folder / "posed-surface.snapspace")
+    export_packed(blended_surfaces, folder / "blended-surfaces.snapspace")
     filmed = replace(posing_model, provenance={**posing_model.provenance, "timeline": KEYS})
     export_packed(filmed, folder / "film.snapspace")
-    for name in ("posing", "blending", "film"):
+    for name in ("posing", "blending", "film", "posed-surface", "blended-surfaces"):
         bodies = {
             name: f'<snapspace-viewer src="{name}.snapspace"></snapspace-viewer>',
             f"{name}-controls": f'<snapspace-viewer src="{name}.snapspace" controls>'

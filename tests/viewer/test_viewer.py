@@ -60,6 +60,24 @@ def test_a_script_blends_poses_as_python_does(
     assert viewer.run("viewer.weights") == {"rest": 0.25, "bent": 0.75, "twisted": 0}
 
 
+def test_surfaces_that_are_as_rigid_as_possible_are_posed_and_blended_too(
+    opened: Open, posed_surface: PosingModel, blended_surfaces: InterpolationModel
+) -> None:
+    viewer, handles = opened("posed-surface.html"), posed_surface.problem.handles.names
+    rest = viewer.shape
+    viewer.run(f"viewer.setHandles({{ {handles[1]!r}: {{ translation: [0.05, 0.02, 0.08] }} }})")
+    posing = posed_surface.session()
+    posing.move(handles[1], translation=[0.05, 0.02, 0.08])
+    assert_shown(viewer, posed_surface.surface.vertices(posing.vertices), rest)
+
+    viewer, poses = opened("blended-surfaces.html"), blended_surfaces.problem.poses.names
+    rest = viewer.shape
+    viewer.run(f"viewer.setWeights({{ {poses[0]!r}: 0.7, {poses[1]!r}: 0.3 }})")
+    blending = blended_surfaces.session()
+    blending.blend([0.7, 0.3, 0.0])
+    assert_shown(viewer, blended_surfaces.surface.vertices(blending.vertices), rest)
+
+
 def test_events_tell_what_was_solved(opened: Open) -> None:
     viewer = opened("posing.html")
     viewer.run(
