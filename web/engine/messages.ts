@@ -33,7 +33,7 @@ export type * from "./page_messages.ts";
  * usual_thickness : to begin with where a solid becomes a shell; null: it came as tets
  * is_filled : whether there are tets, and not only a surface
  * is_open : whether the surface is a shell with holes, which filling would close
- * notices : what was mended or left out when the mesh was made, a sentence each
+ * notices : what was mended or left out when the mesh was made, or is not shown, a sentence each
  */
 export interface Workspace {
   readonly type: "workspace";
