@@ -7,7 +7,6 @@ import sys
 
 QUITS_WHILE_COMPUTING = """
 import threading
-import time
 
 import snapspace as ss
 from snapspace.generators import creature

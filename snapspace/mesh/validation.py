@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..counted import counted
 from ..input_error import InputError
 from .arrays import FloatArray, IndexArray
 from .components import tet_components
@@ -41,7 +42,7 @@ def check_points(vertices: FloatArray, *, who: str) -> None:
         raise InputError(
             who,
             f"vertex {bad[0]} is not finite ({x:g}, {y:g}, {z:g}); "
-            f"{_number(bad.size, 'vertex', 'vertices')} of {len(vertices)} affected: correct the "
+            f"{counted(bad.size, 'vertex', 'vertices')} of {len(vertices)} affected: correct the "
             "coordinates at their source",
         )
 
@@ -91,14 +92,14 @@ def _check_tets(tets: IndexArray, vertex_count: int, *, who: str) -> None:
         raise InputError(
             who,
             f"tet {bad[0]} repeats a vertex ({_indices(tets[bad[0]])}); "
-            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
+            f"{counted(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
         )
     bad = np.flatnonzero(duplicate_tets(tets))
     if bad.size:
         raise InputError(
             who,
             f"tet {bad[0]} has the same four vertices as an earlier tet "
-            f"({_indices(tets[bad[0]])}); {_number(bad.size, 'such tet')} of {len(tets)}: "
+            f"({_indices(tets[bad[0]])}); {counted(bad.size, 'such tet')} of {len(tets)}: "
             f"drop with {_CURE}",
         )
 
@@ -117,7 +118,7 @@ def _check_volumes(
         raise InputError(
             who,
             f"tet {bad[0]} ({_indices(tets[bad[0]])}) has zero volume; "
-            f"{_number(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
+            f"{counted(bad.size, 'such tet')} of {len(tets)}: drop with {_CURE}",
         )
     bad = np.flatnonzero(volumes < 0)
     if bad.size == len(tets):
@@ -130,7 +131,7 @@ def _check_volumes(
         raise InputError(
             who,
             f"tet {bad[0]} ({_indices(tets[bad[0]])}) is inverted (volume "
-            f"{volumes[bad[0]]:g}); {_number(bad.size, 'such tet')} of {len(tets)}: "
+            f"{volumes[bad[0]]:g}); {counted(bad.size, 'such tet')} of {len(tets)}: "
             f"flip with {_CURE}",
         )
 
@@ -141,7 +142,7 @@ def _check_vertices(tets: IndexArray, vertex_count: int, *, who: str) -> None:
         raise InputError(
             who,
             f"vertex {unused[0]} belongs to no tet; "
-            f"{_number(unused.size, 'such vertex', 'such vertices')} of {vertex_count}: "
+            f"{counted(unused.size, 'such vertex', 'such vertices')} of {vertex_count}: "
             f"drop with {_CURE}",
         )
 
@@ -155,10 +156,6 @@ def _check_one_component(tets: IndexArray, vertex_count: int, *, who: str) -> No
             f"the mesh has {len(sizes)} components ({_indices(sizes[:5])}{more} tets), "
             f"one is needed: keep the largest with {_CURE}, or mesh the parts as one",
         )
-
-
-def _number(count: int, singular: str, plural: str = "") -> str:
-    return f"{count} {singular if count == 1 else plural or singular + 's'}"
 
 
 def _indices(values: NDArray[np.signedinteger]) -> str:

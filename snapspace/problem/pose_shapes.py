@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..counted import counted
 from .names import check_names
 
 FloatArray = NDArray[np.float64]
@@ -38,15 +39,10 @@ class PoseShapes:
         return len(self._shapes)
 
 
-def pose_count(count: int) -> str:
-    """1 pose, 2 poses, ..."""
-    return f"{count} pose{'' if count == 1 else 's'}"
-
-
 def check_pose_count(count: int, *, who: str) -> None:
     """ValueError for fewer than two poses."""
     if count < 2:
-        raise ValueError(f"{who}: got {pose_count(count)}, but at least two are needed")
+        raise ValueError(f"{who}: got {counted(count, 'pose')}, but at least two are needed")
 
 
 def as_shapes(shapes: ArrayLike, *, who: str) -> FloatArray:
@@ -70,7 +66,7 @@ def as_names(names: Sequence[str] | None, count: int, *, who: str) -> tuple[str,
     """The names, or pose 0, pose 1, ...; ValueError unless there is a unique one per pose."""
     if names is None:
         return tuple(f"pose {i}" for i in range(count))
-    check_names(names, count, who=who, what=pose_count(count))
+    check_names(names, count, who=who, what=counted(count, "pose"))
     return tuple(names)
 
 

@@ -14,7 +14,7 @@ ALLOWED: dict[str, set[str]] = {
     "blas": {"stopping"},
     "stopping": set(),
     "interruptible": {"_core", "stopping"},
-    "mesh": {"disk", "input_error", "notice"},
+    "mesh": {"counted", "disk", "input_error", "notice"},
     "registration": {"blas", "mesh"},
     "sampling": set(),
     "pictures": {"disk", "extras"},
@@ -37,6 +37,7 @@ ALLOWED: dict[str, set[str]] = {
     "energy": {"_core", "blas", "material", "mesh"},
     "problem": {
         "_core",
+        "counted",
         "energy",
         "filling",
         "input_error",
