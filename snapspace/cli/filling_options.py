@@ -23,8 +23,8 @@ def filling_options(command: Command) -> Command:
         click.option(
             "--exact",
             is_flag=True,
-            help="Fill surfaces with fTetWild, which keeps sharp edges but takes minutes, not "
-            "seconds.",
+            help="Fill surfaces with fTetWild, which keeps sharp edges but takes up to some "
+            "minutes, not seconds.",
         ),
         click.option(
             "--edge-length",
@@ -53,7 +53,7 @@ def filled(file: SurfaceFile, filling: SurfaceFilling) -> tuple[TetMesh, bool]:
         if name == EXACTLY and name not in stages and not filling.exact:
             notice(
                 f"notice: {file.name} has parts or gaps too thin for quick tets of this size; "
-                "fTetWild fills it, in minutes (a shorter --edge-length may be faster)"
+                "fTetWild fills it, in up to some minutes (a shorter --edge-length may be faster)"
             )
         stages.add(name)
 

@@ -73,7 +73,7 @@ def fill_surface(
 
     See Also
     --------
-    stuff_surface : takes seconds instead of minutes, for surfaces without very thin parts.
+    stuff_surface : takes seconds where this may take minutes, for surfaces without very thin parts.
     """
     surface = closed_input(vertices, faces, who="fill_surface", mend=mend, leave_open=True)
     check_share(edge_length, "edge_length", largest=1.0, who="fill_surface")

@@ -68,7 +68,8 @@ def stuff_surface(
     Notes
     -----
     Isosurface stuffing (Labelle and Shewchuk 2007, see `stuffing.stuff`) of the signed distance. It
-    takes seconds where `fill_surface`, which follows the surface within a tolerance, takes minutes.
+    takes seconds where `fill_surface`, which follows the surface within a tolerance, may take
+    minutes.
     """
     surface = closed_input(vertices, faces, who="stuff_surface", mend=mend)
     check_share(edge_length, "edge_length", largest=0.5, who="stuff_surface")

@@ -58,7 +58,7 @@ def file_arrays(source: SurfaceFile) -> _Drawn:
 
 
 def appearance_notes(source: SurfaceFile) -> tuple[str, ...]:
-    """What of a surface's own materials is not shown, and why."""
+    """What of a surface's own materials is not shown, and why; warns as `appearance_arrays`."""
     return tuple(_known(source)[1])
 
 

@@ -7,7 +7,7 @@ const STAGES: Record<string, string> = {
   filling: "Filling the surface with tets",
   "filling inside": "Finding the inside of the surface",
   "filling boundary": "Fitting tets to the surface",
-  "filling exactly": "Filling the surface exactly (some minutes)",
+  "filling exactly": "Filling the surface exactly (up to some minutes)",
   snapshots: "Solving samples",
   subspace: "Finding the subspace",
   energy: "Reducing the energy",
