@@ -26,7 +26,8 @@ LOCK = WEB / "package-lock.json"
 LOCK_STAMP = WEB / "node_modules" / ".snapspace-lock"
 
 PRETTIER = ["node_modules/prettier/bin/prettier.cjs", "--log-level=warn"]
-FORMATTED = ["engine/**/*.ts", "ui/*", "ui/tests/*", "viewer/*", "vite.*.ts", "index.html"]
+SCRIPTS = ["engine/**/*.ts", "render/**/*.ts", "ui/*", "ui/tests/*", "viewer/*"]
+FORMATTED = [*SCRIPTS, "vite.*.ts", "index.html"]
 
 #: Largest size of the page with the core, without a model.
 MOST_BYTES = 1_000_000
@@ -37,7 +38,7 @@ def sources() -> list[Path]:
     configs = ["package.json", "package-lock.json", "tsconfig.json"]
     top = ["index.html", *configs, "vite.config.ts", "vite.core.ts"]
     engine = [*(WEB / "engine").glob("*.ts"), *(WEB / "engine" / "files").glob("*.ts")]
-    parts = [*engine, *(WEB / "ui").glob("*.*")]
+    parts = [*engine, *(WEB / "render").glob("*.ts"), *(WEB / "ui").glob("*.*")]
     return sorted([*(WEB / name for name in top), WEB / "generated" / "core.wasm", *parts])
 
 

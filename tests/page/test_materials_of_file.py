@@ -88,7 +88,7 @@ def ends(page: Page) -> list[tuple[float, float]]:
               middle[0] = low + {share} * (high - low);
               const at = stage.camera.position.clone().set(...middle);
               stage.root.localToWorld(at).project(stage.camera);
-              const {{ clientWidth: w, clientHeight: h }} = stage.renderer.domElement;
+              const {{ clientWidth: w, clientHeight: h }} = stage.renderer.canvas;
               return [(at.x + 1) / 2 * w, (1 - at.y) / 2 * h];
             }})()"""
         )

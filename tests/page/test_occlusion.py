@@ -59,7 +59,7 @@ def picture(page: Page) -> NDArray[np.int64]:
         """(() => {
           const { renderer, scene, camera } = snapspace.stage;
           renderer.render(scene, camera);
-          return renderer.domElement.toDataURL().split(",")[1];
+          return renderer.canvas.toDataURL().split(",")[1];
         })()"""
     )
     return np.array(Image.open(io.BytesIO(base64.b64decode(data))).convert("RGBA")).astype(int)
@@ -78,7 +78,7 @@ def at(page: Page, point: tuple[float, float, float]) -> tuple[int, int]:
     """Row and column of a point of the body in the picture."""
     row, column = page.run(
         """(point) => {
-          const { stage } = snapspace, { width, height } = stage.renderer.domElement;
+          const { stage } = snapspace, { width, height } = stage.renderer.canvas;
           const seen = stage.camera.position.clone().set(...point);
           stage.root.localToWorld(seen).project(stage.camera);
           return [(1 - seen.y) / 2 * height, (1 + seen.x) / 2 * width];

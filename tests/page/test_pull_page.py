@@ -17,7 +17,7 @@ def window(page: Page, vertex: int) -> tuple[float, float]:
             const { stage } = snapspace;
             const place = stage.camera.position.clone().fromArray(snapspace.shown(), 3 * vertex);
             place.applyMatrix4(stage.root.matrixWorld).project(stage.camera);
-            const box = stage.renderer.domElement.getBoundingClientRect();
+            const box = stage.renderer.canvas.getBoundingClientRect();
             const [width, height] = [box.width / 2, box.height / 2];
             return [box.left + (1 + place.x) * width, box.top + (1 - place.y) * height];
         }""",

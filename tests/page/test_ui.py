@@ -11,3 +11,7 @@ pytestmark = pytest.mark.skipif(tool("node").node() is None, reason="needs nodej
 
 def test_the_ui() -> None:
     assert_node_tests_pass("ui")
+
+
+def test_the_renderer() -> None:
+    assert_node_tests_pass("render")

@@ -16,10 +16,9 @@ from snapspace import ARAP, InterpolationModel, PosingModel, export_packed
 
 from ..browser import COARSE, missing
 from ..shells.strips import blended_strips, shell_model
-from .site import BUNDLE, PAGE, Viewer, site
+from .site import PAGE, SCRIPT, Viewer, site
 
 TOOLS = Path(__file__).parents[2] / "tools"
-WEB = TOOLS.parent / "web"
 
 #: The head rises and turns within a fifth of a second.
 KEYS = {
@@ -88,7 +87,7 @@ def folder(
             "</snapspace-viewer>",
         }
         for page, body in bodies.items():
-            text = PAGE.format(head=BUNDLE, body=body)
+            text = PAGE.format(head=SCRIPT, body=body)
             (folder / f"{page}.html").write_text(text, encoding="utf-8")
     return folder
 

@@ -26,7 +26,7 @@ PAGE = """<!doctype html>
 </body>
 </html>
 """
-BUNDLE = '<script type="module" src="dist/snapspace-viewer.bundle.js"></script>'
+SCRIPT = '<script type="module" src="dist/snapspace-viewer.js"></script>'
 
 
 class _Quiet(SimpleHTTPRequestHandler):

@@ -1,19 +1,18 @@
-"""The npm package: sizes, types, and three.js from elsewhere."""
+"""The npm package: its size, its types, and that it needs nothing else."""
 
 from __future__ import annotations
 
 import gzip
 import json
+import re
 import subprocess
 import sys
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from .conftest import TOOLS, WEB
-from .site import PAGE, Viewer, site
+from .conftest import TOOLS
 
 USE = """
 import { SnapspaceViewer } from "./package/dist/snapspace-viewer";
@@ -28,12 +27,13 @@ void name;
 WRONG = "viewer.setHandles({ head: { degrees: [0, 30] } });\n"
 
 
-def test_the_module_is_small_and_three_js_comes_from_elsewhere(package: Path) -> None:
-    module = (package / "dist" / "snapspace-viewer.js").read_bytes()
-    bundle = (package / "dist" / "snapspace-viewer.bundle.js").read_bytes()
-    assert len(gzip.compress(module, 9)) <= 150_000
-    assert b'from"three"' in module.replace(b" ", b"")
-    assert b'from"three' not in bundle.replace(b" ", b"")
+def test_the_script_is_small_and_needs_nothing_else(package: Path) -> None:
+    (script,) = (package / "dist").glob("*.js")
+    text = script.read_bytes()
+    assert len(gzip.compress(text, 9)) <= 150_000
+    assert re.search(rb"""\b(?:from|import)\s*["']""", text) is None
+    about = json.loads((package / "package.json").read_text(encoding="utf-8"))
+    assert not [key for key in about if key.lower().endswith("dependencies")]
 
 
 def test_names_files_and_version_are_those_of_the_package(package: Path) -> None:
@@ -62,20 +62,3 @@ def test_its_types_are_for_its_users(
     assert (checked.returncode == 0) == is_right, checked.stdout + checked.stderr
     if not is_right:
         assert "use.ts" in checked.stdout
-
-
-def test_a_page_with_its_own_three_js_uses_the_module(
-    viewer: Viewer, folder: Path, chromium: Any
-) -> None:
-    (folder / "three").unlink(missing_ok=True)
-    (folder / "three").symlink_to(WEB / "node_modules" / "three")
-    imports = {"three": "./three/build/three.module.js", "three/addons/": "./three/examples/jsm/"}
-    head = (
-        f'<script type="importmap">{json.dumps({"imports": imports})}</script>'
-        '<script type="module" src="dist/snapspace-viewer.js"></script>'
-    )
-    body = '<snapspace-viewer src="posing.snapspace"></snapspace-viewer>'
-    (folder / "module.html").write_text(PAGE.format(head=head, body=body), encoding="utf-8")
-    with site(folder) as address:
-        viewer.open(f"{address}/module.html")
-        assert viewer.run("viewer.model.kind") == "posing"

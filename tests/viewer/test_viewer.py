@@ -13,7 +13,7 @@ from PIL import Image
 from snapspace import InterpolationModel, PosingModel
 
 from .conftest import KEYS
-from .site import BUNDLE, PAGE, Viewer
+from .site import PAGE, SCRIPT, Viewer
 
 Open = Callable[[str], Viewer]
 
@@ -215,7 +215,7 @@ def test_what_is_no_model_is_told_and_another_one_can_follow(
         "<script>document.addEventListener('error',"
         " (e) => { window.told = e.detail?.message; }, true)</script>"
     )
-    text = PAGE.format(head=listener + BUNDLE, body=body)
+    text = PAGE.format(head=listener + SCRIPT, body=body)
     (folder / "broken.html").write_text(text, encoding="utf-8")
     viewer.page.goto(f"{address}/broken.html")
     viewer.wait("window.told")

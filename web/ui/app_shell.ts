@@ -72,9 +72,9 @@ export class AppShell {
     this.#panel.hidden = false;
     this.#panel.scrollTop = 0;
     document.title = title || "Snapspace";
-    const { renderer, scene, camera } = this.stage;
+    const { renderer, scene } = this.stage;
     this.stage.drawNow();
-    renderer.compile(scene, camera); // hidden parts as well, such as the gizmo: the first press should not wait
+    renderer.prepare(scene); // hidden parts as well, such as the gizmo: the first press should not wait
     // inherited, not copied: what the view reports changes while it is shown
     window.snapspace = Object.assign(Object.create(view.script), {
       ready: true,

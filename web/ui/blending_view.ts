@@ -44,7 +44,7 @@ export async function blendingView(
   const rests = posesOf(model);
   const own = model.appearance ? new OwnLook(model.appearance) : null;
   const make = (space: BlendingModel["space"]) =>
-    new Surface(stage.renderer, space, model.faces, model.diagonal, options.forceCpu, rests, own);
+    new Surface(stage.renderer.graphics, space, model.faces, model.diagonal, options.forceCpu, rests, own);
   const [elastic, straight] = [make(model.space), make(model.poseSpace)];
   for (const surface of [elastic, straight]) {
     surface.paint(() => CLAY);
@@ -200,7 +200,7 @@ export async function blendingView(
     if (path.playing || jiggle.moves || timeline.isPlaying) stage.draw();
   };
   listenToBlendingKeys(play, panel.search, stop.signal);
-  stage.renderer.domElement.parentElement!.append(...names);
+  stage.renderer.canvas.parentElement!.append(...names);
   showChoice();
   if (canGoBeyond && choice.weights.some((w) => w < 0)) beyond.click();
   solve(0);
@@ -270,7 +270,7 @@ function warningOf({ outside, certain }: BlendingSession, { status }: FrameRepor
 
 /** Puts the names below their shapes. */
 function label(stage: Stage, names: HTMLElement[], surfaces: Surface[], visible: boolean): void {
-  const { clientWidth, clientHeight } = stage.renderer.domElement;
+  const { clientWidth, clientHeight } = stage.renderer.canvas;
   names.forEach((name, i) => {
     name.hidden = !visible;
     if (!visible) return;

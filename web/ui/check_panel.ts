@@ -1,11 +1,13 @@
-import { BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshBasicMaterial } from "three";
+import { Color } from "three";
 
+import { flat, Geometry, Mesh } from "../render/index.ts";
 import type { Checked, SurfaceFinding } from "../engine/messages.ts";
 import { h, section } from "./dom.ts";
 import type { Server } from "./server.ts";
 import type { Stage } from "./stage.ts";
 
-const INVENTED = 0xe2593f;
+const INVENTED = new Color("#e2593f");
+const INVENTED_OPACITY = 0.75;
 
 /** What is wrong with the surface that was opened, at the press of a button: a list, and on the stage the faces that
  * close its holes. */
@@ -17,7 +19,7 @@ export class CheckPanel {
   readonly #server: Server;
   readonly #button: HTMLButtonElement;
   readonly #result = h("div", { className: "findings", role: "status" });
-  #invented: Mesh<BufferGeometry, MeshBasicMaterial> | null = null;
+  #invented: Mesh | null = null;
 
   constructor(stage: Stage, server: Server) {
     [this.#stage, this.#server] = [stage, server];
@@ -42,7 +44,6 @@ export class CheckPanel {
   dispose(): void {
     this.hide();
     this.#invented?.geometry.dispose();
-    this.#invented?.material.dispose();
     this.#invented = null;
   }
 
@@ -102,18 +103,13 @@ function item({ name, fault, text, meaning, cure }: SurfaceFinding): HTMLElement
   );
 }
 
-function invented(positions: readonly number[]): Mesh<BufferGeometry, MeshBasicMaterial> {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(Float32Array.from(positions), 3));
-  const material = new MeshBasicMaterial({
-    color: INVENTED,
-    side: DoubleSide,
-    transparent: true,
-    opacity: 0.75,
-    polygonOffset: true,
-    polygonOffsetFactor: -2,
-  });
-  const mesh = new Mesh(geometry, material);
+function invented(positions: readonly number[]): Mesh {
+  const corners = Float32Array.from(positions);
+  const geometry = new Geometry(
+    { position: { data: corners, size: 3 } },
+    Uint32Array.from({ length: corners.length / 3 }, (_, corner) => corner),
+  );
+  const mesh = new Mesh(geometry, flat(INVENTED, INVENTED_OPACITY, { isNearer: true }));
   mesh.name = "invented";
   return mesh;
 }

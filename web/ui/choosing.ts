@@ -1,4 +1,4 @@
-import { Color, Raycaster, Vector2, Vector3 } from "three";
+import { Vector3, type Color } from "three";
 
 import type { Choice } from "../engine/choice.ts";
 import type { Vector } from "../engine/motion.ts";
@@ -16,6 +16,7 @@ import {
   type ScreenPoint,
 } from "../engine/selecting.ts";
 import { TriangleTree } from "../engine/triangle_tree.ts";
+import { inWindow, rayThrough } from "./canvas_ray.ts";
 import { ownerColors } from "./choosing_colors.ts";
 import { History } from "./history.ts";
 import type { Stage } from "./stage.ts";
@@ -42,7 +43,6 @@ export class Choosing {
   readonly #history: History<Choice>;
   readonly #tree: TriangleTree;
   readonly #owners: Uint8Array;
-  readonly #caster = new Raycaster();
   #choice: Choice;
   #stroke: Int32Array | null = null;
   #isPainted = false;
@@ -130,8 +130,8 @@ export class Choosing {
   hit([x, y]: ScreenPoint): Vector | null {
     const { camera, root } = this.stage;
     const [width, height] = this.size;
-    this.#caster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), camera);
-    const { origin, direction } = this.#caster.ray.applyMatrix4(root.matrixWorld.clone().invert());
+    const seen = rayThrough(camera, [(2 * x) / width - 1, 1 - (2 * y) / height]);
+    const { origin, direction } = seen.applyMatrix4(root.matrixWorld.clone().invert());
     const found = this.#tree.hit(origin.toArray(), direction.toArray());
     return found && origin.addScaledVector(direction, found.along).toArray();
   }
@@ -163,16 +163,13 @@ export class Choosing {
 
   /** The position of a vertex in the window. */
   screen(vertex: number): [number, number] {
-    const { camera, root, renderer } = this.stage;
     const place = new Vector3().fromArray(this.mesh.shape, 3 * vertex);
-    place.applyMatrix4(root.matrixWorld).project(camera);
-    const box = renderer.domElement.getBoundingClientRect();
-    return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
+    return inWindow(this.stage, place.applyMatrix4(this.stage.root.matrixWorld));
   }
 
   /** Width and height of the canvas in pixels of the page. */
   get size(): [number, number] {
-    const { clientWidth, clientHeight } = this.stage.renderer.domElement;
+    const { clientWidth, clientHeight } = this.stage.renderer.canvas;
     return [clientWidth, clientHeight];
   }
 

@@ -184,7 +184,7 @@ export class HandleList {
       if (event.key !== "Enter" && event.key !== "Escape") return;
       if (event.key === "Escape") input.value = handle.name;
       event.stopPropagation(); // Enter would make a handle, Escape clear the selection
-      this.#choosing.stage.renderer.domElement.focus();
+      this.#choosing.stage.renderer.canvas.focus();
     });
     return input;
   }

@@ -30,7 +30,7 @@ function handle(keys: ChoosingKeys, event: KeyboardEvent): void {
     if (key !== "z" && !(key === "y" && event.ctrlKey)) return;
     if (key === "y" || event.shiftKey) choosing.redo();
     else choosing.undo();
-  } else if (event.target === choosing.stage.renderer.domElement && brushKey(keys, event)) {
+  } else if (event.target === choosing.stage.renderer.canvas && brushKey(keys, event)) {
     // taken
   } else if (key === "escape") {
     if (!keys.tools.cancel()) choosing.clear();

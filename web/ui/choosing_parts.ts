@@ -120,7 +120,7 @@ export class PartList {
       if (event.key !== "Enter" && event.key !== "Escape") return;
       if (event.key === "Escape") input.value = before;
       event.stopPropagation(); // Enter would make a handle, Escape clear the selection
-      this.#choosing.stage.renderer.domElement.focus();
+      this.#choosing.stage.renderer.canvas.focus();
     });
   }
 }

@@ -28,7 +28,7 @@ export class ChoosingTools {
   constructor(choosing: Choosing, overlay: ToolOverlay, signal: AbortSignal) {
     this.#choosing = choosing;
     this.#overlay = overlay;
-    this.#canvas = choosing.stage.renderer.domElement;
+    this.#canvas = choosing.stage.renderer.canvas;
     const { controls } = choosing.stage;
     const before = { mouse: { ...controls.mouseButtons }, touches: { ...controls.touches } };
     controls.mouseButtons.RIGHT = MOUSE.ROTATE;

@@ -53,7 +53,7 @@ export function choosingView(
     { choosing, tools, make: () => handles.make(), mirror: () => handles.mirror() },
     stop.signal,
   );
-  stage.renderer.domElement.parentElement!.append(overlay.element, handles.floating);
+  stage.renderer.canvas.parentElement!.append(overlay.element, handles.floating);
   stage.beforeFrame = () => choosing.paint();
   let isBare = true;
   choosing.onChange = () => {

@@ -1,14 +1,13 @@
-import { DataTexture, FloatType, RGBAFormat } from "three";
-
 import { reconstruct, vertexStrains, weightedNormals, type Rests, type ShapeSpace } from "../engine/index.ts";
+import { Texture } from "../render/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 
 /** Positions and normals on the processor, where the graphics cannot draw into float textures. */
 export class CpuDeformer implements Deformer {
-  readonly positions: DataTexture;
-  readonly normals: DataTexture;
+  readonly positions: Texture;
+  readonly normals: Texture;
   readonly width: number;
-  readonly strains: DataTexture;
+  readonly strains: Texture;
   readonly #space: ShapeSpace;
   readonly #rests: Rests | null;
   readonly #faces: Uint32Array;
@@ -20,7 +19,7 @@ export class CpuDeformer implements Deformer {
   constructor(space: ShapeSpace, faces: Uint32Array, rests: Rests | null = null) {
     const [width, height] = textureSize(space.vertices);
     const texture = () =>
-      new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
+      new Texture({ format: "rgba32f", width, height, data: new Float32Array(4 * width * height) });
     this.#space = space;
     this.#rests = rests;
     this.#faces = faces;
@@ -43,15 +42,13 @@ export class CpuDeformer implements Deformer {
     if (share > 0)
       for (let i = 0; i < this.#shape.length; i++) this.#shape[i] += share * (this.#goal[i] - this.#shape[i]);
     weightedNormals(this.#shape, this.#faces, this.#normals);
-    asTexels(this.#shape, this.positions.image.data as Float32Array);
-    asTexels(this.#normals, this.normals.image.data as Float32Array);
-    this.positions.needsUpdate = true;
-    this.normals.needsUpdate = true;
+    put(this.#shape, this.positions);
+    put(this.#normals, this.normals);
     if (this.#weights && this.#rests) {
       const found = vertexStrains(this.#rests, this.#weights, this.#shape, this.#faces);
-      const texels = this.strains.image.data as Float32Array;
+      const texels = this.strains.data as Float32Array;
       found.forEach((strain, vertex) => (texels[4 * vertex] = strain));
-      this.strains.needsUpdate = true;
+      this.strains.data = texels;
     }
   }
 
@@ -60,11 +57,11 @@ export class CpuDeformer implements Deformer {
   }
 
   read(): Float32Array<ArrayBuffer> {
-    return fromTexels(this.positions.image.data as Float32Array, this.#space);
+    return fromTexels(this.positions.data as Float32Array, this.#space);
   }
 
   readStrains(): Float32Array {
-    return fromTexels(this.strains.image.data as Float32Array, this.#space).filter((_, i) => i % 3 === 0);
+    return fromTexels(this.strains.data as Float32Array, this.#space).filter((_, i) => i % 3 === 0);
   }
 
   dispose(): void {
@@ -72,4 +69,10 @@ export class CpuDeformer implements Deformer {
     this.positions.dispose();
     this.normals.dispose();
   }
+}
+
+function put(rows: Float32Array, texture: Texture): void {
+  const texels = texture.data as Float32Array;
+  asTexels(rows, texels);
+  texture.data = texels;
 }

@@ -1,6 +1,5 @@
-import type { Texture } from "three";
-
 import type { ShapeSpace } from "../engine/index.ts";
+import type { Texture } from "../render/index.ts";
 
 /** Turns coefficients into positions and normals of a surface's vertices, as textures for the vertex shader. */
 export interface Deformer {

@@ -126,7 +126,7 @@ export class ExportPanel {
 
   async #recordOrGive(on: boolean): Promise<void> {
     if (on) {
-      this.#recording = new Recording(this.#stage.renderer.domElement);
+      this.#recording = new Recording(this.#stage.renderer.canvas);
       this.#remark.textContent = "Recording; press Record again to end the film.";
       this.#stage.draw(); // the first frame
       return;

@@ -63,7 +63,7 @@ async function turn(stage: Stage, run: (show: (share: number) => void) => Promis
 
 /** A turntable as WebM, in real time. */
 export async function webmTurntable(stage: Stage, seconds: number, signal: AbortSignal): Promise<Blob> {
-  const recording = new Recording(stage.renderer.domElement);
+  const recording = new Recording(stage.renderer.canvas);
   await turn(stage, async (show) => {
     const begin = performance.now();
     for (let share = 0; share < 1 && !signal.aborted;) {

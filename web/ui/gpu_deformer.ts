@@ -1,16 +1,5 @@
-import {
-  DataArrayTexture,
-  DataTexture,
-  FloatType,
-  RGBAFormat,
-  RGBAIntegerFormat,
-  ShortType,
-  type Texture,
-  type WebGLRenderer,
-  type WebGLRenderTarget,
-} from "three";
-
 import type { Rests, ShapeSpace } from "../engine/index.ts";
+import { Texture, type Graphics, type Target, type Uniform } from "../render/index.ts";
 import { asTexels, fromTexels, textureSize, type Deformer } from "./deformer.ts";
 import { GpuStrains } from "./gpu_strains.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
@@ -69,35 +58,36 @@ void main() {
 /** Positions and normals on the graphics processor, and strains where they are asked for. */
 export class GpuDeformer implements Deformer {
   readonly width: number;
-  readonly #renderer: WebGLRenderer;
+  readonly #graphics: Graphics;
   readonly #space: ShapeSpace;
   readonly #rests: Rests | null;
   readonly #positions: Pass;
   readonly #normals: Pass;
   readonly #passes: readonly Pass[];
-  readonly #coefficients: Float32Array;
-  readonly #goal: DataTexture;
-  readonly #ranges: DataTexture;
-  readonly #pairs: DataTexture;
+  readonly #coefficients = new Float32Array(MOST_MODES);
+  /** Vectors of four, as many as the shape needs. */
+  readonly #set = { coefficients: { value: this.#coefficients }, count: { value: 0 }, share: { value: 0 } };
+  readonly #goal: Texture;
+  readonly #ranges: Texture;
+  readonly #pairs: Texture;
   readonly #textures: readonly Texture[];
   #strains: GpuStrains | null = null;
 
   /** Whether this browser can draw into float textures, and takes so many modes and vertices. */
-  static supports(renderer: WebGLRenderer, space: ShapeSpace): boolean {
+  static supports(graphics: Graphics, space: ShapeSpace): boolean {
     return (
-      renderer.extensions.has("EXT_color_buffer_float") &&
+      graphics.canDrawFloats &&
       space.scales.length <= MOST_MODES &&
-      textureSize(6 * space.vertices)[0] <= renderer.capabilities.maxTextureSize
+      textureSize(6 * space.vertices)[0] <= graphics.mostTexels
     );
   }
 
-  constructor(renderer: WebGLRenderer, space: ShapeSpace, faces: Uint32Array, rests: Rests | null = null) {
+  constructor(graphics: Graphics, space: ShapeSpace, faces: Uint32Array, rests: Rests | null = null) {
     const [width, height] = textureSize(space.vertices);
     this.width = width;
-    this.#renderer = renderer;
+    this.#graphics = graphics;
     this.#space = space;
     this.#rests = rests;
-    this.#coefficients = new Float32Array(MOST_MODES);
     const base = floats(space.base, width, height);
     const modes = layers(space, width, height);
     const around = rings(faces, space.vertices);
@@ -105,10 +95,10 @@ export class GpuDeformer implements Deformer {
     this.#ranges = integers(around.ranges, width, height);
     this.#pairs = integers(around.pairs, ...textureSize(around.pairs.length / 2));
     this.#textures = [base, this.#goal, modes, this.#ranges, this.#pairs];
-    for (const texture of this.#textures) texture.needsUpdate = true;
-    const make = (shader: string, textures: Record<string, Texture>) =>
-      new Pass(renderer, shader, textures, floatTarget(width, height));
-    this.#positions = make(POSITIONS, { base, modes, goal: this.#goal });
+    const make = (shader: string, uniforms: Record<string, Uniform>) =>
+      new Pass(graphics, shader, uniforms, floatTarget(graphics, width, height));
+    const textures = { base: { value: base }, modes: { value: modes }, goal: { value: this.#goal } };
+    this.#positions = make(POSITIONS, { ...textures, ...this.#set });
     this.#normals = make(NORMALS, this.#places);
     this.#passes = [this.#positions, this.#normals];
     this.update([]);
@@ -127,24 +117,24 @@ export class GpuDeformer implements Deformer {
   }
 
   set goal(positions: Float32Array) {
-    asTexels(positions, this.#goal.image.data as Float32Array);
-    this.#goal.needsUpdate = true;
+    const texels = this.#goal.data as Float32Array;
+    asTexels(positions, texels);
+    this.#goal.data = texels;
   }
 
   update(coefficients: ArrayLike<number>, share = 0): void {
     const { length } = coefficients;
     for (let i = 0; i < length; i++) this.#coefficients[i] = coefficients[i] * this.#space.scales[i];
-    this.#positions.setVectors("coefficients", this.#coefficients, Math.ceil(length / 4));
-    this.#positions.setInteger("count", length);
-    this.#positions.setFloat("share", share);
-    runPasses(this.#renderer, this.#passes);
+    this.#set.coefficients.value = this.#coefficients.subarray(0, Math.max(4 * Math.ceil(length / 4), 4));
+    [this.#set.count.value, this.#set.share.value] = [length, share];
+    runPasses(this.#graphics, this.#passes);
     this.#strains?.update();
   }
 
   weigh(weights: readonly number[] | null): void {
     if (weights && !this.#strains && this.#rests) {
-      const { width, height } = this.#positions.target;
-      this.#strains = new GpuStrains(this.#renderer, this.#rests, width, height, this.#places);
+      const { width, height } = this.positions;
+      this.#strains = new GpuStrains(this.#graphics, this.#rests, width, height, this.#places);
     }
     this.#strains?.weigh(weights);
   }
@@ -160,43 +150,37 @@ export class GpuDeformer implements Deformer {
 
   dispose(): void {
     this.#textures.forEach((texture) => texture.dispose());
-    for (const pass of this.#passes) {
-      pass.target.dispose();
-      pass.dispose();
-    }
+    this.#passes.forEach((pass) => pass.dispose());
     this.#strains?.dispose();
   }
 
   /** Positions of the vertices, and their neighbours. */
-  get #places(): Record<string, Texture> {
-    return { positions: this.positions, ranges: this.#ranges, pairs: this.#pairs };
+  get #places(): Record<string, Uniform> {
+    return {
+      positions: { value: this.positions },
+      ranges: { value: this.#ranges },
+      pairs: { value: this.#pairs },
+    };
   }
 
-  #readFrom(target: WebGLRenderTarget): Float32Array<ArrayBuffer> {
-    const { width, height } = target;
-    const texels = new Float32Array(4 * width * height);
-    this.#renderer.readRenderTargetPixels(target, 0, 0, width, height, texels);
-    return fromTexels(texels, this.#space);
+  #readFrom(target: Target): Float32Array<ArrayBuffer> {
+    return fromTexels(target.read(), this.#space);
   }
 }
 
-function floats(rows: Float32Array, width: number, height: number): DataTexture {
-  const texture = new DataTexture(new Float32Array(4 * width * height), width, height, RGBAFormat, FloatType);
-  asTexels(rows, texture.image.data as Float32Array);
-  return texture;
+function floats(rows: Float32Array, width: number, height: number): Texture {
+  const data = new Float32Array(4 * width * height);
+  asTexels(rows, data);
+  return new Texture({ format: "rgba32f", width, height, data });
 }
 
 /** Modes as layers of an array of textures, without a copy in floats. */
-function layers(space: ShapeSpace, width: number, height: number): DataArrayTexture {
+function layers(space: ShapeSpace, width: number, height: number): Texture {
   const count = space.scales.length;
   const texels = new Int16Array(4 * width * height * count);
   const size = 3 * space.vertices;
   for (let mode = 0; mode < count; mode++)
     for (let from = 0, to = 4 * width * height * mode; from < size; from += 3, to += 4)
       for (let axis = 0; axis < 3; axis++) texels[to + axis] = space.modes[mode * size + from + axis];
-  const texture = new DataArrayTexture(texels, width, height, count);
-  texture.format = RGBAIntegerFormat;
-  texture.type = ShortType;
-  texture.internalFormat = "RGBA16I";
-  return texture;
+  return new Texture({ format: "rgba16i", width, height, layers: count, data: texels });
 }

@@ -1,13 +1,5 @@
-import {
-  DataArrayTexture,
-  FloatType,
-  RGBAFormat,
-  type Texture,
-  type WebGLRenderer,
-  type WebGLRenderTarget,
-} from "three";
-
 import type { Rests } from "../engine/index.ts";
+import { Texture, type Graphics, type Target, type Uniform } from "../render/index.ts";
 import { asTexels } from "./deformer.ts";
 import { floatTarget, Pass, runPasses } from "./gpu_pass.ts";
 
@@ -56,38 +48,37 @@ void main() {
 
 /** Strains of a surface on the graphics processor; in the red of each texel. */
 export class GpuStrains {
-  readonly #renderer: WebGLRenderer;
+  readonly #graphics: Graphics;
   readonly #pass: Pass;
   readonly #only: readonly Pass[];
-  readonly #rests: DataArrayTexture;
+  readonly #rests: Texture;
+  readonly #set: { weights: Uniform<Float32Array>; count: Uniform<number> };
   #weights: Float32Array | null = null;
 
   /** `places` has positions, ranges and pairs of a deformer. */
   constructor(
-    renderer: WebGLRenderer,
+    graphics: Graphics,
     rests: Rests,
     width: number,
     height: number,
-    places: Record<string, Texture>,
+    places: Record<string, Uniform>,
   ) {
-    this.#renderer = renderer;
+    this.#graphics = graphics;
     const count = rests.length;
     const texels = new Float32Array(4 * width * height * count);
     rests.forEach((rest, k) => asTexels(rest, texels.subarray(4 * width * height * k)));
-    this.#rests = new DataArrayTexture(texels, width, height, count);
-    this.#rests.format = RGBAFormat;
-    this.#rests.type = FloatType;
-    this.#rests.needsUpdate = true;
+    this.#rests = new Texture({ format: "rgba32f", width, height, layers: count, data: texels });
+    this.#set = { weights: { value: new Float32Array(count) }, count: { value: count } };
     this.#pass = new Pass(
-      renderer,
+      graphics,
       STRAINS.replace("MOST_RESTS", String(count)),
-      { ...places, rests: this.#rests },
-      floatTarget(width, height),
+      { ...places, rests: { value: this.#rests }, ...this.#set },
+      floatTarget(graphics, width, height),
     );
     this.#only = [this.#pass];
   }
 
-  get target(): WebGLRenderTarget {
+  get target(): Target {
     return this.#pass.target;
   }
 
@@ -102,13 +93,11 @@ export class GpuStrains {
 
   update(): void {
     if (!this.#weights) return;
-    this.#pass.setFloats("weights", this.#weights);
-    this.#pass.setInteger("count", this.#weights.length);
-    runPasses(this.#renderer, this.#only);
+    [this.#set.weights.value, this.#set.count.value] = [this.#weights, this.#weights.length];
+    runPasses(this.#graphics, this.#only);
   }
 
   dispose(): void {
-    this.target.dispose();
     this.#rests.dispose();
     this.#pass.dispose();
   }

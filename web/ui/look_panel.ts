@@ -18,7 +18,7 @@ export function qualitySection(
 
 /** The switch of ambient occlusion, which is on at first. */
 export function occlusionToggle(stage: Stage, surfaces: readonly Surface[]): HTMLElement {
-  const isPossible = Occlusion.supports(stage.renderer);
+  const isPossible = Occlusion.supports(stage.renderer.graphics);
   const show = (on: boolean) => {
     for (const surface of surfaces) surface.occluded = on;
     stage.draw();

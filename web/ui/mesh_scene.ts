@@ -35,7 +35,7 @@ export class MeshScene {
       modes: new Int16Array(0),
       scales: new Float32Array(0),
     };
-    const surface = new Surface(stage.renderer, space, mesh.faces, mesh.diagonal, true, null, look);
+    const surface = new Surface(stage.renderer.graphics, space, mesh.faces, mesh.diagonal, true, null, look);
     surface.paint(() => CLAY);
     await nextTask();
     const scene = new MeshScene(stage, mesh, surface, look, options.up);

@@ -1,11 +1,13 @@
-import { DoubleSide, Matrix4, Mesh, MeshBasicMaterial, PlaneGeometry, Vector3 } from "three";
+import { Color, Matrix4, Vector3 } from "three";
 
 import type { Vector } from "../engine/motion.ts";
 import type { RestMesh } from "../engine/rest_mesh.ts";
+import { flat, Geometry, Mesh } from "../render/index.ts";
 import { boxOf } from "./box_of.ts";
 import type { Stage } from "./stage.ts";
 
-const COLOR = 0x14b8ff;
+const COLOR = new Color("#14b8ff");
+const OPACITY = 0.22;
 const UP: Record<RestMesh["up"], Vector3> = {
   x: new Vector3(1, 0, 0),
   y: new Vector3(0, 1, 0),
@@ -17,20 +19,13 @@ export class MirrorPlane {
   readonly #stage: Stage;
   readonly #middle: Vector3;
   readonly #up: Vector3;
-  readonly #square: Mesh<PlaneGeometry, MeshBasicMaterial>;
+  readonly #square: Mesh;
 
   constructor(stage: Stage, { shape, diagonal, up }: RestMesh) {
     this.#stage = stage;
     this.#up = UP[up];
     this.#middle = boxOf(shape).getCenter(new Vector3());
-    const material = new MeshBasicMaterial({
-      color: COLOR,
-      side: DoubleSide,
-      transparent: true,
-      opacity: 0.22,
-      depthWrite: false,
-    });
-    this.#square = new Mesh(new PlaneGeometry(diagonal, diagonal), material);
+    this.#square = new Mesh(square(diagonal), flat(COLOR, OPACITY, { hides: false }));
     this.#square.name = "mirror plane";
     this.#square.visible = false;
     stage.root.add(this.#square);
@@ -60,6 +55,13 @@ export class MirrorPlane {
   dispose(): void {
     this.#square.removeFromParent();
     this.#square.geometry.dispose();
-    this.#square.material.dispose();
   }
+}
+
+/** Across z, around the origin. */
+function square(side: number): Geometry {
+  const corners = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]).map(
+    (place) => (place * side) / 2,
+  );
+  return new Geometry({ position: { data: corners, size: 3 } }, new Uint32Array([0, 1, 2, 0, 2, 3]));
 }

@@ -1,14 +1,7 @@
-import {
-  NearestFilter,
-  RedFormat,
-  Vector3,
-  WebGLRenderTarget,
-  type DataTexture,
-  type Texture,
-  type WebGLRenderer,
-} from "three";
+import { Vector3 } from "three";
 
 import { weightedNormals } from "../engine/index.ts";
+import { Target, type Graphics, type Texture } from "../render/index.ts";
 import { boxOf } from "./box_of.ts";
 import type { Deformer } from "./deformer.ts";
 import { floatTarget, integers, Pass, runPasses } from "./gpu_pass.ts";
@@ -77,43 +70,32 @@ void main() {
  *
  * Per vertex and not per pixel: no halos, no noise, and a shape at rest costs nothing. It is exactly one on convex shapes. */
 export class Occlusion {
-  readonly #renderer: WebGLRenderer;
-  readonly #order: DataTexture;
+  readonly #graphics: Graphics;
+  readonly #order: Texture;
   readonly #passes: readonly [patches: Pass, light: Pass];
-  readonly #count: number;
-  readonly #size: number;
 
   /** Whether this browser can draw into float textures. */
-  static supports(renderer: WebGLRenderer): boolean {
-    return renderer.extensions.has("EXT_color_buffer_float");
+  static supports(graphics: Graphics): boolean {
+    return graphics.canDrawFloats;
   }
 
   /** `base` is the shape at rest. */
-  constructor(
-    renderer: WebGLRenderer,
-    { positions, normals }: Deformer,
-    base: Float32Array,
-    faces: Uint32Array,
-  ) {
-    this.#renderer = renderer;
-    this.#count = base.length / 3;
-    const patches = Math.min(Math.max(Math.floor(PRODUCT / this.#count), FEWEST), MOST, this.#count);
-    this.#size = Math.ceil(this.#count / patches);
-    const { width, height } = positions.image as { width: number; height: number };
-    const order = new Int32Array(2 * this.#count);
+  constructor(graphics: Graphics, { positions, normals }: Deformer, base: Float32Array, faces: Uint32Array) {
+    this.#graphics = graphics;
+    const count = base.length / 3;
+    const most = Math.min(Math.max(Math.floor(PRODUCT / count), FEWEST), MOST, count);
+    const size = Math.ceil(count / most);
+    const { width, height } = positions;
+    const order = new Int32Array(2 * count);
     neighboursTogether(base, faces).forEach((vertex, place) => (order[2 * place] = vertex));
     this.#order = integers(order, width, height);
-    this.#order.needsUpdate = true;
-    const hiding = floatTarget(Math.ceil(this.#count / this.#size), 2);
-    const target = new WebGLRenderTarget(width, height, {
-      format: RedFormat,
-      minFilter: NearestFilter,
-      magFilter: NearestFilter,
-      depthBuffer: false,
-    });
+    const patches = floatTarget(graphics, Math.ceil(count / size), 2);
+    const light = new Target(graphics, { format: "r8", width, height });
+    const shape = { positions: { value: positions }, normals: { value: normals } };
+    const groups = { order: { value: this.#order }, count: { value: count }, size: { value: size } };
     this.#passes = [
-      new Pass(renderer, PATCHES, { positions, normals, order: this.#order }, hiding),
-      new Pass(renderer, LIGHT, { positions, normals, patches: hiding.texture }, target),
+      new Pass(graphics, PATCHES, { ...shape, ...groups }, patches),
+      new Pass(graphics, LIGHT, { ...shape, patches: { value: patches.texture } }, light),
     ];
   }
 
@@ -123,17 +105,12 @@ export class Occlusion {
 
   /** Follows the shape that the deformer has. */
   update(): void {
-    this.#passes[0].setInteger("count", this.#count);
-    this.#passes[0].setInteger("size", this.#size);
-    runPasses(this.#renderer, this.#passes);
+    runPasses(this.#graphics, this.#passes);
   }
 
   dispose(): void {
     this.#order.dispose();
-    for (const pass of this.#passes) {
-      pass.target.dispose();
-      pass.dispose();
-    }
+    this.#passes.forEach((pass) => pass.dispose());
   }
 }
 

@@ -1,103 +1,79 @@
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Color,
-  type DataTexture,
-  DoubleSide,
-  IntType,
-  Mesh,
-  MeshDepthMaterial,
-  MeshStandardMaterial,
-  RGBADepthPacking,
-  SRGBColorSpace,
-} from "three";
+import { Color, Group, SRGBColorSpace } from "three";
 
 import type { Appearance, OwnMaterial } from "../engine/index.ts";
+import { Geometry, Mesh, type Material, type Texture } from "../render/index.ts";
 import { creaseRings } from "./crease_rings.ts";
 import { textureSize } from "./deformer.ts";
 import { integers } from "./gpu_pass.ts";
 import type { OwnLook } from "./own_look.ts";
-import { deformedPoints, type SurfaceUniforms } from "./surface_shader.ts";
+import { litSurface } from "./surface_materials.ts";
+import type { Part, SurfaceUniforms } from "./surface_shader.ts";
 
 /** A surface in the user's own materials: its points follow the vertices that the shader gets as textures. */
 export class OwnSurface {
-  readonly mesh: Mesh<BufferGeometry, MeshStandardMaterial[]>;
-  readonly #depth = new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side: DoubleSide });
-  readonly #pairs: DataTexture | null = null;
+  /** A mesh for each material. */
+  readonly object = new Group();
+  readonly #geometry: Geometry;
+  readonly #pairs: Texture | null;
 
-  constructor(look: OwnLook, base: Float32Array, uniforms: SurfaceUniforms) {
+  constructor(look: OwnLook, uniforms: SurfaceUniforms) {
     const { appearance } = look;
-    const geometry = geometryOf(appearance, base);
-    if (appearance.creases) {
-      const { ranges, pairs } = creaseRings(appearance);
-      geometry.setAttribute("ownRing", wholeNumbers(ranges, 2));
-      this.#pairs = integers(pairs, ...textureSize(pairs.length / 2));
-      this.#pairs.needsUpdate = true;
+    const rings = appearance.creases ? creaseRings(appearance) : null;
+    this.#geometry = geometryOf(appearance, rings?.ranges ?? null);
+    this.#pairs = rings && integers(rings.pairs, ...textureSize(rings.pairs.length / 2));
+    let start = 0;
+    for (const own of appearance.materials) {
+      const count = 3 * own.triangles;
+      const mesh = new Mesh(this.#geometry, materialOf(own, look, this.#pairs, uniforms), start, count);
+      mesh.castsShadow = true;
+      this.object.add(mesh);
+      start += count;
     }
-    const materials = appearance.materials.map((material) => materialOf(material, look));
-    for (const material of [...materials, this.#depth]) deformedPoints(material, uniforms, this.#pairs);
-    this.mesh = new Mesh(geometry, materials);
-    this.mesh.customDepthMaterial = this.#depth;
-    this.mesh.castShadow = this.mesh.receiveShadow = true;
-    this.mesh.frustumCulled = false;
-    this.mesh.visible = false;
+    this.object.visible = false;
   }
 
   /** The textures belong to the look. */
   dispose(): void {
-    this.mesh.geometry.dispose();
-    this.mesh.material.forEach((material) => material.dispose());
-    this.#depth.dispose();
+    this.#geometry.dispose();
     this.#pairs?.dispose();
   }
 }
 
-function geometryOf({ points, triangles, coordinates, colors, materials }: Appearance, base: Float32Array) {
-  const geometry = new BufferGeometry();
-  const rest = new BufferAttribute(new Float32Array(3 * points.length), 3);
-  points.forEach((vertex, point) => rest.set(base.subarray(3 * vertex, 3 * vertex + 3), 3 * point));
-  geometry.setAttribute("position", rest);
-  geometry.setAttribute("normal", rest); // never read; without one three.js shades flat
-  geometry.setAttribute("ownVertex", wholeNumbers(points, 1));
-  if (coordinates) geometry.setAttribute("uv", new BufferAttribute(coordinates, 2));
-  if (colors) geometry.setAttribute("color", linearColors(colors));
-  geometry.setIndex(new BufferAttribute(triangles, 1));
-  let start = 0;
-  materials.forEach((material, k) => {
-    geometry.addGroup(start, 3 * material.triangles, k);
-    start += 3 * material.triangles;
-  });
-  return geometry;
+function geometryOf(
+  { points, triangles, coordinates, colors }: Appearance,
+  ranges: Int32Array<ArrayBuffer> | null,
+): Geometry {
+  return new Geometry(
+    {
+      ownVertex: { data: points, size: 1 },
+      ...(ranges && { ownRing: { data: ranges, size: 2 } }),
+      ...(coordinates && { uv: { data: coordinates, size: 2 } }),
+      ...(colors && { vertexColor: { data: linear(colors), size: 3 } }),
+    },
+    triangles,
+  );
 }
 
 function materialOf(
   { color, texture, roughness, alphaCutoff }: OwnMaterial,
   { appearance, textures }: OwnLook,
-): MeshStandardMaterial {
-  return new MeshStandardMaterial({
-    color: new Color(...color),
-    map: texture === null || !appearance.coordinates ? null : textures[texture],
-    vertexColors: appearance.colors !== null,
-    roughness,
-    metalness: 0,
-    alphaTest: alphaCutoff ?? 0,
-    side: DoubleSide,
-  });
+  pairs: Texture | null,
+  uniforms: SurfaceUniforms,
+): Material {
+  const picture = texture === null || !appearance.coordinates ? null : textures[texture];
+  const parts: Part[] = ["POINTS"];
+  if (pairs) parts.push("CREASED");
+  if (picture) parts.push("PICTURE");
+  if (appearance.colors) parts.push("COLORS");
+  const looks = { color: new Color(...color), roughness, alphaCutoff: alphaCutoff ?? 0, picture, pairs };
+  return litSurface(uniforms, looks, parts);
 }
 
-function wholeNumbers(values: Int32Array<ArrayBuffer>, size: number): BufferAttribute {
-  const attribute = new BufferAttribute(values, size);
-  attribute.gpuType = IntType;
-  return attribute;
-}
-
-function linearColors(bytes: Uint8Array): BufferAttribute {
-  const linear = Float32Array.from(
+/** Colours in sRGB as numbers that are linear in light. */
+function linear(bytes: Uint8Array): Float32Array<ArrayBuffer> {
+  const levels = Float32Array.from(
     { length: 256 },
     (_, byte) => new Color().setRGB(byte / 255, 0, 0, SRGBColorSpace).r,
   );
-  return new BufferAttribute(
-    Float32Array.from(bytes, (byte) => linear[byte]),
-    3,
-  );
+  return Float32Array.from(bytes, (byte) => levels[byte]);
 }

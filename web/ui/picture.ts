@@ -28,20 +28,18 @@ export function drawAt<T>(
   const { renderer, camera, scene } = stage;
   const aspect = camera.aspect;
   try {
-    renderer.setPixelRatio(1);
-    renderer.setSize(width, height, false);
-    const context = renderer.getContext();
-    if (context.drawingBufferWidth !== width || context.drawingBufferHeight !== height)
+    renderer.setSize(width, height, 1);
+    if (renderer.gl.drawingBufferWidth !== width || renderer.gl.drawingBufferHeight !== height)
       throw new RangeError(
         `This browser cannot draw ${width} x ${height} pixels; ask for a smaller picture.`,
       );
     camera.aspect = width / height;
     camera.updateProjectionMatrix();
-    renderer.setClearColor(background ?? 0x000000, background ? 1 : 0);
+    renderer.background = background;
     renderer.render(scene, camera);
-    return take(renderer.domElement);
+    return take(renderer.canvas);
   } finally {
-    renderer.setClearColor(0x000000, 0);
+    renderer.background = null;
     camera.aspect = aspect;
     camera.updateProjectionMatrix();
     stage.fit();

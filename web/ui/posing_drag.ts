@@ -1,7 +1,8 @@
-import { Matrix4, Plane, Quaternion, Raycaster, Vector2, Vector3 } from "three";
+import { Matrix4, Plane, Quaternion, Vector3 } from "three";
 
 import type { Motion } from "../engine/index.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
+import { inWindow, rayAt } from "./canvas_ray.ts";
 import type { Gizmo } from "./posing_gizmo.ts";
 import type { Posing } from "./posing.ts";
 
@@ -27,13 +28,12 @@ export class HandleDrag {
   readonly #posing: Posing;
   readonly #gizmo: Gizmo;
   readonly #canvas: HTMLCanvasElement;
-  readonly #caster = new Raycaster();
   #drag: Drag | null = null;
 
   constructor(posing: Posing, gizmo: Gizmo, signal: AbortSignal) {
     this.#posing = posing;
     this.#gizmo = gizmo;
-    this.#canvas = posing.stage.renderer.domElement;
+    this.#canvas = posing.stage.renderer.canvas;
     const up = (event: PointerEvent) => this.#up(event);
     const acts = { down: this.#down.bind(this), move: this.#move.bind(this), up, cancel: up };
     listenToPointers(this.#canvas, acts, signal);
@@ -51,9 +51,8 @@ export class HandleDrag {
   /** The handle below a point of the window, or -1, and where it was hit. */
   find(x: number, y: number): { handle: number; point: Vector3 } {
     const { session, surface, stage } = this.#posing;
-    this.#aim(x, y);
     const toShape = surface.object.matrixWorld.clone().invert();
-    const hit = surface.pick(this.#caster.ray.clone().applyMatrix4(toShape));
+    const hit = surface.pick(rayAt(stage, x, y).applyMatrix4(toShape));
     if (hit) {
       // where any point can be pulled, the nearest corner decides; else all of a handle's triangles belong to it
       const corners = this.#posing.mode === "pull" ? hit.corners.slice(0, 1) : hit.corners;
@@ -76,20 +75,17 @@ export class HandleDrag {
   /** The position of a handle's centre in the window. */
   screen(handle: number): [number, number] {
     const { stage, session } = this.#posing;
-    const place = new Vector3(...session.place(handle))
-      .applyMatrix4(stage.root.matrixWorld)
-      .project(stage.camera);
-    const box = this.#canvas.getBoundingClientRect();
-    return [box.left + ((place.x + 1) / 2) * box.width, box.top + ((1 - place.y) / 2) * box.height];
+    const place = new Vector3(...session.place(handle));
+    return inWindow(stage, place.applyMatrix4(stage.root.matrixWorld));
   }
 
   #down(event: PointerEvent): void {
     if (event.target !== this.#canvas || event.button !== 0 || this.#drag) return;
-    if (this.#gizmo.isBelow(event)) return;
+    if (this.#gizmo.isDragging) return;
     const { handle, point } = this.find(event.clientX, event.clientY);
     if (handle < 0) return;
     const { stage } = this.#posing;
-    stage.controls.enabled = this.#gizmo.isListening = false;
+    stage.controls.enabled = false;
     this.#canvas.setPointerCapture(event.pointerId);
     const facing = stage.camera.getWorldDirection(new Vector3());
     this.#drag = {
@@ -126,20 +122,20 @@ export class HandleDrag {
     if (event.pointerId !== this.#drag?.pointer) return;
     const { moved } = this.#drag;
     this.#drag = null;
-    this.#posing.stage.controls.enabled = this.#gizmo.isListening = true;
+    this.#posing.stage.controls.enabled = true;
     if (moved) this.#posing.commit();
     else this.#posing.release();
   }
 
   #hover(event: PointerEvent): void {
-    const over = this.find(event.clientX, event.clientY).handle >= 0;
+    const over = this.#gizmo.isActive || this.find(event.clientX, event.clientY).handle >= 0;
     this.#canvas.style.cursor = over ? "grab" : "";
   }
 
   #shifted(drag: Drag, event: PointerEvent): Motion {
-    this.#aim(event.clientX, event.clientY);
-    const { root } = this.#posing.stage;
-    const target = this.#caster.ray.intersectPlane(drag.plane, new Vector3());
+    const { stage } = this.#posing;
+    const { root } = stage;
+    const target = rayAt(stage, event.clientX, event.clientY).intersectPlane(drag.plane, new Vector3());
     if (!target) return drag.start;
     const [from, to] = [root.worldToLocal(drag.grabbed.clone()), root.worldToLocal(target)];
     const [x, y, z] = to.sub(from).toArray();
@@ -149,12 +145,6 @@ export class HandleDrag {
 
   #turned(drag: Drag, dx: number, dy: number): Motion {
     return turnedInView(this.#posing, drag.start, dx * RADIANS_PER_PIXEL, dy * RADIANS_PER_PIXEL);
-  }
-
-  #aim(x: number, y: number): void {
-    const box = this.#canvas.getBoundingClientRect();
-    const pointer = new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
-    this.#caster.setFromCamera(pointer, this.#posing.stage.camera);
   }
 }
 

@@ -1,137 +1,140 @@
-import { Mesh, Object3D, Vector3 } from "three";
-import { TransformControls } from "three/addons/controls/TransformControls.js";
+import { Quaternion, Vector3 } from "three";
 
-import type { Motion } from "../engine/index.ts";
-import { AXIS_COLORS } from "./axis_colors.ts";
+import { listenToPointers } from "./canvas_pointers.ts";
+import { dragOf, type Drag } from "./gizmo_drag.ts";
+import { GizmoFrame } from "./gizmo_frame.ts";
+import { GizmoParts, type GizmoPart } from "./gizmo_parts.ts";
 import type { Posing } from "./posing.ts";
-import { quaternionOf, rotationOf } from "./rotations.ts";
-import type { Axis } from "./stage.ts";
+import { quaternionOf } from "./rotations.ts";
 
-const [X, Y, Z] = AXIS_COLORS;
-/** Of the arrow that the pointer is on. */
-const ACTIVE = "#ffd23f";
+/** The length of its arrows as a share of half the height of the picture. */
+const SIZE = 0.17;
 
-/** Which colour the arrows along the stage's x, y (up) and z have, by the model's axis that points up. */
-const COLORS: Record<Axis, readonly [string, string, string]> = {
-  x: [Y, X, Z],
-  y: [X, Y, Z],
-  z: [X, Z, Y],
-};
-
-const WARMING = 12; // looks
-
-/** Arrows or rings at the selected handle. */
+/** Arrows or rings at the selected handle, along the axes of the model or of the handle, in their colours. */
 export class Gizmo {
-  readonly #controls: TransformControls;
-  readonly #proxy = new Object3D();
   readonly #posing: Posing;
   readonly #canvas: HTMLCanvasElement;
-  #colored = "";
-  #start: Motion | null = null;
+  readonly #parts = new GizmoParts();
+  #frame: GizmoFrame | null = null;
+  #active: GizmoPart | null = null;
+  #drag: { pointer: number; ask: Drag } | null = null;
 
-  constructor(posing: Posing) {
-    const { stage } = posing;
+  constructor(posing: Posing, signal: AbortSignal) {
     this.#posing = posing;
-    this.#canvas = stage.renderer.domElement;
-    this.#controls = new TransformControls(stage.camera, this.#canvas);
-    this.#controls.size = 0.62;
-    stage.root.add(this.#proxy);
-    stage.scene.add(this.#controls.getHelper());
-    this.#controls.addEventListener("change", () => stage.draw());
-    this.#controls.addEventListener("objectChange", () => this.#wish());
-    this.#controls.addEventListener("dragging-changed", (event) => {
-      stage.controls.enabled = !event.value;
-      this.#start = posing.motion(posing.selected);
-      if (event.value) posing.grab();
-      else posing.commit();
-    });
+    this.#canvas = posing.stage.renderer.canvas;
+    posing.stage.scene.add(this.#parts.group);
+    const up = (event: PointerEvent) => this.#up(event);
+    const acts = { down: this.#down.bind(this), move: this.#move.bind(this), up, cancel: up };
+    listenToPointers(this.#canvas, acts, signal);
   }
 
-  /** Searches for its arrows a few times, as a pointer that approaches does, so that the browser makes fast code. */
-  warmUp(): void {
-    const helper = this.#controls.getHelper();
-    this.#controls.attach(this.#proxy);
-    helper.updateMatrixWorld(true);
-    const middle = new Vector3().setFromMatrixPosition(this.#proxy.matrixWorld);
-    const { x, y } = middle.project(this.#posing.stage.camera);
-    for (let time = 0; time < WARMING; time++)
-      this.#controls.pointerHover({ x: x + 0.01 * time, y: y + 0.01 * time, button: -1 } as never);
-    this.#controls.detach();
+  get isDragging(): boolean {
+    return this.#drag !== null;
   }
 
-  /** Whether it listens to the pointer. */
-  set isListening(on: boolean) {
-    this.#controls.enabled = on;
+  /** Whether the pointer is on an arrow or ring. */
+  get isActive(): boolean {
+    return this.#active !== null;
   }
 
-  /** Whether a press at this place would take hold of an arrow or ring. */
-  isBelow(event: PointerEvent): boolean {
-    if (this.#posing.selected < 0) return false;
-    const box = this.#canvas.getBoundingClientRect();
-    const x = (2 * (event.clientX - box.left)) / box.width - 1;
-    const y = 1 - (2 * (event.clientY - box.top)) / box.height;
-    this.#controls.pointerHover({ x, y, button: -1 } as never);
-    return this.#controls.axis !== null;
-  }
-
-  /** Cancels the present drag, as the posing does. */
+  /** Ends the present drag, which the posing has cancelled. */
   cancel(): void {
-    if (!this.#controls.dragging) return;
-    this.#controls.reset();
-    this.#controls.pointerUp(null);
+    this.#end();
   }
 
-  /** Colours arrows and rings as the model's axes that they are along; before each picture. */
-  color(): void {
-    const { stage, isLocal } = this.#posing;
-    const colored = `${stage.up} ${isLocal}`;
-    if (colored === this.#colored) return;
-    this.#colored = colored;
-    this.#controls.setSpace(isLocal ? "local" : "world");
-    this.#controls.setColors(...(isLocal ? AXIS_COLORS : COLORS[stage.up]), ACTIVE);
-  }
-
-  /** Follows the selected handle. */
+  /** Follows the selected handle and the camera, before each picture. */
   update(): void {
-    const { selected, session, mode } = this.#posing;
+    const { selected, session, mode, stage, isLocal } = this.#posing;
+    const { group } = this.#parts;
+    group.visible = selected >= 0;
     if (selected < 0) {
-      this.#controls.detach();
+      this.#frame = null;
+      this.#activate(null);
       return;
     }
-    if (this.#controls.object !== this.#proxy) this.#controls.attach(this.#proxy);
-    this.#controls.setMode(mode === "move" ? "translate" : "rotate");
-    if (this.#controls.dragging) return;
-    this.#proxy.position.set(...session.place(selected));
-    this.#proxy.quaternion.copy(quaternionOf(session.motion(selected).rotation));
-    this.#proxy.updateMatrixWorld(true);
+    const { camera, root } = stage;
+    const turned = root.quaternion.clone();
+    if (isLocal) turned.multiply(quaternionOf(session.motion(selected).rotation));
+    const middle = new Vector3(...session.place(selected)).applyMatrix4(root.matrixWorld);
+    const depth = -middle.clone().applyMatrix4(camera.matrixWorldInverse).z;
+    const size = Math.max(SIZE * depth * Math.tan((camera.fov * Math.PI) / 360), 1e-6);
+    this.#frame = new GizmoFrame(stage, middle, turned, size);
+    group.position.copy(middle);
+    group.quaternion.copy(turned);
+    group.scale.setScalar(size);
+    this.#parts.face(this.#frame.toCamera, turned);
+    for (const part of this.#parts.all) {
+      const isOfMode = (part.kind === "arrow" || part.kind === "square") === (mode === "move");
+      part.mesh.visible = isOfMode && (part === this.#active || this.#frame.isUsable(part));
+    }
   }
 
   /** For scripts and tests: directions on the stage and colours of the arrows. */
   readonly arrows = () => {
-    const found: { direction: number[]; color: string }[] = [];
-    this.#controls.getHelper().traverse((part) => {
-      if (!(part instanceof Mesh) || !/^[XYZ]$/.test(part.name) || part.material.opacity < 0.9) return;
-      const along = new Vector3().setComponent("XYZ".indexOf(part.name), 1).applyQuaternion(part.quaternion);
-      found.push({ direction: along.toArray(), color: `#${part.material.color.getHexString()}` });
-    });
-    return found;
+    const turned = this.#parts.group.getWorldQuaternion(new Quaternion());
+    return this.#parts.all
+      .filter(({ kind, axis }) => axis >= 0 && (kind === "arrow" || kind === "ring"))
+      .filter(({ mesh }) => mesh.visible)
+      .map(({ axis, color }) => ({
+        direction: new Vector3().setComponent(axis, 1).applyQuaternion(turned).toArray(),
+        color,
+      }));
   };
 
   dispose(): void {
-    this.#controls.detach();
-    this.#controls.getHelper().removeFromParent();
-    this.#controls.dispose();
-    this.#proxy.removeFromParent();
+    this.#parts.dispose();
   }
 
-  #wish(): void {
-    const { selected, session } = this.#posing;
-    const { center } = session.model.handles[selected];
-    const { x, y, z } = this.#proxy.position;
-    const asked: Motion = {
-      rotation: rotationOf(this.#proxy.quaternion),
-      translation: [x - center[0], y - center[1], z - center[2]],
+  #down(event: PointerEvent): void {
+    const { stage, selected } = this.#posing;
+    if (event.target !== this.#canvas || event.button !== 0 || this.#posing.isDragging) return;
+    this.#look(event);
+    if (!this.#active || !this.#frame) return;
+    stage.controls.enabled = false;
+    this.#canvas.setPointerCapture(event.pointerId);
+    const start = this.#posing.motion(selected);
+    const ask = dragOf(this.#frame, this.#active, start, event.clientX, event.clientY);
+    this.#drag = {
+      pointer: event.pointerId,
+      ask: (x, y) => this.#posing.snapped(start, ask(x, y)),
     };
-    this.#posing.wish(selected, this.#posing.snapped(this.#start ?? asked, asked));
+    this.#posing.grab();
+  }
+
+  #move(event: PointerEvent): void {
+    if (this.#drag) {
+      if (event.pointerId === this.#drag.pointer)
+        this.#posing.wish(this.#posing.selected, this.#drag.ask(event.clientX, event.clientY));
+    } else if (event.pointerType === "mouse" && event.buttons === 0) {
+      this.#look(event);
+    }
+  }
+
+  #up(event: PointerEvent): void {
+    if (event.pointerId !== this.#drag?.pointer) return;
+    this.#end();
+    this.#posing.commit();
+  }
+
+  #end(): void {
+    if (!this.#drag) return;
+    this.#drag = null;
+    this.#posing.stage.controls.enabled = true;
+  }
+
+  /** Finds the part below the pointer. */
+  #look({ clientX, clientY, pointerType, target }: PointerEvent): void {
+    const isOn = target === this.#canvas && !this.#posing.isDragging;
+    const isTouch = pointerType === "touch";
+    const parts = this.#parts.all;
+    this.#activate((isOn && this.#frame?.partAt(parts, clientX, clientY, isTouch)) || null);
+  }
+
+  #activate(part: GizmoPart | null): void {
+    if (part === this.#active) return;
+    if (this.#active) this.#active.isActive = false;
+    if (part) part.isActive = true;
+    this.#active = part;
+    this.#posing.stage.draw();
   }
 }

@@ -1,37 +1,27 @@
-import {
-  BoxGeometry,
-  CanvasTexture,
-  EdgesGeometry,
-  Group,
-  LineBasicMaterial,
-  LineSegments,
-  Sprite,
-  SpriteMaterial,
-  SRGBColorSpace,
-} from "three";
+import { Color, Group } from "three";
 
+import { Dot, flat, Geometry, Mesh } from "../render/index.ts";
 import { handleColor } from "./handle_colors.ts";
 import type { Posing } from "./posing.ts";
+
+const BOX_OPACITY = 0.8;
 
 /** A dot at every handle, and the sampled box of each handle that has left it. */
 export class Marks {
   readonly #posing: Posing;
-  readonly #dots: Sprite[];
-  readonly #boxes = new Map<number, LineSegments>();
+  readonly #dots: Dot[];
+  readonly #boxes = new Map<number, Mesh>();
   readonly #group = new Group();
 
   constructor(posing: Posing) {
     this.#posing = posing;
     const { handles, boxes } = posing.session.model;
-    this.#dots = handles.map((_, handle) => dot(handleColor(handle)));
+    this.#dots = handles.map((_, handle) => new Dot(new Color(handleColor(handle))));
     handles.forEach(({ center }, handle) => {
       const [x, y, z] = boxes[handle].translation;
       if (handle === 0 || !(x > 0 || y > 0 || z > 0)) return;
-      const edges = new EdgesGeometry(new BoxGeometry(2 * x, 2 * y, 2 * z));
-      const lines = new LineSegments(
-        edges,
-        new LineBasicMaterial({ color: handleColor(handle), transparent: true, opacity: 0.8 }),
-      );
+      const color = new Color(handleColor(handle));
+      const lines = new Mesh(boxEdges(x, y, z), flat(color, BOX_OPACITY, { isOfLines: true }));
       lines.position.set(...center);
       this.#boxes.set(handle, lines);
       posing.surface.object.add(lines); // the box is relative to the first handle
@@ -43,10 +33,10 @@ export class Marks {
 
   update(): void {
     const { session, selected } = this.#posing;
-    this.#dots.forEach((sprite, handle) => {
+    this.#dots.forEach((dot, handle) => {
       const [x, y, z] = session.place(handle);
-      sprite.position.set(x, y, z);
-      sprite.scale.setScalar((handle === selected ? 0.034 : 0.026) * session.model.diagonal);
+      dot.position.set(x, y, z);
+      dot.scale.setScalar((handle === selected ? 0.034 : 0.026) * session.model.diagonal);
     });
     this.#boxes.forEach((lines) => (lines.visible = false));
     for (const { handle } of session.outside) {
@@ -61,28 +51,18 @@ export class Marks {
       lines.removeFromParent();
       lines.geometry.dispose();
     });
-    this.#dots.forEach((sprite) => sprite.material.map?.dispose());
+    this.#dots.forEach((dot) => dot.geometry.dispose());
   }
 }
 
-function dot(color: string): Sprite {
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 64;
-  const pen = canvas.getContext("2d")!;
-  const disc = (radius: number, fill: string) => {
-    pen.beginPath();
-    pen.arc(32, 32, radius, 0, 2 * Math.PI);
-    pen.fillStyle = fill;
-    pen.fill();
-  };
-  disc(30, "rgba(20, 24, 32, 0.28)");
-  disc(27, "#ffffff");
-  disc(20, color);
-  const map = new CanvasTexture(canvas);
-  map.colorSpace = SRGBColorSpace;
-  const sprite = new Sprite(
-    new SpriteMaterial({ map, depthTest: false, toneMapped: false, transparent: true }),
+/** The twelve edges of a box around the origin, from half its sides. */
+function boxEdges(x: number, y: number, z: number): Geometry {
+  const corners = Array.from({ length: 8 }, (_, k) => [k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z]);
+  const edges = corners.flatMap((_, k) =>
+    [1, 2, 4].filter((bit) => !(k & bit)).flatMap((bit) => [k, k | bit]),
   );
-  sprite.renderOrder = 5;
-  return sprite;
+  return new Geometry(
+    { position: { data: new Float32Array(corners.flat()), size: 3 } },
+    new Uint32Array(edges),
+  );
 }

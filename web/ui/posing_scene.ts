@@ -38,11 +38,10 @@ export class PosingScene {
     this.surfaces = [this.#surfaceOf(stage, session.model)];
     stage.root.add(this.surfaces[0].object);
     this.posing = new Posing(stage, session, this.surfaces[0]);
-    this.gizmo = new Gizmo(this.posing);
+    this.gizmo = new Gizmo(this.posing, this.#stop.signal);
     this.#marks = new Marks(this.posing);
     this.drag = new HandleDrag(this.posing, this.gizmo, this.#stop.signal);
     this.posing.warmUp(() => this.follow());
-    this.gizmo.warmUp();
     this.drag.warmUp();
   }
 
@@ -100,7 +99,15 @@ export class PosingScene {
   }
 
   #surfaceOf(stage: Stage, { space, faces, diagonal }: PosingModel): Surface {
-    return new Surface(stage.renderer, space, faces, diagonal, this.#forceCpu, [space.base], this.#look);
+    return new Surface(
+      stage.renderer.graphics,
+      space,
+      faces,
+      diagonal,
+      this.#forceCpu,
+      [space.base],
+      this.#look,
+    );
   }
 }
 

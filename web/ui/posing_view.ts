@@ -138,7 +138,7 @@ export async function posingView(
   if (start.every((motion) => motion !== undefined)) posing.begin(start);
   else posing.onChange();
   stage.beforeFrame = (seconds) => {
-    gizmo.color();
+    gizmo.update();
     if (posing.isDragging) timeline.play(false);
     timeline.advance(seconds);
     posing.solveWishes();

@@ -1,4 +1,4 @@
-import { Mesh, MeshBasicMaterial, Plane, Raycaster, SphereGeometry, Vector2, Vector3 } from "three";
+import { Color, Plane, Vector3 } from "three";
 
 import {
   placeOf,
@@ -9,10 +9,13 @@ import {
   type PulledPoint,
   type Pulls,
 } from "../engine/index.ts";
+import { Dot } from "../render/index.ts";
 import { listenToPointers } from "./canvas_pointers.ts";
+import { rayAt } from "./canvas_ray.ts";
 import type { Posing } from "./posing.ts";
 
-const DOT = 0.008; // of the diagonal
+const DOT = 0.02; // of the diagonal
+const WHITE = new Color("#ffffff");
 
 /** A point that is pulled, with the name that it has as a handle. */
 export interface KeptPoint extends PulledPoint {
@@ -36,18 +39,17 @@ export class Pulling {
   readonly #posing: Posing;
   readonly #module: WebAssembly.Module;
   readonly #canvas: HTMLCanvasElement;
-  readonly #caster = new Raycaster();
   #kept: readonly KeptPoint[] = [];
   /** Those that are pulled now: the kept ones, and the one in hand. */
   #points: readonly KeptPoint[] = [];
   #pulls: Pulls | null = null;
   #drag: { pointer: number; plane: Plane } | null = null;
-  #dots: Mesh[] = [];
+  #dots: Dot[] = [];
   #turn = 0;
 
   constructor(posing: Posing, module: WebAssembly.Module, signal: AbortSignal) {
     [this.#posing, this.#module] = [posing, module];
-    this.#canvas = posing.stage.renderer.domElement;
+    this.#canvas = posing.stage.renderer.canvas;
     const up = (event: PointerEvent) => void this.#up(event);
     const acts = {
       down: (event: PointerEvent) => void this.#down(event),
@@ -107,9 +109,8 @@ export class Pulling {
     const { stage, session, surface, mode } = this.#posing;
     if (mode !== "pull" || event.button !== 0 || event.target !== this.#canvas || this.#drag) return;
     if (this.#posing.isDragging) return; // a handle
-    this.#aim(event);
     const toShape = surface.object.matrixWorld.clone().invert();
-    const hit = surface.pick(this.#caster.ray.clone().applyMatrix4(toShape));
+    const hit = surface.pick(rayAt(stage, event.clientX, event.clientY).applyMatrix4(toShape));
     if (!hit) return;
     stage.controls.enabled = false;
     this.#canvas.setPointerCapture(event.pointerId);
@@ -127,10 +128,10 @@ export class Pulling {
 
   #move(event: PointerEvent): void {
     if (event.pointerId !== this.#drag?.pointer || !this.#pulls) return;
-    this.#aim(event);
-    const place = this.#caster.ray.intersectPlane(this.#drag.plane, new Vector3());
+    const { stage } = this.#posing;
+    const place = rayAt(stage, event.clientX, event.clientY).intersectPlane(this.#drag.plane, new Vector3());
     if (!place) return;
-    const { x, y, z } = this.#posing.stage.root.worldToLocal(place);
+    const { x, y, z } = stage.root.worldToLocal(place);
     this.#pulls.target = [x, y, z];
     this.#take(this.#pulls);
   }
@@ -167,11 +168,8 @@ export class Pulling {
   #showDots(points: readonly PulledPoint[]): void {
     const { stage, session } = this.#posing;
     while (this.#dots.length < points.length) {
-      const dot = new Mesh(
-        new SphereGeometry(DOT * session.model.diagonal, 16, 12),
-        new MeshBasicMaterial({ color: 0xffffff, depthTest: false }),
-      );
-      dot.renderOrder = 2;
+      const dot = new Dot(WHITE);
+      dot.scale.setScalar(DOT * session.model.diagonal);
       stage.root.add(dot);
       this.#dots.push(dot);
     }
@@ -189,12 +187,6 @@ export class Pulling {
     let number = 1;
     while (names.has(`point ${number}`)) number++;
     return `point ${number}`;
-  }
-
-  #aim(event: PointerEvent): void {
-    const box = this.#canvas.getBoundingClientRect();
-    const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-    this.#caster.setFromCamera(new Vector2(2 * x - 1, 1 - 2 * y), this.#posing.stage.camera);
   }
 }
 

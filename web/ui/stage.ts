@@ -1,23 +1,8 @@
-import {
-  Box3,
-  type Camera,
-  CircleGeometry,
-  Group,
-  Mesh,
-  NeutralToneMapping,
-  PCFShadowMap,
-  PerspectiveCamera,
-  Scene,
-  ShadowMaterial,
-  Sphere,
-  SRGBColorSpace,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import { Box3, Group, PerspectiveCamera, Sphere, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { Ground, Renderer, Studio } from "../render/index.ts";
 import { boxOf } from "./box_of.ts";
-import { keyLights, studioLight } from "./studio.ts";
 
 export type Axis = "x" | "y" | "z";
 
@@ -35,8 +20,8 @@ export const VIEWS: Record<string, Vector3> = {
 
 /** Canvas, camera, studio light and ground. Models stand in `root`, which is about one unit large. */
 export class Stage {
-  readonly renderer: WebGLRenderer;
-  readonly scene = new Scene();
+  readonly renderer: Renderer;
+  readonly scene = new Group();
   readonly camera = new PerspectiveCamera(32, 1, 0.01, 50);
   readonly root = new Group();
   readonly controls: OrbitControls;
@@ -50,8 +35,7 @@ export class Stage {
   drawn: () => void = () => {};
   /** Called when lost graphics are back: what was computed there is gone. */
   restored: () => void = () => {};
-  readonly #ground: Mesh<CircleGeometry, ShadowMaterial>;
-  readonly #lights = keyLights();
+  readonly #ground = new Ground();
   readonly #resized = new ResizeObserver(() => this.fit());
   #height = 0.5;
   readonly #before = new PerspectiveCamera(); // while another picture is taken
@@ -60,25 +44,12 @@ export class Stage {
   #last = 0;
 
   constructor(canvas: HTMLCanvasElement) {
-    this.renderer = new WebGLRenderer({
-      canvas,
-      antialias: true,
-      alpha: true,
-      powerPreference: "high-performance",
-    });
-    this.renderer.outputColorSpace = SRGBColorSpace;
-    this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = PCFShadowMap;
     this.controls = new OrbitControls(this.camera, canvas);
+    this.renderer = new Renderer(canvas, new Studio(VIEW, this.controls.target));
     this.controls.minDistance = 0.15;
     this.controls.maxDistance = 8;
     this.controls.addEventListener("change", () => this.draw());
-    this.#ground = new Mesh(new CircleGeometry(6, 48), new ShadowMaterial({ opacity: 0.28 }));
-    this.#ground.rotation.x = -Math.PI / 2;
-    this.#ground.receiveShadow = true;
-    this.scene.add(this.root, this.#ground, studioLight(), this.#lights);
-    this.scene.onBeforeRender = (_renderer, _scene, camera) => this.#follow(camera);
+    this.scene.add(this.root, this.#ground);
     // after the renderer, which listens as well
     canvas.addEventListener("webglcontextrestored", () => {
       this.restored();
@@ -112,14 +83,6 @@ export class Stage {
     this.drawn();
   }
 
-  /** Turns the lights with a camera that goes around the shape. */
-  #follow(camera: Camera): void {
-    const { x, z } = camera.position;
-    const { x: tx, z: tz } = this.controls.target;
-    this.#lights.rotation.y = Math.atan2(x - tx, z - tz) - Math.atan2(VIEW.x, VIEW.z);
-    this.#lights.updateMatrixWorld(true);
-  }
-
   /** Forgets the view that was shown. */
   rest(): void {
     this.beforeFrame = this.afterFrame = this.restored = () => {};
@@ -131,7 +94,6 @@ export class Stage {
     this.#resized.disconnect();
     this.controls.dispose();
     this.renderer.dispose();
-    this.renderer.forceContextLoss();
   }
 
   /** Puts the bounding box of a shape on the ground, its diagonal one unit long, with an axis up. */
@@ -203,16 +165,15 @@ export class Stage {
   }
 
   set dark(dark: boolean) {
-    this.#ground.material.opacity = dark ? 0.5 : 0.26;
+    this.#ground.opacity = dark ? 0.5 : 0.26;
     this.draw();
   }
 
   /** Fits the canvas to its place. */
   fit(): void {
-    const { clientWidth, clientHeight } = this.renderer.domElement.parentElement!;
+    const { clientWidth, clientHeight } = this.renderer.canvas.parentElement!;
     if (clientWidth === 0 || clientHeight === 0) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.renderer.setSize(clientWidth, clientHeight, Math.min(window.devicePixelRatio, 2));
     const aspect = clientWidth / clientHeight;
     // keeps the visible width when the window becomes narrow
     const narrowness = (a: number) => Math.max(1, 1 / a);

@@ -1,13 +1,4 @@
-import {
-  BufferAttribute,
-  BufferGeometry,
-  Group,
-  Mesh,
-  type Color,
-  type Material,
-  type Ray,
-  type WebGLRenderer,
-} from "three";
+import { Group, type Color, type Ray } from "three";
 
 import {
   reconstruct,
@@ -18,14 +9,16 @@ import {
   type RigidMap,
   type ShapeSpace,
 } from "../engine/index.ts";
+import { Geometry, Mesh, type Attribute, type Graphics } from "../render/index.ts";
 import { CpuDeformer } from "./cpu_deformer.ts";
 import type { Deformer } from "./deformer.ts";
+import { edgesOf } from "./edges.ts";
 import { GpuDeformer } from "./gpu_deformer.ts";
 import { Occlusion } from "./occlusion.ts";
 import type { OwnLook } from "./own_look.ts";
 import { OwnSurface } from "./own_surface.ts";
-import { clay, depths, wires } from "./surface_materials.ts";
-import { deformedBy, type SurfaceUniforms } from "./surface_shader.ts";
+import { clay, wires } from "./surface_materials.ts";
+import type { SurfaceUniforms } from "./surface_shader.ts";
 
 /** What its colours show: the paint of its vertices, the user's own materials, or a number on a ramp. */
 export type Colors = "own" | "displacement" | "strain" | "material";
@@ -43,12 +36,11 @@ export class Surface {
   readonly onGpu: boolean;
   /** The user's own materials. */
   readonly look: OwnLook | null;
-  readonly #renderer: WebGLRenderer;
+  readonly #graphics: Graphics;
   readonly #deformer: Deformer;
-  readonly #geometry = new BufferGeometry();
-  readonly #materials: readonly Material[];
+  readonly #colors: Attribute;
   readonly #solid: Mesh;
-  readonly #wires: Mesh;
+  #wires: Mesh | null = null;
   readonly #own: OwnSurface | null;
   readonly #uniforms: SurfaceUniforms;
   readonly #rests: Rests | null;
@@ -63,7 +55,7 @@ export class Surface {
   /** `forceCpu` computes as in browsers that cannot draw into float textures; `look` is shown for the colours
    * "material". */
   constructor(
-    renderer: WebGLRenderer,
+    graphics: Graphics,
     space: ShapeSpace,
     faces: Uint32Array<ArrayBuffer>,
     diagonal: number,
@@ -71,23 +63,16 @@ export class Surface {
     rests: Rests | null = null,
     look: OwnLook | null = null,
   ) {
-    this.#renderer = renderer;
+    this.#graphics = graphics;
     this.look = look;
     this.space = space;
     this.faces = faces;
-    this.onGpu = !forceCpu && GpuDeformer.supports(renderer, space);
+    this.onGpu = !forceCpu && GpuDeformer.supports(graphics, space);
     this.#deformer = this.onGpu
-      ? new GpuDeformer(renderer, space, faces, rests)
+      ? new GpuDeformer(graphics, space, faces, rests)
       : new CpuDeformer(space, faces, rests);
     this.#rests = rests;
-    const base = new BufferAttribute(space.base, 3);
-    this.#geometry.setAttribute("position", base);
-    this.#geometry.setAttribute("normal", base); // never read; without one three.js shades flat
-    this.#geometry.setAttribute(
-      "color",
-      new BufferAttribute(new Float32Array(3 * space.vertices).fill(1), 3),
-    );
-    this.#geometry.setIndex(new BufferAttribute(faces, 1));
+    this.#colors = { data: new Float32Array(3 * space.vertices).fill(1), size: 3 };
     this.#uniforms = {
       shownPositions: { value: this.#deformer.positions },
       shownNormals: { value: this.#deformer.normals },
@@ -98,18 +83,14 @@ export class Surface {
       strainEnd: { value: 1 },
       shownOcclusion: { value: this.#deformer.normals },
       isOccluded: { value: false },
+      isShadowed: { value: true },
+      opacity: { value: 1 },
     };
-    const [solid, depth, edges] = (this.#materials = [clay(), depths(), wires()] as const);
-    for (const material of this.#materials) deformedBy(material, this.#uniforms);
-    this.#solid = new Mesh(this.#geometry, solid);
-    this.#solid.customDepthMaterial = depth;
-    this.#solid.castShadow = true;
-    this.#solid.receiveShadow = true;
-    this.#wires = new Mesh(this.#geometry, edges);
-    this.#wires.visible = false;
-    for (const mesh of [this.#solid, this.#wires]) mesh.frustumCulled = false;
-    this.#own = look && new OwnSurface(look, space.base, this.#uniforms);
-    this.object.add(this.#solid, this.#wires, ...(this.#own ? [this.#own.mesh] : []));
+    const attributes = { position: { data: space.base, size: 3 }, vertexColor: this.#colors };
+    this.#solid = new Mesh(new Geometry(attributes, faces), clay(this.#uniforms));
+    this.#solid.castsShadow = true;
+    this.#own = look && new OwnSurface(look, this.#uniforms);
+    this.object.add(this.#solid, ...(this.#own ? [this.#own.object] : []));
     this.object.matrixAutoUpdate = false;
   }
 
@@ -169,22 +150,26 @@ export class Surface {
   }
 
   set wireframe(visible: boolean) {
-    this.#wires.visible = visible;
+    if (visible && !this.#wires) {
+      this.#wires = new Mesh(new Geometry({}, edgesOf(this.faces)), wires(this.#uniforms));
+      this.object.add(this.#wires);
+    }
+    if (this.#wires) this.#wires.visible = visible;
   }
 
   /** Draws it pale and without a shadow. */
   fade(opacity: number): void {
-    const [clay] = this.#materials;
-    Object.assign(clay, { transparent: true, opacity, depthWrite: false });
-    for (const mesh of this.#meshes) mesh.castShadow = mesh.receiveShadow = false;
+    this.#uniforms.opacity.value = opacity;
+    Object.assign(this.#solid.material, { isTransparent: true, hides: false });
+    this.#solid.castsShadow = this.#uniforms.isShadowed.value = false;
   }
 
   /** Whether less of the light from all sides reaches creases; ignored where `Occlusion` is not supported. */
   set occluded(on: boolean) {
     this.#occlusion?.dispose();
     this.#occlusion =
-      on && Occlusion.supports(this.#renderer)
-        ? new Occlusion(this.#renderer, this.#deformer, this.space.base, this.faces)
+      on && Occlusion.supports(this.#graphics)
+        ? new Occlusion(this.#graphics, this.#deformer, this.space.base, this.faces)
         : null;
     this.#occlusion?.update();
     const { shownOcclusion, isOccluded } = this.#uniforms;
@@ -201,7 +186,7 @@ export class Surface {
 
   /** Whether shadows fall on it. */
   set shadowed(on: boolean) {
-    for (const mesh of this.#meshes) mesh.receiveShadow = on;
+    this.#uniforms.isShadowed.value = on;
   }
 
   get colors(): Colors {
@@ -210,8 +195,8 @@ export class Surface {
 
   set colors(colors: Colors) {
     this.#uniforms.shownColors.value = COLORS.indexOf(colors);
-    if (this.#own) this.#own.mesh.visible = colors === "material";
-    this.#solid.visible = !this.#own?.mesh.visible;
+    if (this.#own) this.#own.object.visible = colors === "material";
+    this.#solid.visible = !this.#own?.object.visible;
     this.#deformer.weigh(colors === "strain" ? this.#weights : null);
     this.#deformer.update(this.#coefficients, this.#share);
     this.#uniforms.shownStrains.value = this.#deformer.strains ?? this.#deformer.normals;
@@ -243,8 +228,8 @@ export class Surface {
 
   /** Looks as another one does. */
   lookAs(other: Surface): void {
-    this.#wires.visible = other.#wires.visible;
-    this.#solid.receiveShadow = other.#solid.receiveShadow;
+    this.wireframe = other.#wires?.visible ?? false;
+    this.shadowed = other.#uniforms.isShadowed.value;
     this.colors = other.colors;
     this.strainEnd = other.#uniforms.strainEnd.value;
     this.occluded = other.#occlusion !== null;
@@ -252,36 +237,32 @@ export class Surface {
 
   /** A colour for every vertex. */
   paint(color: (vertex: number) => Color): void {
-    const colors = this.#geometry.getAttribute("color") as BufferAttribute;
-    for (let vertex = 0; vertex < this.space.vertices; vertex++) {
-      const { r, g, b } = color(vertex);
-      colors.setXYZ(vertex, r, g, b);
-    }
-    colors.needsUpdate = true;
+    for (let vertex = 0; vertex < this.space.vertices; vertex++) this.#put(vertex, color(vertex));
+    this.#solid.geometry.changed("vertexColor");
   }
 
   /** One colour for some vertices. */
-  paintSome(vertices: Iterable<number>, { r, g, b }: Color): void {
-    const colors = this.#geometry.getAttribute("color") as BufferAttribute;
-    for (const vertex of vertices) colors.setXYZ(vertex, r, g, b);
-    colors.needsUpdate = true;
+  paintSome(vertices: Iterable<number>, color: Color): void {
+    for (const vertex of vertices) this.#put(vertex, color);
+    this.#solid.geometry.changed("vertexColor");
   }
 
   /** The colour that a vertex was painted in. */
   colorOf(vertex: number): [number, number, number] {
-    const { array } = this.#geometry.getAttribute("color");
-    return [array[3 * vertex], array[3 * vertex + 1], array[3 * vertex + 2]];
+    const { data } = this.#colors;
+    return [data[3 * vertex], data[3 * vertex + 1], data[3 * vertex + 2]];
   }
 
-  get #meshes(): Mesh[] {
-    return this.#own ? [this.#solid, this.#own.mesh] : [this.#solid];
+  #put(vertex: number, { r, g, b }: Color): void {
+    const { data } = this.#colors;
+    [data[3 * vertex], data[3 * vertex + 1], data[3 * vertex + 2]] = [r, g, b];
   }
 
   dispose(): void {
     this.#deformer.dispose();
     this.#occlusion?.dispose();
     this.#own?.dispose();
-    this.#geometry.dispose();
-    this.#materials.forEach((material) => material.dispose());
+    this.#solid.geometry.dispose();
+    this.#wires?.geometry.dispose();
   }
 }

@@ -1,30 +1,53 @@
-import {
-  DoubleSide,
-  MeshBasicMaterial,
-  MeshDepthMaterial,
-  MeshStandardMaterial,
-  RGBADepthPacking,
-} from "three";
+import { Color } from "three";
 
-/** Clay in the colours of the vertices. */
-export function clay(): MeshStandardMaterial {
-  return new MeshStandardMaterial({ vertexColors: true, roughness: 0.58, metalness: 0, side: DoubleSide });
+import { FLAT, material, NEARER, type Material, type Texture } from "../render/index.ts";
+import { surfaceFragment, surfaceVertex, type Part, type SurfaceUniforms } from "./surface_shader.ts";
+
+const CLAY_ROUGHNESS = 0.58;
+const EDGE = new Color("#10141c");
+const EDGE_OPACITY = 0.22;
+
+/** What differs between materials in the studio's light. */
+export interface Looks {
+  readonly color: Color;
+  readonly roughness: number;
+  /** Texels with a smaller alpha are left out. */
+  readonly alphaCutoff: number;
+  readonly picture: Texture | null;
+  /** For creased points: pairs of vertices, of the faces around each. */
+  readonly pairs: Texture | null;
 }
 
-/** What shadows are made with. */
-export function depths(): MeshDepthMaterial {
-  return new MeshDepthMaterial({ depthPacking: RGBADepthPacking, side: DoubleSide });
+/** Clay in the colours of the vertices. */
+export function clay(uniforms: SurfaceUniforms): Material {
+  const color = new Color("#ffffff");
+  const looks = { color, roughness: CLAY_ROUGHNESS, alphaCutoff: 0, picture: null, pairs: null };
+  return litSurface(uniforms, looks, ["COLORS", "RAMPS"]);
+}
+
+/** A material in the studio's light; `parts` are those of its vertices. */
+export function litSurface(uniforms: SurfaceUniforms, looks: Looks, parts: readonly Part[]): Material {
+  const { color, picture, pairs, roughness, alphaCutoff } = looks;
+  const own = {
+    color: { value: color.toArray() },
+    roughness: { value: roughness },
+    alphaCutoff: { value: alphaCutoff },
+    ...(picture && { picture: { value: picture } }),
+    ...(pairs && { ownPairs: { value: pairs } }),
+  };
+  const fragment = surfaceFragment(...parts.filter((part) => part === "PICTURE"));
+  return material({ vertex: surfaceVertex(...parts), fragment, uniforms: { ...uniforms, ...own } });
 }
 
 /** The edges of faces, in front of them. */
-export function wires(): MeshBasicMaterial {
-  const material = new MeshBasicMaterial({
-    wireframe: true,
-    color: 0x10141c,
-    transparent: true,
-    opacity: 0.22,
-  });
-  material.polygonOffset = true;
-  material.polygonOffsetFactor = -1;
-  return material;
+export function wires(uniforms: SurfaceUniforms): Material {
+  const own = {
+    color: { value: EDGE.toArray() },
+    opacity: { value: EDGE_OPACITY },
+    nearer: { value: NEARER },
+  };
+  return material(
+    { vertex: surfaceVertex("EDGES"), fragment: FLAT, uniforms: { ...uniforms, ...own } },
+    { isTransparent: true, isOfLines: true },
+  );
 }

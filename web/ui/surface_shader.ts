@@ -1,122 +1,139 @@
-import { MeshStandardMaterial, type IUniform, type Material, type Texture } from "three";
+import { LIGHTING, SCREEN, type Texture, type Uniform } from "../render/index.ts";
 
-export type SurfaceUniforms = Record<string, IUniform> & {
-  shownPositions: IUniform<Texture>;
-  shownNormals: IUniform<Texture>;
-  shownStrains: IUniform<Texture>;
-  shownWidth: IUniform<number>;
+/** What all materials of a surface read. */
+export type SurfaceUniforms = {
+  shownPositions: Uniform<Texture>;
+  shownNormals: Uniform<Texture>;
+  shownStrains: Uniform<Texture>;
+  shownWidth: Uniform<number>;
   /** 0: the vertices' own; 1: displacement; 2: strain. */
-  shownColors: IUniform<number>;
+  shownColors: Uniform<number>;
   /** What the ramps end at: a length, and a strain. */
-  displacementEnd: IUniform<number>;
-  strainEnd: IUniform<number>;
+  displacementEnd: Uniform<number>;
+  strainEnd: Uniform<number>;
   /** Of `Occlusion`, where the surface is occluded. */
-  shownOcclusion: IUniform<Texture>;
-  isOccluded: IUniform<boolean>;
+  shownOcclusion: Uniform<Texture>;
+  isOccluded: Uniform<boolean>;
+  /** Whether shadows fall on it. */
+  isShadowed: Uniform<boolean>;
+  /** Less than one where it is faded. */
+  opacity: Uniform<number>;
 };
 
-const DECLARATIONS = `
-uniform highp sampler2D shownPositions;
-uniform highp sampler2D shownNormals;
-uniform highp int shownWidth;
-uniform highp sampler2D shownStrains;
-uniform int shownColors;
-uniform float displacementEnd;
-uniform float strainEnd;
+/** Parts of the shaders: COLORS has colours of vertices, and RAMPS those of displacements and strains. POINTS has points
+ * with an attribute `ownVertex`, several of which may be the same vertex of the surface, and CREASED their normals on both
+ * sides of edges, from faces around a point: where these start among `ownPairs`, and how many there are. PICTURE has a
+ * texture. EDGES is moved before the faces. */
+export type Part = "COLORS" | "RAMPS" | "POINTS" | "CREASED" | "PICTURE" | "EDGES";
+
+const VERTEX = `
+precision highp float;
+precision highp int;
+precision highp sampler2D;
+precision highp isampler2D;
+uniform mat4 model, view, projection;
+uniform sampler2D shownPositions, shownNormals, shownStrains, shownOcclusion;
+uniform int shownWidth, shownColors;
+uniform float displacementEnd, strainEnd, nearer;
+uniform bool isOccluded;
+uniform vec3 color;
+out vec3 place, normal, tint;
+out vec2 corner;
+out float open;
+#ifdef COLORS
+in vec3 vertexColor;
+#endif
+#ifdef RAMPS
+in vec3 position;
+#endif
+#ifdef PICTURE
+in vec2 uv;
+#endif
+#ifdef POINTS
+in int ownVertex;
+#else
+#define ownVertex gl_VertexID
+#endif
+#ifdef CREASED
+in ivec2 ownRing;
+uniform isampler2D ownPairs;
+#endif
+ivec2 cellOf(int vertex) { return ivec2(vertex % shownWidth, vertex / shownWidth); }
+vec3 placeOf(int vertex) { return texelFetch(shownPositions, cellOf(vertex), 0).xyz; }
 // from pale sand by coral to plum: lightness falls all the way, so it reads without colours as well
-vec3 shownRamp(float x) {
+vec3 ramp(float x) {
   float t = clamp(x, 0.0, 1.0);
   vec3 a = vec3(0.80, 0.76, 0.66), b = vec3(0.86, 0.47, 0.22), c = vec3(0.55, 0.09, 0.20), d = vec3(0.10, 0.02, 0.16);
   return t < 0.33 ? mix(a, b, t / 0.33) : t < 0.7 ? mix(b, c, (t - 0.33) / 0.37) : mix(c, d, (t - 0.7) / 0.3);
 }
-`;
-const CELL = `
-ivec2 shownCellOf(int vertex) { return ivec2(vertex % shownWidth, vertex / shownWidth); }
-vec3 shownPlace(int vertex) { return texelFetch(shownPositions, shownCellOf(vertex), 0).xyz; }
-`;
-/** Vertices of the surface are those that are drawn. */
-const SAME = `
-#define SHOWN_VERTEX gl_VertexID
-`;
-/** Several points that are drawn are the same vertex of the surface. */
-const POINTS = `
-attribute int ownVertex;
-#define SHOWN_VERTEX ownVertex
-`;
-/** The faces around a point on its side of an edge: where they start among the pairs, and how many there are. */
-const RING = `
-attribute ivec2 ownRing;
-uniform highp isampler2D ownPairs;
-`;
-const NORMAL = `
-vec3 shownNormal = texelFetch(shownNormals, shownCellOf(SHOWN_VERTEX), 0).xyz;
-vec3 objectNormal = shownNormal / max(length(shownNormal), 1e-30);`;
-const CREASED_NORMAL = `
-vec3 shownNormal = vec3(0.0), shownOwn = shownPlace(SHOWN_VERTEX);
-int shownPairsWidth = textureSize(ownPairs, 0).x;
-for (int i = ownRing.x; i < ownRing.x + ownRing.y; i++) {
-  ivec2 pair = texelFetch(ownPairs, ivec2(i % shownPairsWidth, i / shownPairsWidth), 0).xy;
-  shownNormal += cross(shownPlace(pair.x) - shownOwn, shownPlace(pair.y) - shownOwn);
+vec3 normalOf(vec3 own) {
+#ifdef CREASED
+  vec3 sum = vec3(0.0);
+  int width = textureSize(ownPairs, 0).x;
+  for (int i = ownRing.x; i < ownRing.x + ownRing.y; i++) {
+    ivec2 pair = texelFetch(ownPairs, ivec2(i % width, i / width), 0).xy;
+    sum += cross(placeOf(pair.x) - own, placeOf(pair.y) - own);
+  }
+  return sum;
+#else
+  return texelFetch(shownNormals, cellOf(ownVertex), 0).xyz;
+#endif
 }
-vec3 objectNormal = shownNormal / max(length(shownNormal), 1e-30);`;
-const POSITION = "vec3 transformed = shownPlace(SHOWN_VERTEX);";
-const COLOR = `
-#if defined( USE_COLOR )
-  if (shownColors == 1) vColor.rgb = shownRamp(length(transformed - position) / displacementEnd);
-  if (shownColors == 2) vColor.rgb = shownRamp(texelFetch(shownStrains, shownCellOf(SHOWN_VERTEX), 0).x / strainEnd);
-#endif`;
+void main() {
+  ivec2 cell = cellOf(ownVertex);
+  vec3 own = placeOf(ownVertex), sum = normalOf(own);
+  place = (model * vec4(own, 1.0)).xyz;
+  normal = mat3(model) * (sum / max(length(sum), 1e-30)); // the model's matrix is a motion and a scale
+  open = isOccluded ? texelFetch(shownOcclusion, cell, 0).x : 1.0;
+  tint = color;
+#ifdef COLORS
+  tint *= vertexColor;
+#endif
+#ifdef RAMPS
+  if (shownColors == 1) tint = ramp(length(own - position) / displacementEnd);
+  if (shownColors == 2) tint = ramp(texelFetch(shownStrains, cell, 0).x / strainEnd);
+#endif
+#ifdef PICTURE
+  corner = uv;
+#endif
+  gl_Position = projection * view * vec4(place, 1.0);
+#ifdef EDGES
+  gl_Position.z -= nearer * gl_Position.w;
+#endif
+}`;
 
-/** The share of light from all sides that reaches the surface. */
-const LIGHT = `
-varying float shownLight;
-`;
-const OCCLUSION = `
-uniform mediump sampler2D shownOcclusion;
-uniform bool isOccluded;
-`;
-const REACHING = `
-shownLight = isOccluded ? texelFetch(shownOcclusion, shownCellOf(SHOWN_VERTEX), 0).x : 1.0;`;
-/** The key lights stand for areas, which creases see less of as well. The square is a matter of taste. */
-const SHADED = `
-reflectedLight.indirectDiffuse *= shownLight * shownLight;
-reflectedLight.directDiffuse *= shownLight;
-reflectedLight.directSpecular *= shownLight;`;
+const FRAGMENT = `
+${LIGHTING}
+${SCREEN}
+uniform float roughness, opacity, alphaCutoff;
+uniform bool isShadowed;
+#ifdef PICTURE
+uniform sampler2D picture;
+#endif
+in vec3 place, normal, tint;
+in vec2 corner;
+in float open;
+out vec4 shown;
+void main() {
+  vec4 matt = vec4(tint, 1.0);
+#ifdef PICTURE
+  matt *= texture(picture, corner);
+#endif
+  if (matt.a < alphaCutoff) discard;
+  vec3 n = normalize(normal) * (gl_FrontFacing ? 1.0 : -1.0);
+  shown = vec4(onScreen(toned(lit(matt.rgb, roughness, n, place, isShadowed, open))), opacity);
+}`;
 
-/** Makes a material of three.js take positions and normals from textures in place of attributes. */
-export function deformedBy(material: Material, uniforms: SurfaceUniforms): void {
-  replaced(material, uniforms, "deformed", SAME, NORMAL, POSITION + COLOR);
-}
-
-/** The same for points with an attribute `ownVertex`; with pairs of faces also `ownRing`, and normals on both sides of
- * edges. */
-export function deformedPoints(material: Material, uniforms: SurfaceUniforms, pairs: Texture | null): void {
-  if (pairs) {
-    const all = { ...uniforms, ownPairs: { value: pairs } };
-    replaced(material, all, "creased points", POINTS + RING, CREASED_NORMAL, POSITION);
-  } else replaced(material, uniforms, "points", POINTS, NORMAL, POSITION);
+/** Takes positions and normals from textures, in which a vertex is a texel. */
+export function surfaceVertex(...parts: Part[]): string {
+  return defined(parts) + VERTEX;
 }
 
-function replaced(
-  material: Material,
-  uniforms: Record<string, IUniform>,
-  key: string,
-  declarations: string,
-  normal: string,
-  position: string,
-): void {
-  const isLit = material instanceof MeshStandardMaterial;
-  material.onBeforeCompile = (shader) => {
-    Object.assign(shader.uniforms, uniforms);
-    shader.vertexShader =
-      DECLARATIONS +
-      CELL +
-      declarations +
-      (isLit ? LIGHT + OCCLUSION : "") +
-      shader.vertexShader
-        .replace("#include <beginnormal_vertex>", normal)
-        .replace("#include <begin_vertex>", position + (isLit ? REACHING : ""));
-    if (isLit)
-      shader.fragmentShader = LIGHT + shader.fragmentShader.replace("#include <aomap_fragment>", SHADED);
-  };
-  material.customProgramCacheKey = () => key;
+/** A surface in the light of the studio. */
+export function surfaceFragment(...parts: Part[]): string {
+  return defined(parts) + FRAGMENT;
+}
+
+function defined(parts: readonly Part[]): string {
+  return parts.map((part) => `#define ${part}\n`).join("");
 }

@@ -23,7 +23,15 @@ export async function shownBlending(
   const session = await BlendingSession.create(module, model);
   const { poses } = model;
   const own = model.appearance ? new OwnLook(model.appearance) : null;
-  const surface = new Surface(stage.renderer, model.space, model.faces, model.diagonal, false, null, own);
+  const surface = new Surface(
+    stage.renderer.graphics,
+    model.space,
+    model.faces,
+    model.diagonal,
+    false,
+    null,
+    own,
+  );
   void showMaterial(stage, [surface]);
   surface.occluded = true;
   surface.paint(() => CLAY);

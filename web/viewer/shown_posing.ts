@@ -67,7 +67,7 @@ export async function shownPosing(
   };
   posing.onCancelled = () => scene.gizmo.cancel();
   stage.beforeFrame = (seconds) => {
-    scene.gizmo.color();
+    scene.gizmo.update();
     if (posing.isDragging) playing.isOn = false;
     playing.advance(seconds);
     posing.solveWishes();

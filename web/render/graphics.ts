@@ -1,0 +1,67 @@
+import { Program } from "./program.ts";
+
+/** The WebGL 2 context of a canvas, and the programs that were compiled in it.
+ *
+ * Browsers may take a context away and give it back empty. Textures, geometries and programs compare `generation`, and
+ * make themselves again. */
+export class Graphics {
+  readonly canvas: HTMLCanvasElement;
+  readonly gl: WebGL2RenderingContext;
+  /** Whether it can draw into textures of floats. */
+  readonly canDrawFloats: boolean;
+  /** Texels along a side of the largest texture. */
+  readonly mostTexels: number;
+  #generation = 0;
+  /** By vertex shader, then by fragment shader. */
+  readonly #programs = new Map<string, Map<string, Program>>();
+
+  /** Throws an Error in browsers without WebGL 2. */
+  constructor(canvas: HTMLCanvasElement) {
+    const gl = canvas.getContext("webgl2", {
+      alpha: true,
+      antialias: true,
+      powerPreference: "high-performance",
+    });
+    if (!gl) throw new Error("This browser has no WebGL 2.");
+    [this.canvas, this.gl] = [canvas, gl];
+    this.canDrawFloats = prepared(gl);
+    this.mostTexels = gl.getParameter(gl.MAX_TEXTURE_SIZE);
+    // the default is never to give a lost context back
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.#generation++;
+      this.#programs.clear();
+      prepared(gl);
+    });
+  }
+
+  /** How often the context was given back. What was made before is gone. */
+  get generation(): number {
+    return this.#generation;
+  }
+
+  get isLost(): boolean {
+    return this.gl.isContextLost();
+  }
+
+  /** The program of two shaders, which is compiled once. */
+  program(vertex: string, fragment: string): Program {
+    let of = this.#programs.get(vertex);
+    if (!of) this.#programs.set(vertex, (of = new Map()));
+    let program = of.get(fragment);
+    if (!program) of.set(fragment, (program = new Program(this, vertex, fragment)));
+    return program;
+  }
+
+  /** Gives the context back to the browser: it has few for a page. The canvas cannot be drawn on again. */
+  dispose(): void {
+    this.#programs.clear();
+    this.gl.getExtension("WEBGL_lose_context")?.loseContext();
+  }
+}
+
+/** Sets what a new context needs, and says whether it can draw into textures of floats. */
+function prepared(gl: WebGL2RenderingContext): boolean {
+  gl.depthFunc(gl.LEQUAL);
+  return gl.getExtension("EXT_color_buffer_float") !== null;
+}

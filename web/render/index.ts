@@ -1,0 +1,12 @@
+export { Dot } from "./dot.ts";
+export { flat, FLAT, NEARER } from "./flat.ts";
+export { Geometry, type Attribute } from "./geometry.ts";
+export { Graphics } from "./graphics.ts";
+export { Ground } from "./ground.ts";
+export { LIGHTING, SCREEN } from "./lighting.ts";
+export { material, Mesh, type Material } from "./mesh.ts";
+export type { Uniform } from "./program.ts";
+export { Renderer } from "./renderer.ts";
+export { Studio } from "./studio.ts";
+export { Target } from "./target.ts";
+export { Texture } from "./texture.ts";

@@ -1,0 +1,142 @@
+import { type Color, type Object3D, type PerspectiveCamera, Vector3 } from "three";
+
+import { Graphics } from "./graphics.ts";
+import { Mesh } from "./mesh.ts";
+import { Shadow } from "./shadow.ts";
+import type { Studio } from "./studio.ts";
+
+/** Draws a scene in studio light on a canvas. */
+export class Renderer {
+  readonly graphics: Graphics;
+  /** What is behind everything; null is transparent. */
+  background: Color | null = null;
+  readonly #studio: Studio;
+  readonly #shadow: Shadow;
+  #pixelRatio = 1;
+
+  /** Throws an Error in browsers without WebGL 2. */
+  constructor(canvas: HTMLCanvasElement, studio: Studio) {
+    this.graphics = new Graphics(canvas);
+    this.#studio = studio;
+    this.#shadow = new Shadow(this.graphics, studio);
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.graphics.canvas;
+  }
+
+  get gl(): WebGL2RenderingContext {
+    return this.graphics.gl;
+  }
+
+  /** Sets the size of the picture in pixels of the page, each of which has `pixelRatio` pixels along a side. */
+  setSize(width: number, height: number, pixelRatio: number): void {
+    this.#pixelRatio = pixelRatio;
+    const [across, down] = [width, height].map((side) => Math.floor(side * pixelRatio));
+    // setting the size empties the canvas, also if it is the same
+    if (this.canvas.width !== across) this.canvas.width = across;
+    if (this.canvas.height !== down) this.canvas.height = down;
+  }
+
+  get pixelRatio(): number {
+    return this.#pixelRatio;
+  }
+
+  /** Draws all meshes that are visible, with the key light's shadow. */
+  render(scene: Object3D, camera: PerspectiveCamera): void {
+    const { width, height } = this.canvas;
+    this.#draw(scene, camera, width, height, true);
+  }
+
+  /** Draws them on a square in the lower left corner, with the shadow as it was, and empties the rest. */
+  renderCorner(scene: Object3D, camera: PerspectiveCamera, side: number): void {
+    this.#draw(scene, camera, side, side, false);
+  }
+
+  /** Makes the programs and geometries of all meshes, also of those that are hidden: the first picture of them is not
+   * late. */
+  prepare(scene: Object3D): void {
+    scene.traverse((object) => {
+      if (!(object instanceof Mesh)) return;
+      this.graphics.program(object.material.vertex, object.material.fragment);
+      object.geometry.bind(this.graphics);
+    });
+    this.gl.bindVertexArray(null);
+  }
+
+  dispose(): void {
+    this.#shadow.dispose();
+    this.graphics.dispose();
+  }
+
+  #draw(
+    scene: Object3D,
+    camera: PerspectiveCamera,
+    width: number,
+    height: number,
+    isShadowNew: boolean,
+  ): void {
+    const { graphics } = this;
+    const { gl } = graphics;
+    if (graphics.isLost) return; // all is drawn again once it is back
+    scene.updateMatrixWorld();
+    if (camera.parent === null) camera.updateMatrixWorld();
+    this.#studio.follow(camera);
+    const meshes = visibleMeshes(scene);
+    if (isShadowNew) this.#shadow.draw(meshes);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
+    this.#clear();
+    const seen = {
+      ...this.#studio.uniforms,
+      ...this.#shadow.uniforms,
+      view: { value: camera.matrixWorldInverse.elements },
+      projection: { value: camera.projectionMatrix.elements },
+      eye: { value: camera.matrixWorld.elements.slice(12, 15) },
+    };
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    for (const mesh of inOrder(meshes, camera)) {
+      const { isHidden, hides, fragment } = mesh.material;
+      isHidden ? gl.enable(gl.DEPTH_TEST) : gl.disable(gl.DEPTH_TEST);
+      gl.depthMask(hides);
+      mesh.draw(graphics, fragment, seen);
+    }
+    gl.disable(gl.BLEND);
+    gl.bindVertexArray(null);
+  }
+
+  #clear(): void {
+    const { gl } = this.graphics;
+    const hex = this.background?.getHex() ?? 0; // in sRGB, as the canvas
+    const [red, green, blue] = [16, 8, 0].map((shift) => ((hex >> shift) & 255) / 255);
+    gl.clearColor(red, green, blue, this.background ? 1 : 0);
+    gl.depthMask(true);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  }
+}
+
+function visibleMeshes(scene: Object3D): Mesh[] {
+  const found: Mesh[] = [];
+  scene.traverseVisible((object) => {
+    if (object instanceof Mesh) found.push(object);
+  });
+  return found;
+}
+
+/** What is opaque, then what is transparent from far to near; `renderOrder` comes first. */
+function inOrder(meshes: readonly Mesh[], camera: PerspectiveCamera): Mesh[] {
+  const place = new Vector3();
+  const depths = new Map(
+    meshes.map((mesh) => [
+      mesh,
+      place.setFromMatrixPosition(mesh.matrixWorld).applyMatrix4(camera.matrixWorldInverse).z,
+    ]),
+  );
+  return [...meshes].sort(
+    (a, b) =>
+      Number(a.material.isTransparent) - Number(b.material.isTransparent) ||
+      a.renderOrder - b.renderOrder ||
+      (a.material.isTransparent ? depths.get(a)! - depths.get(b)! : 0),
+  );
+}

@@ -1,0 +1,142 @@
+import type { Graphics } from "./graphics.ts";
+
+/** Kinds of texels, as in GLSL: four floats, four 16-bit and two 32-bit whole numbers, a share of 255, colours in sRGB,
+ * and depths that are compared. */
+export type Format = "rgba32f" | "rgba16i" | "rg32i" | "r8" | "srgb" | "depth";
+
+type Pixels = ArrayBufferView | ImageBitmap;
+
+export interface TextureOptions {
+  readonly format: Format;
+  readonly width: number;
+  readonly height: number;
+  /** Layers of an array of textures; 0: no array. */
+  readonly layers?: number;
+  /** Row by row; null: nothing yet. */
+  readonly data?: Pixels | null;
+  /** Continues periodically, and is filtered in all sizes. */
+  readonly isPicture?: boolean;
+}
+
+const MOST_ANISOTROPY = 8;
+
+/** A texture, which is on the graphics processor once it is bound. */
+export class Texture {
+  readonly format: Format;
+  readonly layers: number;
+  #width: number;
+  #height: number;
+  readonly #isPicture: boolean;
+  #data: Pixels | null;
+  #isChanged = true;
+  #graphics: Graphics | null = null;
+  #generation = -1;
+  #handle: WebGLTexture | null = null;
+
+  constructor({ format, width, height, layers = 0, data = null, isPicture = false }: TextureOptions) {
+    [this.format, this.#width, this.#height, this.layers] = [format, width, height, layers];
+    [this.#data, this.#isPicture] = [data, isPicture];
+  }
+
+  get width(): number {
+    return this.#width;
+  }
+
+  get height(): number {
+    return this.#height;
+  }
+
+  /** What is in it: change it in place, or set it, and it is sent before the next use. */
+  get data(): Pixels | null {
+    return this.#data;
+  }
+
+  set data(data: Pixels | null) {
+    this.#data = data;
+    this.#isChanged = true;
+  }
+
+  /** Takes a picture with its size. */
+  set picture(picture: ImageBitmap) {
+    [this.#width, this.#height] = [picture.width, picture.height];
+    this.data = picture;
+  }
+
+  /** Binds it to a unit, and sends what has changed. */
+  bind(graphics: Graphics, unit: number): void {
+    const { gl } = graphics;
+    gl.activeTexture(gl.TEXTURE0 + unit);
+    const handle = this.handle(graphics);
+    gl.bindTexture(this.#target(gl), handle);
+    if (this.#isChanged) this.#send(gl);
+  }
+
+  /** The handle, for targets. */
+  handle(graphics: Graphics): WebGLTexture {
+    if (this.#generation !== graphics.generation) {
+      const { gl } = graphics;
+      [this.#graphics, this.#generation] = [graphics, graphics.generation];
+      this.#handle = gl.createTexture();
+      gl.bindTexture(this.#target(gl), this.#handle);
+      this.#send(gl);
+    }
+    return this.#handle!;
+  }
+
+  dispose(): void {
+    if (this.#generation === this.#graphics?.generation) this.#graphics.gl.deleteTexture(this.#handle);
+    this.#generation = -1;
+  }
+
+  #target(gl: WebGL2RenderingContext): GLenum {
+    return this.layers > 0 ? gl.TEXTURE_2D_ARRAY : gl.TEXTURE_2D;
+  }
+
+  #send(gl: WebGL2RenderingContext): void {
+    this.#isChanged = false;
+    const target = this.#target(gl);
+    const [internal, format, type] = kindOf(gl, this.format);
+    const { width, height, layers } = this;
+    const data = this.#data as ArrayBufferView; // or a picture, which WebGL takes as well
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+    if (layers > 0) gl.texImage3D(target, 0, internal, width, height, layers, 0, format, type, data);
+    else gl.texImage2D(target, 0, internal, width, height, 0, format, type, data);
+    const filter = this.#isPicture || this.format === "depth" ? gl.LINEAR : gl.NEAREST;
+    gl.texParameteri(target, gl.TEXTURE_MAG_FILTER, filter);
+    gl.texParameteri(target, gl.TEXTURE_MIN_FILTER, this.#isPicture ? gl.LINEAR_MIPMAP_LINEAR : filter);
+    const wrap = this.#isPicture ? gl.REPEAT : gl.CLAMP_TO_EDGE;
+    gl.texParameteri(target, gl.TEXTURE_WRAP_S, wrap);
+    gl.texParameteri(target, gl.TEXTURE_WRAP_T, wrap);
+    if (this.format === "depth") gl.texParameteri(target, gl.TEXTURE_COMPARE_MODE, gl.COMPARE_REF_TO_TEXTURE);
+    if (this.#isPicture) refine(gl, target);
+  }
+}
+
+/** Smaller sizes, and sharpness at flat angles. */
+function refine(gl: WebGL2RenderingContext, target: GLenum): void {
+  gl.generateMipmap(target);
+  const sharp = gl.getExtension("EXT_texture_filter_anisotropic");
+  if (!sharp) return;
+  const most = gl.getParameter(sharp.MAX_TEXTURE_MAX_ANISOTROPY_EXT) as number;
+  gl.texParameterf(target, sharp.TEXTURE_MAX_ANISOTROPY_EXT, Math.min(most, MOST_ANISOTROPY));
+}
+
+function kindOf(
+  gl: WebGL2RenderingContext,
+  kind: Format,
+): readonly [internal: GLenum, format: GLenum, type: GLenum] {
+  switch (kind) {
+    case "rgba32f":
+      return [gl.RGBA32F, gl.RGBA, gl.FLOAT];
+    case "rgba16i":
+      return [gl.RGBA16I, gl.RGBA_INTEGER, gl.SHORT];
+    case "rg32i":
+      return [gl.RG32I, gl.RG_INTEGER, gl.INT];
+    case "r8":
+      return [gl.R8, gl.RED, gl.UNSIGNED_BYTE];
+    case "srgb":
+      return [gl.SRGB8_ALPHA8, gl.RGBA, gl.UNSIGNED_BYTE];
+    case "depth":
+      return [gl.DEPTH_COMPONENT24, gl.DEPTH_COMPONENT, gl.UNSIGNED_INT];
+  }
+}

@@ -1,0 +1,128 @@
+import { Vector3, type Quaternion } from "three";
+
+import { inWindow } from "./canvas_ray.ts";
+import { ARROW, BEHIND, RING, SQUARE, VIEW_RING, type GizmoPart } from "./gizmo_parts.ts";
+import type { Stage } from "./stage.ts";
+
+/** How far the pointer may be from an arrow or ring, in pixels. */
+const REACH = { mouse: 7, touch: 16 };
+/** The dot in the middle is the handle itself, which is dragged freely: its radius in pixels. */
+const DOT = 9;
+/** Arrows that point at the camera, and squares that are seen from their edges, cannot be dragged. */
+const [MOST_ALONG, LEAST_ACROSS] = [0.97, 0.2];
+/** Points of a ring that are looked at. */
+const POINTS = 96;
+
+type Pixel = readonly [number, number];
+
+/** Where the gizmo is on the stage, and what of it is below a point of the window. */
+export class GizmoFrame {
+  readonly stage: Stage;
+  readonly middle: Vector3;
+  /** Unit vectors along the arrows. */
+  readonly axes: readonly [Vector3, Vector3, Vector3];
+  /** From the middle to the camera. */
+  readonly toCamera: Vector3;
+  readonly size: number;
+
+  constructor(stage: Stage, middle: Vector3, turned: Quaternion, size: number) {
+    [this.stage, this.middle, this.size] = [stage, middle, size];
+    const unit = (x: number, y: number, z: number) => new Vector3(x, y, z).applyQuaternion(turned);
+    this.axes = [unit(1, 0, 0), unit(0, 1, 0), unit(0, 0, 1)];
+    this.toCamera = stage.camera.getWorldPosition(new Vector3()).sub(middle).normalize();
+  }
+
+  /** Whether a part is seen from where it can be dragged. */
+  isUsable({ kind, axis }: GizmoPart): boolean {
+    if (axis < 0 || kind === "ring") return true;
+    const along = Math.abs(this.axes[axis].dot(this.toCamera));
+    return kind === "arrow" ? along < MOST_ALONG : along > LEAST_ACROSS;
+  }
+
+  /** The part at a point of the window: a square, or the nearest arrow or ring. */
+  partAt(parts: readonly GizmoPart[], x: number, y: number, isTouch: boolean): GizmoPart | null {
+    const [mx, my] = this.#pixel(this.middle);
+    if (Math.hypot(x - mx, y - my) < DOT) return null;
+    const usable = parts.filter((part) => part.mesh.visible);
+    const inside = usable.find((part) => part.kind === "square" && isInside(this.#square(part), x, y));
+    if (inside) return inside;
+    let [best, nearest]: [GizmoPart | null, number] = [null, isTouch ? REACH.touch : REACH.mouse];
+    for (const part of usable) {
+      if (part.kind === "square") continue;
+      const line = part.kind === "arrow" ? this.#arrow(part) : this.ring(part).map((p) => this.#pixel(p));
+      const away = distance(line, x, y);
+      if (away < nearest) [best, nearest] = [part, away];
+    }
+    return best;
+  }
+
+  /** Points along the part of a ring that is drawn. */
+  ring({ kind, axis }: GizmoPart): Vector3[] {
+    const about = kind === "view" ? this.toCamera : this.axes[axis];
+    const front = this.toCamera.clone().addScaledVector(about, -about.dot(this.toCamera));
+    const seen = kind === "view" || front.length() <= BEHIND ? Math.PI : Math.acos(-BEHIND / front.length());
+    if (front.length() < 1e-3) front.set(about.y, about.z, about.x).cross(about); // any
+    const radius = (kind === "view" ? VIEW_RING : RING) * this.size;
+    front.setLength(radius);
+    return Array.from({ length: POINTS + 1 }, (_, i) =>
+      front
+        .clone()
+        .applyAxisAngle(about, seen * ((2 * i) / POINTS - 1))
+        .add(this.middle),
+    );
+  }
+
+  /** The point of a ring that is nearest to a point of the window. */
+  nearestOn(part: GizmoPart, x: number, y: number): Vector3 {
+    const away = (point: Vector3) => {
+      const [px, py] = this.#pixel(point);
+      return Math.hypot(px - x, py - y);
+    };
+    return this.ring(part).reduce((best, point) => (away(point) < away(best) ? point : best));
+  }
+
+  #arrow({ axis }: GizmoPart): Pixel[] {
+    return ARROW.map((share) => this.#pixel(this.#along(axis, share)));
+  }
+
+  #square({ axis }: GizmoPart): Pixel[] {
+    const [from, to] = SQUARE;
+    const [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+    return (
+      [
+        [from, from],
+        [to, from],
+        [to, to],
+        [from, to],
+      ] as const
+    ).map(([a, b]) => this.#pixel(this.#along(u, a).addScaledVector(this.axes[v], b * this.size)));
+  }
+
+  #along(axis: number, share: number): Vector3 {
+    return this.middle.clone().addScaledVector(this.axes[axis], share * this.size);
+  }
+
+  #pixel(place: Vector3): Pixel {
+    return inWindow(this.stage, place);
+  }
+}
+
+/** From a point to a line through pixels. */
+function distance(line: readonly Pixel[], x: number, y: number): number {
+  const away = line.slice(1).map(([bx, by], i) => {
+    const [ax, ay] = line[i];
+    const square = (bx - ax) ** 2 + (by - ay) ** 2;
+    const share = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / (square || 1);
+    const at = Math.min(Math.max(share, 0), 1);
+    return Math.hypot(ax + at * (bx - ax) - x, ay + at * (by - ay) - y);
+  });
+  return Math.min(...away);
+}
+
+function isInside(corners: readonly Pixel[], x: number, y: number): boolean {
+  const sides = corners.map(([ax, ay], i) => {
+    const [bx, by] = corners[(i + 1) % corners.length];
+    return (bx - ax) * (y - ay) - (by - ay) * (x - ax);
+  });
+  return sides.every((side) => side > 0) || sides.every((side) => side < 0);
+}
