@@ -77,7 +77,8 @@ class MainThread:
         self._devtools.send("Tracing.end")
         while not self._is_complete:
             self._page.wait_for_timeout(20)
-        return per_picture(self._events, self._page.url)
+        address = self._page.url.partition("#")[0]  # the pose is no part of a script's address
+        return per_picture(self._events, address)
 
     def _complete(self, _: Any) -> None:
         self._is_complete = True

@@ -6,7 +6,9 @@ Solve times are those of the same drag in the page (WebAssembly) and in the nati
 thread), in one run. The drag goes straight from one random motion of the handles to the next, 60
 frames each. Work per frame (main_thread.py) is what the main thread does besides drawing while a
 pointer moves over the shape, grabs a handle, drags it and releases it, several times; and while a
-timeline plays, whose keys are random motions a second apart.
+timeline plays, whose keys are random motions. Software rendering draws some ten pictures a second,
+so keys are six seconds apart: from picture to picture the shape moves as far as with a graphics
+processor and keys a second apart.
 """
 
 from __future__ import annotations
@@ -43,6 +45,8 @@ SOLVES = """(frames) => {
   }
   return times;
 }"""
+#: Between keys of the timeline.
+KEY_SECONDS = 6
 Motions = list[tuple[int, dict[str, list[float]]]]
 
 
@@ -89,29 +93,29 @@ def pointer_drag(page: Any, handle: int, steps: int) -> None:
     page.evaluate(DRAWN)
 
 
-def timeline(model: ss.PosingModel, seconds: int) -> dict[str, Any]:
-    """Keys of random motions, one per second, as a file for the page."""
+def timeline(model: ss.PosingModel, count: int) -> dict[str, Any]:
+    """Keys of random motions, as a file for the page."""
     names = model.problem.handles.names[1:]
-    ends = ss.sample(model.problem.domain, seconds + 1, seed=11).reshape(seconds + 1, -1, 6)
+    ends = ss.sample(model.problem.domain, count, seed=11).reshape(count, -1, 6)
     keys = [
         {
-            "time": time,
+            "time": KEY_SECONDS * key,
             "handles": {
                 name: {"degrees": np.rad2deg(row[3:]).tolist(), "translation": row[:3].tolist()}
                 for name, row in zip(names, rows, strict=True)
             },
         }
-        for time, rows in enumerate(ends)
+        for key, rows in enumerate(ends)
     ]
     return {"format": "snapspace-timeline", "version": 1, "kind": "posing", "keys": keys}
 
 
-def played(page: Any, model: ss.PosingModel, seconds: int) -> list[main_thread.Picture]:
+def played(page: Any, model: ss.PosingModel, keys: int) -> list[main_thread.Picture]:
     """Work of the pictures while a timeline plays."""
-    content = json.dumps(timeline(model, seconds)).encode()
+    content = json.dumps(timeline(model, keys)).encode()
     file = {"name": "keys.json", "mimeType": "application/json", "buffer": content}
     page.locator("input[accept='.json']").set_input_files(file)
-    while page.evaluate("snapspace.timeline.timeline.keys.length") <= seconds:
+    while page.evaluate("snapspace.timeline.timeline.keys.length") < keys:
         page.wait_for_timeout(50)
     thread = main_thread.MainThread(page)
     page.evaluate("snapspace.timeline.play(true)")
@@ -157,7 +161,7 @@ def measured(browser: Any, path: Path, args: argparse.Namespace) -> dict[str, An
         shown = page.evaluate("snapspace.session.model.space.vertices")
         page.close()
         page = opened_page(browser, html.as_uri() + args.query)
-        film = played(page, model, args.seconds)
+        film = played(page, model, args.keys)
         page.close()
     return {
         "model": path.name,
@@ -217,7 +221,7 @@ def main() -> None:
     parser.add_argument("--frames", type=int, default=300, help="frames of the simulated drag")
     parser.add_argument("--drags", type=int, default=6, help="number of drags by the pointer")
     parser.add_argument("--steps", type=int, default=30, help="steps of each of these drags")
-    parser.add_argument("--seconds", type=int, default=10, help="length of the timeline")
+    parser.add_argument("--keys", type=int, default=6, help="keys of the timeline")
     parser.add_argument("--query", default="", help="query of the address, such as ?deform=cpu")
     parser.add_argument("--json", action="store_true")
     args = parser.parse_args()

@@ -10,7 +10,7 @@ LONGEST = 300
 
 def sources() -> list[Path]:
     folders = [ROOT / name for name in ("snapspace", "core", "tests", "tools", "paper", "fuzz")]
-    folders += [ROOT / "web" / name for name in ("engine", "ui")]
+    folders += [ROOT / "web" / name for name in ("engine", "render", "ui", "viewer")]
     files = [path for folder in folders for path in folder.rglob("*.*")]
     found = {path for path in files if path.suffix in {".py", ".h", ".cpp", ".ts", ".css"}}
     return sorted(found)

@@ -1,4 +1,8 @@
 import { Program } from "./program.ts";
+import type { Texture } from "./texture.ts";
+
+/** Units of textures that every browser has. */
+const UNITS = 16;
 
 /** The WebGL 2 context of a canvas, and the programs that were compiled in it.
  *
@@ -14,6 +18,11 @@ export class Graphics {
   #generation = 0;
   /** By vertex shader, then by fragment shader. */
   readonly #programs = new Map<string, Map<string, Program>>();
+  /** Textures that are bound to units, and when they were last used. Most stay there from picture to picture. */
+  readonly #held = new Array<Texture | null>(UNITS).fill(null);
+  readonly #uses = new Array<number>(UNITS).fill(0);
+  #time = 0;
+  #used: WebGLProgram | null = null;
 
   /** Throws an Error in browsers without WebGL 2. */
   constructor(canvas: HTMLCanvasElement) {
@@ -31,6 +40,8 @@ export class Graphics {
     canvas.addEventListener("webglcontextrestored", () => {
       this.#generation++;
       this.#programs.clear();
+      this.#held.fill(null);
+      this.#used = null;
       prepared(gl);
     });
   }
@@ -51,6 +62,30 @@ export class Graphics {
     let program = of.get(fragment);
     if (!program) of.set(fragment, (program = new Program(this, vertex, fragment)));
     return program;
+  }
+
+  use(program: WebGLProgram): void {
+    if (this.#used !== program) this.gl.useProgram(program);
+    this.#used = program;
+  }
+
+  /** The unit to which a texture is bound: its own, or the one that was not used for longest. */
+  unitOf(texture: Texture, target: GLenum, handle: WebGLTexture): number {
+    let unit = this.#held.indexOf(texture);
+    if (unit < 0) {
+      unit = this.#uses.indexOf(Math.min(...this.#uses));
+      this.#held[unit] = texture;
+      this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+      this.gl.bindTexture(target, handle);
+    }
+    this.#uses[unit] = ++this.#time;
+    return unit;
+  }
+
+  /** Forgets a texture that was deleted. */
+  forget(texture: Texture): void {
+    const unit = this.#held.indexOf(texture);
+    if (unit >= 0) this.#held[unit] = null;
   }
 
   /** Gives the context back to the browser: it has few for a page. The canvas cannot be drawn on again. */

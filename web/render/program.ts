@@ -13,8 +13,8 @@ export interface Uniform<Value extends UniformValue = UniformValue> {
 type Place = {
   readonly location: WebGLUniformLocation;
   readonly type: number;
-  /** The texture unit of a sampler, or -1. */
-  readonly unit: number;
+  /** The number that it was last set to, or the unit of a texture. */
+  number: number | null;
 };
 
 /** Two shaders that were linked, with their uniforms. */
@@ -30,19 +30,16 @@ export class Program {
     [this.#graphics, this.#gl] = [graphics, gl];
     this.#program = linked(gl, vertex, fragment);
     const count = gl.getProgramParameter(this.#program, gl.ACTIVE_UNIFORMS) ?? 0; // null: the context is lost
-    let units = 0;
     for (let i = 0; i < count; i++) {
       const { name, type } = gl.getActiveUniform(this.#program, i)!;
-      const unit = isSampler(gl, type) ? units++ : -1;
       const location = gl.getUniformLocation(this.#program, name)!;
-      this.#places.set(name.replace("[0]", ""), { location, type, unit });
+      this.#places.set(name.replace("[0]", ""), { location, type, number: null });
     }
-    gl.useProgram(this.#program);
-    for (const { location, unit } of this.#places.values()) if (unit >= 0) gl.uniform1i(location, unit);
   }
 
+  /** Takes the program for what is drawn next. */
   use(): void {
-    this.#gl.useProgram(this.#program);
+    this.#graphics.use(this.#program);
   }
 
   /** Sets the uniforms that the shaders read. The program must be in use. */
@@ -53,12 +50,14 @@ export class Program {
     }
   }
 
-  #put({ location, type, unit }: Place, value: UniformValue): void {
+  #put(place: Place, value: UniformValue): void {
     const gl = this.#gl;
-    if (value instanceof Texture) {
-      value.bind(this.#graphics, unit);
-    } else if (typeof value === "number" || typeof value === "boolean") {
-      type === gl.FLOAT ? gl.uniform1f(location, Number(value)) : gl.uniform1i(location, Number(value));
+    const { location, type } = place;
+    if (value instanceof Texture || typeof value === "number" || typeof value === "boolean") {
+      const number = value instanceof Texture ? value.bind(this.#graphics) : Number(value);
+      if (number === place.number) return;
+      place.number = number;
+      type === gl.FLOAT ? gl.uniform1f(location, number) : gl.uniform1i(location, number);
     } else {
       const numbers = value as Float32List;
       if (type === gl.FLOAT) gl.uniform1fv(location, numbers);
@@ -68,16 +67,6 @@ export class Program {
       else throw new Error(`a uniform of type ${type} cannot be set`);
     }
   }
-}
-
-function isSampler(gl: WebGL2RenderingContext, type: number): boolean {
-  return [
-    gl.SAMPLER_2D,
-    gl.SAMPLER_2D_SHADOW,
-    gl.SAMPLER_2D_ARRAY,
-    gl.INT_SAMPLER_2D,
-    gl.INT_SAMPLER_2D_ARRAY,
-  ].includes(type as never);
 }
 
 function linked(gl: WebGL2RenderingContext, vertex: string, fragment: string): WebGLProgram {

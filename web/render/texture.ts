@@ -62,28 +62,30 @@ export class Texture {
     this.data = picture;
   }
 
-  /** Binds it to a unit, and sends what has changed. */
-  bind(graphics: Graphics, unit: number): void {
+  /** Binds it, sends what has changed, and returns its unit. */
+  bind(graphics: Graphics): number {
     const { gl } = graphics;
-    gl.activeTexture(gl.TEXTURE0 + unit);
-    const handle = this.handle(graphics);
-    gl.bindTexture(this.#target(gl), handle);
-    if (this.#isChanged) this.#send(gl);
+    if (this.#generation !== graphics.generation) {
+      [this.#graphics, this.#generation] = [graphics, graphics.generation];
+      this.#handle = gl.createTexture();
+      this.#isChanged = true;
+    }
+    const unit = graphics.unitOf(this, this.#target(gl), this.#handle!);
+    if (this.#isChanged) {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      this.#send(gl);
+    }
+    return unit;
   }
 
   /** The handle, for targets. */
   handle(graphics: Graphics): WebGLTexture {
-    if (this.#generation !== graphics.generation) {
-      const { gl } = graphics;
-      [this.#graphics, this.#generation] = [graphics, graphics.generation];
-      this.#handle = gl.createTexture();
-      gl.bindTexture(this.#target(gl), this.#handle);
-      this.#send(gl);
-    }
+    this.bind(graphics);
     return this.#handle!;
   }
 
   dispose(): void {
+    this.#graphics?.forget(this);
     if (this.#generation === this.#graphics?.generation) this.#graphics.gl.deleteTexture(this.#handle);
     this.#generation = -1;
   }
